@@ -128,14 +128,14 @@ public:
       cache_.hint(ref.child + leaf_word::step_bytes(ref.leaf));
   }
 
-  /// Keeps random points for points that are close together; null: none does.
-  NeighbourCache<typename Spu::rare_simd>* neighbours() const { return neighbours_; }
-  void set_neighbours(NeighbourCache<typename Spu::rare_simd>* cache) { neighbours_ = cache; }
-
-  /// Knows what fractals are at points that are about to be asked for; null: nothing does.
+  /// What patterns know of points, where a ScopedCache keeps it, else null: random points for points that are
+  /// close together; what fractals are at points that are about to be asked for.
+  using Neighbours = NeighbourCache<typename Spu::rare_simd>;
   using Fractals = FractalValues<typename Spu::rare_simd, kBundlePackets<Spu>>;
-  Fractals* fractals() const { return known_.fractals; }
-  void set_fractals(Fractals* fractals) { known_.fractals = fractals; }
+  Neighbours* neighbours() const { return neighbours_; }
+  Fractals* fractals() const { return fractals_.known; }
+  void use(Neighbours* cache) { neighbours_ = cache; }
+  void use(Fractals* cache) { fractals_.known = cache; }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
@@ -189,11 +189,30 @@ private:
   }
 
   SoftwareCache<Spu, DataKind> cache_;
-  NeighbourCache<typename Spu::rare_simd>* neighbours_ = nullptr;
+  Neighbours* neighbours_ = nullptr;
   struct KnownFractals {
-    Fractals* fractals = nullptr;
+    Fractals* known = nullptr;
   };
-  [[no_unique_address]] Present<KnownFractals, kIteratesAhead<Spu>> known_;
+  [[no_unique_address]] Present<KnownFractals, kIteratesAhead<Spu>> fractals_;
+};
+
+/// As long as it lives, patterns have a cache, where memory is direct: one of SceneAccess's. On the stack, as
+/// local store has no room for it.
+template <class Spu, class Cache, bool kIsThere = kHasRoomForCode<Spu>> class ScopedCache {
+public:
+  /// Not inlined: GCC 12 would say that the pointer outlives the cache, whatever the destructor does.
+  [[gnu::noinline]] explicit ScopedCache(SceneAccess<Spu>& scene) : scene_(scene) { scene.use(&cache_); }
+  ~ScopedCache() { scene_.use(static_cast<Cache*>(nullptr)); }
+  ScopedCache(const ScopedCache&) = delete;
+  ScopedCache& operator=(const ScopedCache&) = delete;
+
+private:
+  SceneAccess<Spu>& scene_;
+  Cache cache_;
+};
+template <class Spu, class Cache> class ScopedCache<Spu, Cache, false> {
+public:
+  explicit ScopedCache(SceneAccess<Spu>&) {}
 };
 
 } // namespace celltrace::kernel

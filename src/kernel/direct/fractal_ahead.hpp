@@ -9,7 +9,6 @@
 #include "celltrace/spe/simd.hpp"
 #include "kernel/math.hpp"
 #include "kernel/packet.hpp"
-#include "kernel/scene_access.hpp"
 #include "kernel/textures/iterated_squares.hpp"
 #include "kernel/tuning.hpp"
 
@@ -197,27 +196,6 @@ private:
   uint32_t count_ = 0;
   Packet packets_[kPackets];
   Point points_[kPackets * kSimdLanes];
-};
-
-/// As long as it lives, fractals may be iterated ahead, where memory is direct. It is large: local store has
-/// no room for it.
-template <class Spu, bool kKeeps = kIteratesAhead<Spu>> class FractalsKept {
-public:
-  /// Not inlined: GCC 12 would say that the pointer outlives the values, whatever the destructor does.
-  [[gnu::noinline]] explicit FractalsKept(SceneAccess<Spu>& scene) : scene_(scene) {
-    scene.set_fractals(&fractals_);
-  }
-  ~FractalsKept() { scene_.set_fractals(nullptr); }
-  FractalsKept(const FractalsKept&) = delete;
-  FractalsKept& operator=(const FractalsKept&) = delete;
-
-private:
-  SceneAccess<Spu>& scene_;
-  typename SceneAccess<Spu>::Fractals fractals_;
-};
-template <class Spu> class FractalsKept<Spu, false> {
-public:
-  explicit FractalsKept(SceneAccess<Spu>&) {}
 };
 
 } // namespace celltrace::kernel

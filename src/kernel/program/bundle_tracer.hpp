@@ -222,7 +222,8 @@ private:
     const bool hints = kPrefetchesLines<Spu> && frame_.object_count > tuning::kObjectsInCoreCache;
     if constexpr (kPoolsRays<Spu>) begin_pooling();
     if constexpr (kIteratesAhead<Spu>)
-      if (auto* const fractals = scene_.fractals(); fractals->begin()) iterate_fractals(*fractals);
+      if (auto* const fractals = scene_.fractals(); fractals != nullptr && fractals->begin())
+        iterate_fractals(*fractals);
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
       if (hints && i + 1 < kPackets)
@@ -248,20 +249,10 @@ private:
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
       if (member.hit == 0) continue;
-      HitPoints<S>& points = store_.points;
-      find_hit_points(scene_, rays_of(member), member.hits, member.hit, points);
-      const uint32_t textured = member.hit & points.textured & ~points.blended;
-      for_each_value<S>(points.material, textured, [&](uint32_t material, uint32_t same) {
-        const MaterialRecord& m = *scene_.material(material);
-        if ((m.flags & material_flag::patterned) == 0) return;
-        const PatternRecord& r = *scene_.pattern(m.pattern);
-        const uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
-        if (kind != kPatternKind<FractalPattern> || (r.kind_and_flags & pattern_flag::uv_mapping) != 0)
-          return;
-        if (!fractals.takes(r)) return;
-        const V3<S> at = to_pattern_space<TextureStage::colours>(scene_, r, {points.point}, same).at;
-        fractals.add(i, r, same, {at.x, at.y});
-      });
+      const HitPoints<S>& points = store_.points;
+      find_hit_points(scene_, rays_of(member), member.hits, member.hit, store_.points);
+      add_fractals(scene_, i, points.material, points.point, member.hit & points.textured & ~points.blended,
+                   fractals);
     }
     fractals.run();
   }
@@ -306,7 +297,8 @@ private:
   bool shade_root(Member& member) {
     if constexpr (kPoolsRays<Spu>) pool_.clear_lanes();
     if constexpr (kIteratesAhead<Spu>)
-      scene_.fractals()->show(static_cast<uint32_t>(&member - store_.members));
+      if (auto* const fractals = scene_.fractals())
+        fractals->show(static_cast<uint32_t>(&member - store_.members));
     if constexpr (kHasRoomForCode<Spu>) {
       if (member.hit != 0) {
         find_hit_points(scene_, rays_of(member), member.hits, member.hit, store_.points);

@@ -148,7 +148,7 @@ private:
   void render() {
     spu_.enter_module(modules::kStart);
     begin_frame();
-    [[maybe_unused]] const FractalsKept<Spu> fractals(phase_->scene);
+    [[maybe_unused]] const ScopedCache<Spu, typename SceneAccess<Spu>::Fractals> fractals(phase_->scene);
     const uint32_t start = spu_.read_decrementer();
     uint32_t idle = 0;
     exchange_.begin_frame(frame_, UnitRange{strip_.begin, strip_.end - strip_.begin});

@@ -173,6 +173,22 @@ CELLTRACE_ONE_COPY void add_pigments(SceneAccess<Spu>& scene, const WordLanes& o
   });
 }
 
+/// Of the materials of a packet, whose number is `packet`: adds the points of fractals that can be iterated
+/// together. For what add_pigments() will ask.
+template <class Spu, class Fractals>
+void add_fractals(SceneAccess<Spu>& scene, uint32_t packet, const WordLanes& offsets,
+                  const V3<typename Spu::simd>& points, uint32_t lanes, Fractals& fractals) {
+  for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
+    const MaterialRecord& m = *scene.material(offset);
+    if ((m.flags & material_flag::patterned) == 0) return;
+    const PatternRecord& r = *scene.pattern(m.pattern);
+    constexpr uint32_t kAsked = pattern_flag::kind_mask | pattern_flag::uv_mapping;
+    if ((r.kind_and_flags & kAsked) != kPatternKind<FractalPattern> || !fractals.takes(r)) return;
+    const auto at = to_pattern_space<TextureStage::colours>(scene, r, {points}, same).at;
+    fractals.add(packet, r, same, {at.x, at.y});
+  });
+}
+
 /// Disturbs the normals of surfaces in the lanes of `m.disturbed`. `lanes`: what else patterns ask for, or
 /// null; from then on the disturbed normals, also in layers below that have none of their own.
 template <class Spu>

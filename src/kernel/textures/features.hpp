@@ -67,25 +67,4 @@ private:
   uint32_t table_;
 };
 
-/// As long as it lives, random points that patterns gather are kept for the next points, where memory is
-/// direct.
-template <class Spu, bool kKeeps = kHasRoomForCode<Spu>> class NeighboursKept {
-public:
-  /// Not inlined: GCC 12 would say that the pointer outlives the cache, whatever the destructor does.
-  [[gnu::noinline]] explicit NeighboursKept(SceneAccess<Spu>& scene) : scene_(scene) {
-    scene.set_neighbours(&cache_);
-  }
-  ~NeighboursKept() { scene_.set_neighbours(nullptr); }
-  NeighboursKept(const NeighboursKept&) = delete;
-  NeighboursKept& operator=(const NeighboursKept&) = delete;
-
-private:
-  SceneAccess<Spu>& scene_;
-  NeighbourCache<typename Spu::rare_simd> cache_;
-};
-template <class Spu> class NeighboursKept<Spu, false> {
-public:
-  explicit NeighboursKept(SceneAccess<Spu>&) {}
-};
-
 } // namespace celltrace::kernel
