@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <memory>
+#include <vector>
 
 using namespace celltrace;
 using namespace celltrace::kernel;
@@ -31,9 +32,17 @@ RayPacket random_rays(Random& random) {
 TEST_CASE("All leaves one after the other answer what all objects do") {
   Random random(170);
   int hits = 0, occluded = 0;
-  for (const SoupKinds& kinds : {SoupKinds{12, 0, 0}, {9, 6, 0}, {8, 8, 8}, {0, 0, 24}}) {
-    const Scene soup_of_all = soup(random.below(1000), kinds, 3, 1.5);
-    PreparedScene scene(soup_of_all);
+  std::vector<Scene> scenes;
+  for (const SoupKinds& kinds : {SoupKinds{12, 0, 0}, {9, 6, 0}, {8, 8, 8}, {0, 0, 24}})
+    scenes.push_back(soup(random.below(1000), kinds, 3, 1.5));
+  // Leaves that share slabs.
+  scenes.push_back(soup(7, {18, 0, 0}, 3, 1.5));
+  for (std::size_t i = 0; i < scenes.back().objects.size(); ++i)
+    scenes.back().objects[i].shape =
+        Sphere{2.0 * Vec3(static_cast<double>(i % 3) - 1, static_cast<double>(i / 3 % 3) - 1, i < 9 ? -1 : 1),
+               i % 2 == 0 ? 0.5 : 0.8};
+  for (const Scene& of_objects : scenes) {
+    PreparedScene scene(of_objects);
     scene.use_bvh(true);
     REQUIRE(scene.prepare().built);
     const FrameBlock& frame = scene.frame();

@@ -39,11 +39,15 @@ public:
   void intersect(Traversal& traversal, RayQuery& query) const {
     uint32_t lanes[kMost], order[kMost], hits = 0;
     FloatLanes enter[kMost];
-    const MixedRays<S> rays(*query.rays);
+    Crossed crossed[3][kMost];
+    cross_slabs(MixedRays<S>(*query.rays), crossed);
     const F tfar = Traversal::tfar(query);
     for (uint32_t i = 0; i < count_; ++i) {
       F from(Traversal::tnear(query));
-      lanes[i] = rays.hit_box(leaves_[i].bounds, tfar, from) & query.lanes;
+      const uint32_t(&slabs)[3] = leaves_[i].slabs;
+      const auto hit = MixedRays<S>::hit_box(crossed[0][slabs[0]].range(), crossed[1][slabs[1]].range(),
+                                             crossed[2][slabs[2]].range(), tfar, from);
+      lanes[i] = hit.bits() & query.lanes;
       from.store(enter[i].lane);
       order[hits] = i;
       hits += lanes[i] != 0 ? 1 : 0;
@@ -71,9 +75,19 @@ private:
 
   enum class State { unknown, gathered, too_long };
 
+  struct Slab {
+    float low, high;
+  };
   struct Leaf {
-    float bounds[6]; ///< as rows of NodeRecord::bounds
+    uint32_t slabs[3]; ///< that it is in, by axis
     NodeRef ref;
+  };
+  /// Where each ray is within a slab.
+  struct Crossed {
+    FloatLanes from, to;
+    [[gnu::always_inline]] typename MixedRays<S>::Range range() const {
+      return {F::load(from.lane), F::load(to.lane)};
+    }
   };
 
   /// False: there are too many leaves.
@@ -82,6 +96,8 @@ private:
     uint32_t size = 0;
     nodes[size++] = root;
     count_ = packets_ = visits_ = 0;
+    for (uint32_t& count : slab_counts_)
+      count = 0;
     while (size != 0) {
       const NodeRecord& node = *scene.node(nodes[--size].child);
       for (uint32_t left = MixedRays<S>::children_of(node.bounds); left != 0; left &= left - 1) {
@@ -94,11 +110,29 @@ private:
         }
         Leaf& leaf = leaves_[count_++];
         leaf.ref = child;
-        for (uint32_t row = 0; row < 6; ++row)
-          leaf.bounds[row] = node.bounds[row][i];
+        for (uint32_t axis = 0; axis < 3; ++axis)
+          leaf.slabs[axis] = slab(axis, {node.bounds[2 * axis][i], node.bounds[2 * axis + 1][i]});
       }
     }
     return true;
+  }
+  /// The number of a slab among those of its axis.
+  uint32_t slab(uint32_t axis, const Slab& wanted) {
+    uint32_t i = 0;
+    while (i < slab_counts_[axis] &&
+           (slabs_[axis][i].low != wanted.low || slabs_[axis][i].high != wanted.high))
+      ++i;
+    if (i == slab_counts_[axis]) slabs_[axis][slab_counts_[axis]++] = wanted;
+    return i;
+  }
+
+  [[gnu::always_inline]] void cross_slabs(const MixedRays<S>& rays, Crossed (&crossed)[3][kMost]) const {
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t i = 0; i < slab_counts_[axis]; ++i) {
+        const auto range = rays.slab(axis, slabs_[axis][i].low, slabs_[axis][i].high);
+        range.from.store(crossed[axis][i].from.lane);
+        range.to.store(crossed[axis][i].to.lane);
+      }
   }
 
   /// By where the first ray that hits a leaf enters it.
@@ -123,6 +157,8 @@ private:
   }
 
   Leaf leaves_[kMost];
+  Slab slabs_[3][kMost]; ///< by axis: many leaves of a scene share some
+  uint32_t slab_counts_[3] = {};
   uint32_t count_ = 0;
   uint32_t packets_ = 0, visits_ = 0; ///< since the last trials began; in them
   bool pays_ = false;

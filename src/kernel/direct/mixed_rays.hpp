@@ -32,7 +32,7 @@ public:
                                         uint32_t (&hit)[4], F (&enter)[4]) const {
     for (uint32_t i = 0; i < 4; ++i) {
       enter[i] = F(tnear);
-      hit[i] = cross<4>(&bounds[0][i], tfar, enter[i]).bits();
+      hit[i] = cross(bounds, i, tfar, enter[i]).bits();
     }
   }
 
@@ -40,30 +40,34 @@ public:
   [[gnu::always_inline]] uint32_t hit_child(const float (&bounds)[6][4], uint32_t i, float tnear,
                                             const F& tfar) const {
     F from(tnear);
-    return cross<4>(&bounds[0][i], tfar, from).bits();
+    return cross(bounds, i, tfar, from).bits();
   }
 
+  /// Where the rays are within one slab of a box.
+  struct Range {
+    F from, to;
+  };
+  /// Of the slab between two planes perpendicular to an axis (0 to 2).
+  [[gnu::always_inline]] Range slab(uint32_t axis, float low, float high) const {
+    const F& origin = axis == 0 ? origin_.x : axis == 1 ? origin_.y : origin_.z;
+    const F& inverse = axis == 0 ? inverse_.x : axis == 1 ? inverse_.y : inverse_.z;
+    const F a = (F(low) - origin) * inverse, b = (F(high) - origin) * inverse;
+    return {S::min(a, b), S::max(a, b)};
+  }
   /// The lanes that hit a box from `from` up to their own `tfar`; `from` grows to where they do.
-  [[gnu::always_inline]] uint32_t hit_box(const float (&bounds)[6], const F& tfar, F& from) const {
-    return cross<1>(bounds, tfar, from).bits();
+  [[gnu::always_inline]] static typename S::M hit_box(const Range& x, const Range& y, const Range& z,
+                                                      const F& tfar, F& from) {
+    from = S::max(S::max(S::max(from, x.from), y.from), z.from);
+    const F to = S::min(S::min(S::min(tfar, x.to), y.to), z.to);
+    return from <= to * F(detail::kRoundedUp);
   }
 
 private:
-  /// Where rays hit a box, each of whose bounds is `kStep` after the last one; `from` grows to the distance
-  /// there.
-  template <uint32_t kStep>
-  [[gnu::always_inline]] typename S::M cross(const float* bounds, const F& tfar, F& from) const {
-    F to = tfar;
-    clip(bounds[0], bounds[kStep], origin_.x, inverse_.x, from, to);
-    clip(bounds[2 * kStep], bounds[3 * kStep], origin_.y, inverse_.y, from, to);
-    clip(bounds[4 * kStep], bounds[5 * kStep], origin_.z, inverse_.z, from, to);
-    return from <= to * F(detail::kRoundedUp);
-  }
-  [[gnu::always_inline]] static void clip(float low, float high, const F& origin, const F& inverse, F& from,
-                                          F& to) {
-    const F a = (F(low) - origin) * inverse, b = (F(high) - origin) * inverse;
-    from = S::max(from, S::min(a, b));
-    to = S::min(to, S::max(a, b));
+  /// hit_box() of child `i` of a node.
+  [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
+                                             F& from) const {
+    return hit_box(slab(0, bounds[0][i], bounds[1][i]), slab(1, bounds[2][i], bounds[3][i]),
+                   slab(2, bounds[4][i], bounds[5][i]), tfar, from);
   }
   static F inverse_of(const F& direction) {
     const F tiny(detail::kTinyDirection);
