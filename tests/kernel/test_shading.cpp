@@ -112,7 +112,7 @@ TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
     VectorLanes gathered[kLightsARound];
     std::uint64_t shadow_rays = 0;
     for (std::uint32_t first = 0; first == 0 || first < lights; first += kLightsARound) {
-      const LightRound round = LightRound::from(scene.frame(), first, gathered);
+      LightRound round = LightRound::from(scene.frame(), first, gathered);
       round.clear<Simd>();
       const V3<Simd> rest =
           weights * local_light(access, scene.frame(), round, hits.surfaces(), materials, lanes, weights);

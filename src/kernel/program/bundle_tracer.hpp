@@ -286,8 +286,12 @@ private:
 
   LightRound begin_round(uint32_t first, LitPoints& lit) const {
     LightRound round = LightRound::from(frame_, first, lit.light);
-    round.template clear<S>();
-    if constexpr (kHasRoomForCode<Spu>) round.to_first = &lit.to_light;
+    if constexpr (kHasRoomForCode<Spu>) {
+      round.is_fresh = true;
+      round.to_first = &lit.to_light;
+    } else {
+      round.template clear<S>();
+    }
     return round;
   }
   /// Whether shading has left the rays toward a light, of a round that begins with `first`.
@@ -305,10 +309,9 @@ private:
         member.point = store_.points.point;
       }
       VectorLanes seen;
-      LightRound only = LightRound::from(frame_, 0, member.light);
-      only.is_fresh = true;
-      only.to_first = &member.to_light;
+      LightRound only = begin_round(0, member);
       if (tracer_.ends_at_once(rays_of(member), member.lanes, member.hits, store_.points, only, seen)) {
+        if (member.hit != 0 && only.is_fresh) only.template clear<S>();
         keep(member, seen);
         return false;
       }
@@ -343,7 +346,11 @@ private:
       const bool is_left = root != nullptr && first == 0;
       const LightRound round = begin_round(first, is_left ? *root : store_.lit);
       tracer_.shade_hits(store_.points, hit, round);
-      if (!is_left) {
+      bool has_gathered = true;
+      if constexpr (kHasRoomForCode<Spu>) has_gathered = tracer_.has_gathered();
+      if (!has_gathered) {
+        if (is_left) round.template clear<S>();
+      } else if (!is_left) {
         light_packet(hit, round);
         tracer_.add_gathered(round, hit);
       }

@@ -125,7 +125,7 @@ struct LightRound {
   uint32_t first, count;
   VectorLanes* gathered;          ///< by light of the round; nothing of lights that are not asked for
   bool only_gathers = false;      ///< nothing else comes of it: surfaces are shaded for another time
-  bool is_fresh = false;          ///< what has been gathered is undefined: surfaces are shaded once
+  bool is_fresh = false;          ///< nothing has been gathered, and `gathered` is undefined
   ShadowRays* to_first = nullptr; ///< where there is room for code: becomes the rays toward the first light
 
   /// The round of a frame that begins with a light.
@@ -183,9 +183,10 @@ uint32_t lit_lanes(const Surfaces<typename Spu::simd>& s, const MaterialLanes<ty
 }
 
 /// Gathers what the surfaces of `lanes` send on of the lights of a round that are asked for, times `weight`.
-/// Returns the rest, without it: ambient light and that of other lights.
+/// Returns the rest, without it: ambient light and that of other lights. Where there is room for code the
+/// round is fresh no more, unless no surface sends on any.
 template <class Spu>
-V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& frame, const LightRound& round,
+V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& frame, LightRound& round,
                                    const Surfaces<typename Spu::simd>& s,
                                    const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
                                    const V3<typename Spu::simd>& weight) {
@@ -195,10 +196,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
   V3<S> sum = round.is_first() ? m.pigment * m.ambient * m.opacity : dark;
   if constexpr (kHasRoomForCode<Spu>) {
     lanes = lit_lanes<Spu>(s, m, lanes);
-    if (lanes == 0) {
-      if (round.is_fresh) round.template clear<S>();
-      return sum;
-    }
+    if (lanes == 0) return sum;
   }
   for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
     IncidentLight<S> incident(light.colour);
@@ -236,6 +234,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
     const V3<S> more = sent * weight;
     gathered.template store<S>(is_fresh ? more : gathered.template load<S>() + more);
   });
+  if constexpr (kHasRoomForCode<Spu>) round.is_fresh = false;
   return sum;
 }
 

@@ -37,7 +37,7 @@ public:
   /// The colours of primary rays whose hits are known, if all of them end there; false: they do not, or there
   /// are more lights than in one round. Without the light that the round gathers.
   bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
-                    const LightRound& round, VectorLanes& colours) {
+                    LightRound& round, VectorLanes& colours) {
     if (round.next() != frame_.light_count || has_atmosphere(frame_)) return false;
     const uint32_t hit = hit_lanes<S>(hits, lanes);
     if (!ends(points, hit)) return false;

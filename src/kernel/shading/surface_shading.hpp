@@ -37,6 +37,8 @@ public:
     scene_.spu().enter_module(modules::kComposed);
     shade_composed(points, hit & ~plain);
   }
+  /// Whether they send on any light of it; otherwise the round has gathered nothing. For fresh ones.
+  bool has_gathered() const { return !round_.is_fresh; }
   /// Adds what has come of the light that a round has gathered.
   void add_gathered(const LightRound& round, uint32_t lanes) { round.add_to<S>(light_[node_.target], lanes); }
 
@@ -52,8 +54,7 @@ protected:
   }
   /// What primary rays see of surfaces for which ends() holds, without a tree.
   [[gnu::always_inline]] V3<S> light_of_ends(const RayPacket& rays, const HitPacket& hits,
-                                             const HitPoints<S>& points, uint32_t lanes,
-                                             const LightRound& round) {
+                                             const HitPoints<S>& points, uint32_t lanes, LightRound& round) {
     Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
     prepare_ends(points, hits, lanes);
     if (has_layers(points, lanes)) return light_of_layers(points, lanes, round, surfaces);
@@ -81,14 +82,13 @@ private:
       add_light(surfaces, materials_of(points, lanes, surfaces), lanes, {one, one, one});
   }
   /// As light_of_ends(), of surfaces with layers.
-  V3<S> light_of_layers(const HitPoints<S>& points, uint32_t lanes, const LightRound& round,
+  V3<S> light_of_layers(const HitPoints<S>& points, uint32_t lanes, LightRound& round,
                         Surfaces<S>& surfaces) {
     const F one(1.0f);
     round_ = round;
-    round_.is_fresh = false;
-    round_.template clear<S>();
     Tree::begin_light();
     shade_layers(surfaces, points, points.material, lanes, one);
+    round.is_fresh = round_.is_fresh;
     return Tree::light().template load<S>();
   }
   /// Before any of the following is asked of surfaces where trees end.
