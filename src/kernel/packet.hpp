@@ -110,6 +110,13 @@ struct HitPacket {
   FloatLanes distance;
   FloatLanes u, v;
 };
+[[gnu::always_inline]] inline void copy_lane(const HitPacket& from, uint32_t lane, HitPacket& to,
+                                             uint32_t to_lane) {
+  copy_lane(from.object, lane, to.object, to_lane);
+  copy_lane(from.distance, lane, to.distance, to_lane);
+  copy_lane(from.u, lane, to.u, to_lane);
+  copy_lane(from.v, lane, to.v, to_lane);
+}
 
 namespace detail {
 CELLTRACE_ONE_COPY inline void copy_out_of_line(void* to, const void* from, uint32_t bytes) {

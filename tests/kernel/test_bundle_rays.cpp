@@ -1,6 +1,7 @@
-// Rays that leave the packets that they began in: pools of secondary rays, queues of shadow rays, and hits
-// sorted by materials.
+// Rays that leave the packets that they began in: pools of secondary rays, queues of hits and shadow rays,
+// and hits sorted by materials.
 #include "direct_spu.hpp"
+#include "kernel/direct/hit_queue.hpp"
 #include "kernel/direct/hit_sorting.hpp"
 #include "kernel/direct/ray_pool.hpp"
 #include "kernel/direct/shadow_queue.hpp"
@@ -98,6 +99,61 @@ TEST_CASE("A pool of rays gives back each of them once, with all that belongs to
     }
     REQUIRE(inside.empty());
   }
+}
+
+TEST_CASE("A queue of hits gives each of them once, with its ray, in full packets") {
+  DirectSpu spu;
+  HitQueue<DirectSpu> queue(spu);
+  Random random(11);
+  std::set<std::uint32_t> inside;
+  int refused = 0;
+  const auto take = [&] {
+    const auto left = static_cast<unsigned>(inside.size());
+    const QueuedHits& queued = queue.take();
+    const std::uint32_t lanes = queued.packet.node.lanes;
+    REQUIRE(lanes == (left < kSimdLanes ? (1u << left) - 1 : 0xFFFF));
+    for_each_lane(lanes, [&](std::uint32_t lane) {
+      check_ray(queued.packet, lane);
+      const std::uint32_t number = queued.packet.pixels.lane[lane];
+      const auto value = static_cast<float>(number);
+      REQUIRE(inside.erase(number) == 1);
+      REQUIRE(queued.hits.object.lane[lane] == 2 * number);
+      REQUIRE(queued.hits.distance.lane[lane] == value);
+      REQUIRE(queued.hits.u.lane[lane] == value + 1);
+      REQUIRE(queued.hits.v.lane[lane] == value + 2);
+    });
+  };
+  for (int step = 0; step < 600; ++step) {
+    const std::uint32_t lanes = random.word() & random.word() & 0xFFFF;
+    WordLanes pixels = {};
+    HitPacket hits = {};
+    const RayNode node = node_of(random, lanes, pixels);
+    for_each_lane(lanes, [&](std::uint32_t lane) {
+      const auto value = static_cast<float>(pixels.lane[lane]);
+      hits.object.lane[lane] = 2 * pixels.lane[lane];
+      hits.distance.lane[lane] = value;
+      hits.u.lane[lane] = value + 1;
+      hits.v.lane[lane] = value + 2;
+    });
+    if (queue.add(node, pixels, hits, lanes))
+      for_each_lane(lanes, [&](std::uint32_t lane) { inside.insert(pixels.lane[lane]); });
+    else
+      ++refused;
+    REQUIRE(queue.full() == (inside.size() >= kSimdLanes));
+    REQUIRE(queue.empty() == inside.empty());
+    if (queue.full() && random.below(6) == 0) take();
+    if (step % 100 != 99) continue;
+    queue.clear();
+    inside.clear();
+    REQUIRE(queue.empty());
+  }
+  while (!queue.empty())
+    take();
+  CHECK(inside.empty());
+  CHECK(refused > 10);
+  WordLanes pixels = {};
+  const RayNode node = node_of(random, 0xFFFF, pixels);
+  CHECK_FALSE(queue.add(node, pixels, {}, 0xFFFF));
 }
 
 TEST_CASE("A queue of shadow rays gives each point once, with all that belongs to it, in full packets") {

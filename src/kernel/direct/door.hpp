@@ -36,8 +36,8 @@ template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 /// Where shadow rays would be walked (ShadowWalk), one traversal finds all that they cross (KeptCrossings).
 template <class Spu> constexpr bool kKeepsCrossings = Spu::direct_memory;
 
-/// Rays of a bundle's trees are gathered into full packets (RayPool), and so are shadow rays from what they
-/// hit (ShadowQueue), and those of them that hit nothing, before they see the sky (SkyQueue).
+/// Rays of a bundle's trees are gathered into full packets (RayPool), and so are what few of them hit where
+/// they end (HitQueue), shadow rays from there (ShadowQueue), and those that see the sky (SkyQueue).
 template <class Spu> constexpr bool kPoolsRays = Spu::direct_memory;
 
 /// Rays of several octants traverse the BVH together (MixedRays), or are tested against all leaves of a small

@@ -14,6 +14,19 @@ namespace celltrace::kernel {
 struct PooledPacket {
   RayNode node;
   WordLanes pixels; ///< of the bundle, by lane
+
+  /// Takes a ray of a node into a lane.
+  void add(const RayNode& from, const WordLanes& from_pixels, uint32_t lane, uint32_t to_lane) {
+    copy_lane(from.rays, lane, node.rays, to_lane);
+    copy_lane(from.throughput, lane, node.throughput, to_lane);
+    copy_lane(from.weight, lane, node.weight, to_lane);
+    copy_lane(from.level, lane, node.level, to_lane);
+    copy_lane(from.power, lane, node.power, to_lane);
+    copy_lane(static_cast<const RayInteriors&>(from), lane, static_cast<RayInteriors&>(node), to_lane);
+    copy_lane(from_pixels, lane, pixels, to_lane);
+    node.lanes |= 1u << to_lane;
+    node.reflected |= (from.reflected >> lane & 1) << to_lane;
+  }
 };
 
 /// Packets of rays, one of each octant being filled. Full ones are taken first, the youngest before the
@@ -39,7 +52,7 @@ public:
       return false;
     for_each_lane(node.lanes, [&](uint32_t lane) {
       const uint32_t octant = octant_of(node.rays, lane);
-      copy_ray(node, pixels, lane, packets_[filling_[octant]], count_[octant]++);
+      packets_[filling_[octant]].add(node, pixels, lane, count_[octant]++);
       ++filling_rays_;
       if (count_[octant] < kSimdLanes) return;
       full_packets_[full_++] = filling_[octant];
@@ -68,13 +81,12 @@ private:
   static constexpr uint32_t kOctants = 8;
   /// Those that are being filled, some for each packet of a bundle, and those that wait on the way down the
   /// trees.
-  static constexpr uint32_t kPackets = 64;
+  static constexpr uint32_t kPackets = 60;
 
   void begin_packet(uint32_t octant) {
     count_[octant] = 0;
     filling_[octant] = free_[--free_count_];
-    RayNode& node = packets_[filling_[octant]].node;
-    node.lanes = node.reflected = node.target = node.gathers = 0;
+    packets_[filling_[octant]].node.begin();
   }
 
   /// Adds the rays of other packets to the one with the most rays, as long as there is room for all of one.
@@ -88,25 +100,11 @@ private:
       if (octant == most || count_[most] + count_[octant] > kSimdLanes) continue;
       PooledPacket& other = packets_[filling_[octant]];
       for (uint32_t lane = 0; lane < count_[octant]; ++lane)
-        copy_ray(other.node, other.pixels, lane, packet, count_[most]++);
+        packet.add(other.node, other.pixels, lane, count_[most]++);
       count_[octant] = 0;
       other.node.lanes = other.node.reflected = 0;
     }
     return most;
-  }
-
-  static void copy_ray(const RayNode& from, const WordLanes& pixels, uint32_t lane, PooledPacket& packet,
-                       uint32_t to_lane) {
-    RayNode& to = packet.node;
-    copy_lane(from.rays, lane, to.rays, to_lane);
-    copy_lane(from.throughput, lane, to.throughput, to_lane);
-    copy_lane(from.weight, lane, to.weight, to_lane);
-    copy_lane(from.level, lane, to.level, to_lane);
-    copy_lane(from.power, lane, to.power, to_lane);
-    copy_lane(static_cast<const RayInteriors&>(from), lane, static_cast<RayInteriors&>(to), to_lane);
-    copy_lane(pixels, lane, packet.pixels, to_lane);
-    to.lanes |= 1u << to_lane;
-    to.reflected |= (from.reflected >> lane & 1) << to_lane;
   }
 
   PooledPacket* packets_;

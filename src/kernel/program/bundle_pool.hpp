@@ -5,6 +5,7 @@
 // those of them that hit nothing are gathered into full packets.
 #pragma once
 
+#include "kernel/direct/hit_queue.hpp"
 #include "kernel/direct/hit_sorting.hpp"
 #include "kernel/direct/ray_pool.hpp"
 #include "kernel/direct/shadow_queue.hpp"
@@ -21,10 +22,11 @@ public:
 
   /// `samples`: becomes how clear the way is of each; null: that is not asked.
   BundlePool(Spu& spu, SampleBundle<Spu>* samples)
-      : rays(spu), shadows(spu), skies(spu), samples_(samples), sorter_(spu),
+      : rays(spu), hits(spu), shadows(spu), skies(spu), samples_(samples), sorter_(spu),
         light_(spu.template allocate<VectorLanes>(kPackets)) {}
 
   RayPool<Spu> rays;        ///< that are to be traced
+  HitQueue<Spu> hits;       ///< of such rays, from which none go on
   ShadowQueue<Spu> shadows; ///< of what such rays have hit
   SkyQueue<Spu> skies;      ///< of those that have hit nothing
   FloatLanes clear;         ///< how clear the way of the rays is that are being traced
@@ -110,6 +112,7 @@ public:
   /// Forgets all rays.
   void drop() {
     rays.clear();
+    hits.clear();
     shadows.clear();
     skies.clear();
   }

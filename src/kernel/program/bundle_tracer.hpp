@@ -235,6 +235,9 @@ private:
       if (member.lanes == 0 || !shade_root(member)) continue;
       if (!trace_tree(stopped)) return false;
       keep_tree(member);
+      if constexpr (kPoolsRays<Spu>)
+        while (pool_.hits.full())
+          shade_queued();
     }
     find_lights();
     if constexpr (kPoolsRays<Spu>)
@@ -342,6 +345,14 @@ private:
     if (!kHasRoomForCode<Spu> || root == nullptr)
       find_hit_points(scene_, tracer_.node().rays, tracer_.hits(), hit, store_.points);
     if (root != nullptr) copy_packet<Spu>(store_.points.point, root->point);
+    if constexpr (kPoolsRays<Spu>) {
+      if (root == nullptr) hit &= ~queue_ends(hit);
+      if (hit == 0) return;
+    }
+    shade_points(root, hit);
+  }
+  /// Shades what take_hits() told of, whose points are known.
+  [[gnu::always_inline]] void shade_points(Member* root, uint32_t hit) {
     for (uint32_t first = 0;;) {
       const bool is_left = root != nullptr && first == 0;
       const LightRound round = begin_round(first, is_left ? *root : store_.lit);
@@ -411,8 +422,12 @@ private:
   }
   /// Traces the rays that have left their packets.
   template <class Stopped> bool trace_pooled(Stopped stopped) {
-    while (!pool_.rays.empty()) {
+    while (!pool_.rays.empty() || !pool_.hits.empty()) {
       if (stopped()) return false;
+      if (pool_.hits.full() || pool_.rays.empty()) {
+        shade_queued();
+        continue;
+      }
       tracer_.begin(pool_.rays.take());
       const uint32_t lanes = tracer_.node().lanes;
       pool_.clear_lanes();
@@ -431,6 +446,22 @@ private:
 
   /// Whether light of the node that is being traced goes to pixels, whatever packet its rays are in.
   bool may_wait() { return tracer_.pooling().pool != nullptr && tracer_.node().target == 0; }
+  /// Leaves hits from which no rays go on to shade_queued(), if they are few. Returns their lanes.
+  uint32_t queue_ends(uint32_t hit) {
+    const uint32_t ends = hit & ~(store_.points.spawning | store_.points.blended);
+    if (ends == 0 || !may_wait()) return 0;
+    return pool_.hits.add(tracer_.node(), tracer_.pooling().pixels, tracer_.hits(), ends) ? ends : 0;
+  }
+  /// Shades hits that have waited, between trees.
+  CELLTRACE_ONE_COPY void shade_queued() {
+    const QueuedHits& queued = pool_.hits.take();
+    tracer_.begin(queued.packet);
+    copy_packet<Spu>(queued.hits, tracer_.hits());
+    const uint32_t lanes = tracer_.node().lanes;
+    find_hit_points(scene_, tracer_.node().rays, tracer_.hits(), lanes, store_.points);
+    shade_points(nullptr, lanes);
+    pool_.add(tracer_.pooling().pixels, lanes, tracer_.light());
+  }
   /// Leaves what a few lanes of the node see that hit nothing to see_sky(). False: it has to come now.
   bool queue_sky(uint32_t missed) {
     if (frame_.sky == kNoOffset || !may_wait() || !pool_.skies.takes(missed)) return false;

@@ -37,6 +37,9 @@ struct alignas(128) RayNode : RayInteriors {
   uint32_t target;    ///< number of the accumulator that the rays' light goes to
   uint32_t gathers;   ///< 0: rays to trace. Otherwise the number of an accumulator whose light, raised to
                       ///< `power`, is complete when this node comes up, and goes to `target`
+
+  /// Without rays so far.
+  void begin() { lanes = reflected = target = gathers = 0; }
 };
 
 constexpr uint32_t kRayNodeBytes = sizeof(RayNode);
