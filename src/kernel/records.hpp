@@ -556,6 +556,7 @@ constexpr uint32_t projectors = 0x10; ///< of lights
 constexpr uint32_t near_surfaces = 0x200;
 /// With `stepwise`: only because interiors fade. What surfaces let through depends on points of them alone.
 constexpr uint32_t only_fading = 0x400;
+constexpr uint32_t unseen = 0x1000; ///< some objects are object_flag::no_image
 // Of frames alone, not of scene images:
 constexpr uint32_t alpha = 0x20; ///< how clear each pixel is is wanted, too
 /// With `alpha`: only rays that came by a mirror see sky and background.

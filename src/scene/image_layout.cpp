@@ -105,6 +105,7 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, light_sets, textures, census.blended);
   if (has_near_surfaces) header.light_ways |= light_way::near_surfaces;
+  if (!objects.are_all_seen()) header.light_ways |= light_way::unseen;
   const CsgParts& csg = objects.csg();
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
   layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);
@@ -143,7 +144,7 @@ ImageHeader with_surfaces(const ImageHeader& old, const Scene& scene, const Ligh
   ImageHeader header = old;
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, light_sets, textures, old.blend_count);
-  header.light_ways |= old.light_ways & light_way::near_surfaces;
+  header.light_ways |= old.light_ways & (light_way::near_surfaces | light_way::unseen);
   return header;
 }
 

@@ -92,6 +92,7 @@ SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
   for (std::size_t i = 0; i < projectors; ++i) {
     BuildWatch::look_at(i);
     const Object& object = scene.objects[i];
+    are_all_seen_ = are_all_seen_ && !object.no_image;
     if (instances.contains(i) || CsgParts::contains(object)) continue;
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
     if (mesh != nullptr && !instanced.contains(i))
@@ -139,6 +140,7 @@ void SceneObjects::add_parts(std::size_t projectors, unsigned threads) {
   const CsgPart* previous = nullptr;
   for (const CsgPart& part : csg_.parts) {
     if (part.whole >= projectors) break; // all others are later ones
+    are_all_seen_ = are_all_seen_ && !part.object.no_image;
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&part.object.shape)) {
       add_mesh(part.object, **mesh, &part, threads);
       previous = nullptr;

@@ -43,6 +43,8 @@ public:
   const std::vector<std::uint32_t>& projector_sizes() const { return projector_sizes_; }
   /// The ExtraRecords of these and of unbounded ones.
   std::uint32_t unbounded_extras() const;
+  /// Whether primary rays see all of them.
+  bool are_all_seen() const { return are_all_seen_; }
   const CsgParts& csg() const { return csg_; }
   const PolygonTable& polygons() const { return polygons_; }
 
@@ -131,6 +133,7 @@ private:
   std::vector<std::uint32_t> projector_sizes_;
   std::vector<std::vector<Vec3f>> transformed_;
   std::uint32_t count_ = 0;
+  bool are_all_seen_ = true;
 };
 
 } // namespace celltrace

@@ -218,6 +218,48 @@ TEST_CASE("Parts of a merge hide nothing from rays that do not see them") {
   }
 }
 
+TEST_CASE("Light from the camera comes to all that primary rays see, but for unseen objects in its way") {
+  for (const char* kind :
+       {"all are seen", "one is not", "a part is not", "parallel", "mirrors", "inside of glass"}) {
+    const std::string variant = kind;
+    Scene scene;
+    scene.camera = camera_at({0.5, 2, -5}, {0, 0, 0});
+    scene.lights = {{scene.camera.location, {0.9, 0.9, 0.8}}};
+    Material floor = matte({0.6, 0.7, 0.5});
+    if (variant == "mirrors") floor.finish.reflection_min = floor.finish.reflection_max = Vec3(0.4);
+    scene.objects = {mesh_object(floor_mesh(-1.2f, 8), scene.add(floor), scene.add(Interior{}))};
+    Object ball = sphere_at({0, 0, 0}, 0.8, scene.add(matte({0.9, 0.2, 0.1})), scene.add(Interior{}));
+    Object before = sphere_at({0.4, 0.9, -2.5}, 0.3, scene.add(matte({0.1, 0.3, 0.9})), ball.interior);
+    before.no_image = variant == "one is not" || variant == "a part is not";
+    if (variant == "a part is not") {
+      Object both;
+      both.shape = std::make_shared<const Csg>(Csg{Csg::Operation::union_, {ball, before}});
+      scene.objects.push_back(both);
+    } else {
+      scene.objects.push_back(ball);
+      scene.objects.push_back(before);
+    }
+    if (variant == "parallel") {
+      scene.lights.front().parallel = true;
+      scene.lights.front().point_at = {0, -3, 0};
+    }
+    if (variant == "inside of glass") {
+      Material clear = matte({1, 1, 1});
+      clear.pigment.transmit = 1;
+      Interior fading;
+      fading.fade_distance = 3;
+      fading.fade_power = 1;
+      scene.objects.push_back(sphere_at(scene.camera.location, 2, scene.add(clear), scene.add(fading)));
+    }
+    const Image expected = reference::Tracer(scene).render(kWidth, kHeight);
+    for (const TestBackend& backend : backends()) {
+      const Comparison comparison = compare_images(expected, render_on(backend, 2, scene));
+      INFO(backend.spu() << ", " << variant << ": " << to_text(comparison));
+      CHECK(comparison.psnr >= 55);
+    }
+  }
+}
+
 TEST_CASE("Every kind of camera") {
   Scene scene = scene_named("glass and mirrors");
   const Camera perspective = scene.camera;

@@ -198,6 +198,8 @@ private:
   void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
     const bool by_packet = shadows_.asks_by_packet(light);
+    bool is_at_pinhole = false;
+    if constexpr (kHasRoomForCode<Spu>) is_at_pinhole = shadows_.is_at_pinhole(light);
     uint32_t asked = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
@@ -205,6 +207,10 @@ private:
       scene_.spu().compute(scalar_work::kBundleLight);
       VectorLanes& colour = member.light[number];
       const uint32_t lanes = lanes_above<S>(colour, member.hit, kLeastLight);
+      if (is_at_pinhole) {
+        shadows_.take_unoccluded(lanes, colour);
+        continue;
+      }
       if (lanes == 0 || by_packet) {
         shadows_.trace(light, member.to_light, member.point, member.shaded.object, is_aimed(number, 0), lanes,
                        colour);

@@ -39,6 +39,23 @@ public:
     return (light.kind_and_flags & (light_flag::area | light_flag::projected)) != 0 || walks_all(light);
   }
 
+  /// Whether a light is where primary rays begin, and so nothing is between it and what they have hit.
+  bool is_at_pinhole(const LightRecord& light) const {
+    constexpr uint32_t kOtherWays =
+        light_flag::area | light_flag::parallel | light_flag::projected | light_flag::dimmed;
+    if ((light.kind_and_flags & kOtherWays) != 0 || !is_pinhole(frame_.camera) ||
+        (frame_.light_ways & light_way::unseen) != 0 || frame_.camera_interior_count != 0)
+      return false;
+    const float(&eye)[3] = frame_.camera.origin;
+    return light.location[0] == eye[0] && light.location[1] == eye[1] && light.location[2] == eye[2];
+  }
+  /// Leaves in `colour`, which has been gathered, what comes of a light to which nothing is in the way.
+  void take_unoccluded(uint32_t lanes, VectorLanes& colour) {
+    counters_.shadow += static_cast<uint32_t>(__builtin_popcount(lanes));
+    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+    colour.template store<S>(select<S>(S::M::from_bits(lanes), colour.template load<S>(), dark));
+  }
+
   /// Leaves in `colour`, which has been gathered, what comes of it to points on objects; in `lanes` it
   /// counts.
   CELLTRACE_ONE_COPY void trace(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
