@@ -81,7 +81,7 @@ private:
   static constexpr uint32_t kOctants = 8;
   /// Those that are being filled, some for each packet of a bundle, and those that wait on the way down the
   /// trees.
-  static constexpr uint32_t kPackets = 60;
+  static constexpr uint32_t kPackets = 58;
 
   void begin_packet(uint32_t octant) {
     count_[octant] = 0;
