@@ -49,9 +49,9 @@ constexpr uint32_t kMostObjectsWithoutFrusta = 64;
 /// traversals wait for nodes. 'trace time' of scenes of 20 to 30 objects with mirrors and glass.
 constexpr uint32_t kLeavesPerVisit = 6;
 
-/// A packet with so many rays of one tree goes on by itself, and so do so many shadow rays from there; those
-/// of others are gathered into full packets. Larger: fewer lanes are empty; smaller: more packets have rays
-/// that are close to each other. 'trace time' of scenes with mirrors and glass, at 320x240.
+/// A packet with so many rays of one tree goes on by itself, and so do so many hits and shadow rays from
+/// there; those of others are gathered into full packets. Larger: fewer lanes are empty; smaller: more
+/// packets have rays that are close to each other. 'trace time' of scenes with mirrors and glass, at 320x240.
 constexpr int kLeastRaysByThemselves = 12;
 
 /// Where the packets of a bundle have iterated fractals for so many rounds in all, those of the next one are

@@ -1,10 +1,12 @@
 // Hits of many ray trees from which no rays go on, in full packets. Kernel dialect, where memory is direct.
 //
-// Of what a packet of secondary rays hits, often a few lanes end there, and the others only mirror: all lanes
-// would wait while the few are lit. Such hits of all trees of a bundle wait here until they fill a packet.
+// Often a few rays of a packet of secondary rays end at what they hit, and the others only go on from a
+// mirror: all lanes would wait while the few are lit. Such hits of all trees of a bundle wait here until they
+// fill a packet.
 #pragma once
 
 #include "kernel/direct/ray_pool.hpp"
+#include "kernel/tuning.hpp"
 
 namespace celltrace::kernel {
 

@@ -198,8 +198,7 @@ private:
   void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
     const bool by_packet = shadows_.asks_by_packet(light);
-    bool is_at_pinhole = false;
-    if constexpr (kHasRoomForCode<Spu>) is_at_pinhole = shadows_.is_at_pinhole(light);
+    const bool is_at_pinhole = shadows_.is_at_pinhole(light);
     uint32_t asked = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
@@ -363,9 +362,7 @@ private:
       const bool is_left = root != nullptr && first == 0;
       const LightRound round = begin_round(first, is_left ? *root : store_.lit);
       tracer_.shade_hits(store_.points, hit, round);
-      bool has_gathered = true;
-      if constexpr (kHasRoomForCode<Spu>) has_gathered = tracer_.has_gathered();
-      if (!has_gathered) {
+      if (!tracer_.has_gathered()) {
         if (is_left) round.template clear<S>();
       } else if (!is_left) {
         light_packet(hit, round);

@@ -4,6 +4,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal.hpp"
+#include "kernel/cameras/list.hpp"
 #include "kernel/direct/area_pairs.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/shading/ray_tree.hpp"
@@ -39,8 +40,10 @@ public:
     return (light.kind_and_flags & (light_flag::area | light_flag::projected)) != 0 || walks_all(light);
   }
 
-  /// Whether a light is where primary rays begin, and so nothing is between it and what they have hit.
+  /// Whether a light is where primary rays begin, and so nothing is between it and what they have hit. Not
+  /// asked where there is no room for code.
   bool is_at_pinhole(const LightRecord& light) const {
+    if constexpr (!kHasRoomForCode<Spu>) return false;
     constexpr uint32_t kOtherWays =
         light_flag::area | light_flag::parallel | light_flag::projected | light_flag::dimmed;
     if ((light.kind_and_flags & kOtherWays) != 0 || !is_pinhole(frame_.camera) ||

@@ -37,8 +37,8 @@ public:
     scene_.spu().enter_module(modules::kComposed);
     shade_composed(points, hit & ~plain);
   }
-  /// Whether they send on any light of it; otherwise the round has gathered nothing. For fresh ones.
-  bool has_gathered() const { return !round_.is_fresh; }
+  /// Whether the round has gathered anything; always, where there is no room for code.
+  bool has_gathered() const { return !kHasRoomForCode<Spu> || !round_.is_fresh; }
   /// Adds what has come of the light that a round has gathered.
   void add_gathered(const LightRound& round, uint32_t lanes) { round.add_to<S>(light_[node_.target], lanes); }
 
