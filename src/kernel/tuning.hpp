@@ -148,10 +148,9 @@ constexpr uint32_t kMostAreaOccluders = 16;
 /// objects.
 constexpr uint32_t kMostAreaNodes = 64;
 
-/// So many surfaces of a packet are tested by themselves with a place that they ask for; fewer in pairs with
-/// others (AreaPairs). Larger: lanes of coherent rays are taken apart; smaller: more lanes are idle. 'trace
-/// time' of soft shadows.
-constexpr uint32_t kLeastSurfacesByThemselves = 11;
+/// Packets of rays to places of a light that are tested together at most. Larger: more rays are tested beside
+/// each other; smaller: they stay in the first cache. 'trace time' of soft shadows.
+constexpr uint32_t kMostAreaPackets = 16;
 
 // --- patterns ---
 

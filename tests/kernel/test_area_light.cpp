@@ -68,12 +68,18 @@ struct Sampling {
       CHECK(rays == shadow->rays_asked);
     });
   }
-  /// The same of a light that is not tinted, in pairs.
-  template <class Unoccluded> VectorLanes run_in_pairs(std::uint32_t lanes, Unoccluded unoccluded) {
+  /// The same of a light that is not tinted, in pairs. `lit_lanes(rays, lanes, distance)` returns those
+  /// to which light comes.
+  template <class LitLanes> VectorLanes run_in_pairs(std::uint32_t lanes, LitLanes lit_lanes) {
+    const auto test = [&](RayQuery* queries, std::uint32_t count) {
+      REQUIRE(count <= tuning::kMostAreaPackets);
+      for (std::uint32_t i = 0; i < count; ++i)
+        queries[i].lanes = lit_lanes(*queries[i].rays, queries[i].lanes, *queries[i].distance);
+    };
     return sample(lanes,
                   [&](const Surfaces<Simd>& surfaces, const IncidentLight<Simd>& incident, VectorLanes& sum) {
                     begin_sampling(spu, record, surfaces, incident, to_place, *shadow);
-                    AreaPairs<DirectSpu>(record, *grid, *shadow).sample(unoccluded);
+                    AreaPairs<DirectSpu>(record, *grid, *shadow).sample(test);
                     module_areas::dim(spu, *shadow, sum);
                   });
   }
@@ -276,10 +282,7 @@ TEST_CASE("Places are not tested in pairs where light comes tinted, or there are
   Sampling sampling(light, random);
   sampling.run(0xFFFF, [](AreaShadow<Simd>&) {});
   bool is_tinted = false;
-  const auto some = [&](const RayPacket&, std::uint32_t lanes, const FloatLanes&) {
-    is_tinted = true;
-    return lanes;
-  };
+  const auto some = [&](RayQuery*, std::uint32_t) { is_tinted = true; };
   sampling.shadow->quad = LightQuad::whole(sampling.record, 0xFFFF);
   CHECK_FALSE(AreaPairs<DirectSpu>(sampling.record, *sampling.grid, *sampling.shadow).sample(some, [&] {
     return is_tinted;

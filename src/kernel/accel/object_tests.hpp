@@ -7,6 +7,7 @@
 #include "kernel/direct/kept_crossings.hpp"
 #include "kernel/direct/recent_occluders.hpp"
 #include "kernel/direct/torus_pairs.hpp"
+#include "kernel/direct/torus_shadows.hpp"
 #include "kernel/primitives/csg.hpp"
 #include "kernel/primitives/instances_module.hpp"
 #include "kernel/primitives/list.hpp"
@@ -149,6 +150,9 @@ public:
     const uint32_t flags = object.kind_and_flags;
     if ((flags & object_flag::no_shadow) != 0) return;
     if (!kPlainTriangle.are_in(flags) || (flags & object_flag::opaque) == 0) {
+      if ((flags & (object_flag::opaque | object_flag::csg)) == object_flag::opaque &&
+          occlude_all(queries, packets, object, self))
+        return;
       for_each_lane(packets, [&](uint32_t i) {
         RayQuery& query = queries[i];
         hit_filter_.begin_packet();
@@ -164,6 +168,22 @@ public:
       const SeenTriangle<S> triangle(rays.origin.template load<S>(), sides);
       query.lanes &= ~shadow_hits(triangle.crossed(rays, self), *query.distance).near;
     }
+  }
+
+  /// The same of an opaque object whose test takes long, for those `lanes`, by packet, that may hit it.
+  void test_occlusion_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes, uint32_t self) {
+    const ObjectRecord& object = *scene_.object(self);
+    if ((object.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<TorusPrimitive> &&
+        occlude_by_torus(queries, packets, lanes, object, self))
+      return;
+    for_each_lane(packets, [&](uint32_t i) {
+      RayQuery& query = queries[i];
+      FloatLanes distance;
+      S::select(M::from_bits(lanes[i]), F::load(query.distance->lane), F(-kMaxHitDistance))
+          .store(distance.lane);
+      hit_filter_.begin_packet();
+      query.lanes &= ~occluded(*query.rays, self, query.lanes, distance, *query.light);
+    });
   }
 
   /// Removes rays from a query for light that the objects of a leaf occlude, until none of `lanes` is left.
@@ -338,6 +358,41 @@ private:
     return dark;
   }
 
+  /// Removes lanes from queries for light that an opaque object occludes which is no part of a CSG. False: it
+  /// is of a kind whose test is worth nothing more for several packets than for one.
+  bool occlude_all(RayQuery* queries, uint32_t packets, const ObjectRecord& object, uint32_t self) {
+    const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+    bool occluded = false;
+    Primitives::dispatch(kind, [&](auto shape) {
+      using Shape = decltype(shape);
+      if constexpr (has_plain_test<Shape>()) {
+        occlude_all<Shape>(queries, packets, object, self);
+        occluded = true;
+      }
+    });
+    if (occluded) counters_.tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
+    return occluded;
+  }
+  /// Of the others, planes and polygons have tests of their own, and triangles are tested elsewhere.
+  template <class Shape> static constexpr bool has_plain_test() {
+    constexpr uint32_t kKind = kPrimitiveKind<Shape>;
+    return Shape::kCrossingPairs == 1 && !Shape::kIsHeavy && kKind != kPrimitiveKind<TrianglePrimitive> &&
+           kKind != kPrimitiveKind<PlanePrimitive> && kKind != kPrimitiveKind<PolygonPrimitive>;
+  }
+  template <class Shape>
+  [[gnu::noinline, gnu::flatten]] void occlude_all(RayQuery* queries, uint32_t packets,
+                                                   const ObjectRecord& object, uint32_t self) {
+    const ExtraRecord extra = object.extra == kNoOffset ? ExtraRecord() : *scene_.extra(object.extra);
+    // A loop without a callback: what does not change from packet to packet stays in registers.
+    for (uint32_t left = packets; left != 0; left &= left - 1) {
+      RayQuery& query = queries[__builtin_ctz(left)];
+      Crossings<S> c;
+      Shape::template intersect<S>(*query.rays, object, extra, self, &c);
+      const ShadowHits shadow = shadow_hits(c, *query.distance);
+      query.lanes &= ~(shadow.near | shadow.far);
+    }
+  }
+
   /// Whether an object is a torus at which rays may wait.
   bool may_wait(uint32_t flags) const {
     constexpr uint32_t kAsked = object_flag::kind_mask | object_flag::csg | object_flag::selective;
@@ -358,17 +413,44 @@ private:
   [[gnu::noinline]] bool occluded_by_torus(const RayPacket& rays, const ObjectRecord& torus, uint32_t self,
                                            const FloatLanes& distance, uint32_t& dark) {
     const ExtraRecord& extra = *scene_.extra(torus.extra);
-    ClippedRays room;
-    const ClippedRays* clipped = nullptr;
-    if ((torus.kind_and_flags & object_flag::csg) != 0 && extra.csg != kNoOffset) {
-      if (!clip_rays(scene_, extra.csg, rays, room)) return false;
-      clipped = &room;
-    }
+    ClippingObject clipping;
+    if (!find_clipping(torus, extra, clipping)) return false;
     ++counters_.tests[kPrimitiveKind<TorusPrimitive>];
     const AskedCrossings asked = {kShadowEpsilon, &distance};
-    dark = TorusPrimitive::crossed<S>(local_rays<S>(rays, torus, self, 0, asked), F(extra.value[0]), clipped)
+    const LocalRays<S> local = local_rays<S>(rays, torus, self, 0, asked);
+    const F ratio(extra.value[0]);
+    ClippedRays clipped;
+    if (clipping.object != nullptr) clipping.template clip<S>(rays, clipped);
+    dark = TorusPrimitive::crossed<S>(TorusPrimitive::may_hit<S>(local, ratio), local, ratio,
+                                      clipping.object != nullptr ? &clipped : nullptr)
                .bits();
     return true;
+  }
+  /// The same for lanes of several packets, by packet: removes them from their queries.
+  [[gnu::noinline]] bool occlude_by_torus(RayQuery* queries, uint32_t packets, const uint32_t* lanes,
+                                          const ObjectRecord& torus, uint32_t self) {
+    const ExtraRecord& extra = *scene_.extra(torus.extra);
+    ClippingObject clipping;
+    if (!find_clipping(torus, extra, clipping)) return false;
+    uint32_t starting = 0;
+    for_each_lane(packets,
+                  [&](uint32_t i) { starting |= lanes_that_start_on<S>(*queries[i].rays, self).bits(); });
+    if (starting != 0) return false;
+    counters_.tests[kPrimitiveKind<TorusPrimitive>] += static_cast<uint32_t>(__builtin_popcount(packets));
+    TorusShadows<S> shadows(extra.value[0], clipping, queries);
+    for_each_lane(packets, [&](uint32_t i) {
+      const AskedCrossings asked = {kShadowEpsilon, queries[i].distance};
+      shadows.add(i, local_rays<S>(*queries[i].rays, torus, self, 0, asked), lanes[i]);
+    });
+    shadows.finish();
+    return true;
+  }
+  /// What clips a torus, if something does. False: what that is takes its crossings to tell.
+  bool find_clipping(const ObjectRecord& torus, const ExtraRecord& extra, ClippingObject& clipping) {
+    clipping = {nullptr, false, false};
+    if ((torus.kind_and_flags & object_flag::csg) == 0 || extra.csg == kNoOffset) return true;
+    clipping = ClippingObject::of(scene_, extra.csg);
+    return clipping.object != nullptr;
   }
 
   void test_instance(const RayPacket& rays, const ObjectRecord& record, float nearest, bool any,

@@ -83,17 +83,14 @@ public:
     bvh_.intersect_leaves(query, occluders.nodes(), occluders.node_count());
     clear_occluded(&query, 1);
   }
-  /// Those of `lanes` that cross none of the occluders, all of which are opaque: `light` stays what it is.
-  uint32_t unoccluded(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
-                      const AreaOccluders<Spu>& occluders) {
-    RayQuery query = {&rays, nullptr, &distance, &light, lanes};
-    occluders.test(objects_, query);
-    return query.lanes;
+  /// Removes lanes from queries for light that cross one of the occluders, all of which are opaque.
+  void test_occluders(RayQuery* queries, uint32_t count, const AreaOccluders<Spu>& occluders) {
+    occluders.test(objects_, queries, count);
   }
 
   /// Whether opaque objects are remembered from now on that occlude rays.
   void remember_occluders(bool remembers) { objects_.remember_occluders(remembers); }
-  /// As unoccluded(), of those that are remembered.
+  /// Those of `lanes` that cross none of the opaque objects that are remembered: `light` stays what it is.
   uint32_t unoccluded_by_recent(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
                                 VectorLanes& light) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};

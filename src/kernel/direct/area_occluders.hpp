@@ -146,29 +146,18 @@ public:
   const NodeLeaves* nodes() const { return nodes_; }
   uint32_t node_count() const { return node_count_; }
 
-  /// Removes occluded lanes from a query for the light of a place.
-  void test(ObjectTests<Spu>& tests, RayQuery& query) const {
-    using F = typename S::F;
-    tests.hit_filter().begin_packet();
-    const auto test_object = [&](uint32_t self, const FloatLanes& distance) {
-      query.lanes &= ~tests.occluded(*query.rays, self, query.lanes, distance, *query.light);
-    };
-    for (uint32_t i = 0; i < cheap_count_ && query.lanes != 0; ++i)
-      test_object(objects_[i].self, *query.distance);
-    if (first_heavy_ == kMost || query.lanes == 0) return;
-    const MixedRays<S> rays(*query.rays);
-    const F farthest = F::load(query.distance->lane);
-    for (uint32_t i = first_heavy_; i < kMost && query.lanes != 0; ++i) {
-      // Of rays that have been occluded, or miss the leaf, nothing is computed.
-      const Occluder& object = objects_[i];
-      uint32_t lanes = query.lanes;
-      if (object.node != kNoOffset)
-        lanes &= rays.hit_child(tests.scene().node(object.node)->bounds, object.child, 0.0f, farthest);
-      if (lanes == 0) continue;
-      FloatLanes distance;
-      S::select(S::M::from_bits(lanes), farthest, F(-kMaxHitDistance)).store(distance.lane);
-      test_object(object.self, distance);
+  static constexpr uint32_t kMostPackets = tuning::kMostAreaPackets;
+
+  /// Removes occluded lanes from queries for the light of places, kMostPackets at most.
+  void test(ObjectTests<Spu>& tests, RayQuery* queries, uint32_t count) const {
+    uint32_t packets = 0;
+    for (uint32_t i = 0; i < count; ++i)
+      packets |= (queries[i].lanes != 0 ? 1u : 0u) << i;
+    for (uint32_t i = 0; i < cheap_count_ && packets != 0; ++i) {
+      tests.test_occlusion_of_all(queries, packets, objects_[i].self);
+      packets = still_asking(queries, packets);
     }
+    if (first_heavy_ != kMost && packets != 0) test_heavy(tests, queries, packets);
   }
 
 private:
@@ -198,8 +187,42 @@ private:
       break;
     }
     if ((flags & object_flag::opaque) == 0 || cheap_count_ == first_heavy_) return false;
-    objects_[is_heavy(flags & object_flag::kind_mask) ? --first_heavy_ : cheap_count_++] = occluder;
+    const bool takes_long = (flags & object_flag::csg) != 0 || is_heavy(flags & object_flag::kind_mask);
+    objects_[takes_long ? --first_heavy_ : cheap_count_++] = occluder;
     return true;
+  }
+
+  static uint32_t still_asking(const RayQuery* queries, uint32_t packets) {
+    uint32_t asking = 0;
+    for_each_lane(packets, [&](uint32_t i) { asking |= (queries[i].lanes != 0 ? 1u : 0u) << i; });
+    return asking;
+  }
+  /// The same for objects whose tests take long. Of rays that have been occluded, or miss the leaf, nothing
+  /// is computed.
+  void test_heavy(ObjectTests<Spu>& tests, RayQuery* queries, uint32_t packets) const {
+    uint32_t lanes[kMost][kMostPackets]; // that hit the leaf
+    uint32_t hitting[kMost] = {};        // packets
+    for_each_lane(packets, [&](uint32_t i) {
+      const RayQuery& query = queries[i];
+      const MixedRays<S> rays(*query.rays);
+      const auto farthest = S::F::load(query.distance->lane);
+      for (uint32_t k = first_heavy_; k < kMost; ++k) {
+        const Occluder& object = objects_[k];
+        lanes[k][i] = query.lanes;
+        if (object.node != kNoOffset)
+          lanes[k][i] &=
+              rays.hit_child(tests.scene().node(object.node)->bounds, object.child, 0.0f, farthest);
+        hitting[k] |= (lanes[k][i] != 0 ? 1u : 0u) << i;
+      }
+    });
+    for (uint32_t k = first_heavy_; k < kMost; ++k) {
+      uint32_t asking = 0;
+      for_each_lane(hitting[k], [&](uint32_t i) {
+        lanes[k][i] &= queries[i].lanes;
+        asking |= (lanes[k][i] != 0 ? 1u : 0u) << i;
+      });
+      if (asking != 0) tests.test_occlusion_of_some(queries, asking, lanes[k], objects_[k].self);
+    }
   }
 
   /// False: there are too many nodes.

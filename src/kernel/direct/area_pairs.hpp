@@ -2,8 +2,8 @@
 // memory is direct.
 //
 // Of the small quads of the light's grid only few surfaces of a packet ask for a place, each for others. So
-// all that the quads of one size ask for is gathered, and pairs of a surface and a place are tested, as many
-// at a time as a vector has lanes.
+// all that the quads of one size ask for is gathered. Pairs of a surface and a place fill packets, which are
+// tested together: an object is read once for many of them, and none waits for the result of another.
 #pragma once
 
 #include "kernel/lights/area_shadow.hpp"
@@ -62,27 +62,36 @@ public:
     grid_.set(light);
     const uint32_t places = light.columns * light.rows;
     for (uint32_t i = 0; i < places; ++i)
-      places_[i] = {0, 0};
+      lit_[i] = 0;
+    for (uint32_t first = 0; first < places; first += S::kLanes) {
+      I::splat(0).store(wanted_ + first);
+      I::splat(0).store(asked_ + first);
+    }
   }
 
-  /// Finds the share of a light of which the sampling has begun. `unoccluded(rays, lanes, distance)` returns
-  /// the lanes to which all light comes; to the others none does.
-  template <class Unoccluded> void sample(const Unoccluded& unoccluded) {
-    sample(unoccluded, [] { return false; });
+  /// Finds the share of a light of which the sampling has begun. `test(queries, count)` leaves those of the
+  /// queries' lanes to which all light comes; to the others none does. There are kMostPackets at most.
+  template <class Test> void sample(const Test& test) {
+    sample(test, [] { return false; });
   }
   /// The same as long as no light comes tinted, of which `is_tinted()` says whether it did in a test. False:
   /// it did, and the share is not found.
-  template <class Unoccluded, class Tinted>
-  bool sample(const Unoccluded& unoccluded, const Tinted& is_tinted) {
+  template <class Test, class Tinted> bool sample(const Test& test, const Tinted& is_tinted) {
     F share[kCorners] = {F(0.0f), F(0.0f), F(0.0f), F(0.0f)}; // of each corner; the sums are exact
     uint32_t count = 1;
     quads_[0][0] = area_.quad;
-    for (uint32_t level = 0; count != 0; ++level) {
+    for (uint32_t level = 0; count + block_count_ != 0; ++level) {
       const LightQuad* const quads = quads_[level % 2];
       for (uint32_t i = 0; i < count; ++i)
-        ask_corners(quads[i], unoccluded);
-      if (pairs_ != 0) test_pairs(unoccluded);
+        want_corners(quads[i]);
+      for (uint32_t i = 0; i < block_count_; ++i)
+        want_between(blocks_[i]);
+      ask_wanted(test);
+      if (packet_count() != 0) test_packets(test);
       if (is_tinted()) return false;
+      for (uint32_t i = 0; i < block_count_; ++i)
+        add_block(blocks_[i], share);
+      block_count_ = 0;
       LightQuad* const quarters = quads_[(level + 1) % 2];
       uint32_t quarter_count = 0;
       for (uint32_t i = 0; i < count; ++i)
@@ -96,51 +105,62 @@ public:
 private:
   static constexpr uint32_t kCorners = AreaShadow<S>::kCorners;
   static constexpr uint32_t kMostPlaces = LightGrid::kMostPlaces;
+  static constexpr uint32_t kMostPackets = tuning::kMostAreaPackets;
+  static constexpr uint32_t kMostPairs = kMostPackets * S::kLanes;
+  static constexpr uint32_t kSlack = S::kLanes; ///< vectors are stored anywhere
 
-  /// Lanes.
-  struct Place {
-    uint16_t asked, lit;
-  };
   /// Pairs of some lanes with one place.
   struct Run {
-    Place* place;
-    uint32_t lanes, first;
+    uint32_t place, lanes, first;
   };
 
-  /// Those at the corners of a quad, in the order of their numbers.
+  /// The numbers of those at the corners of a quad, in the order of theirs.
   struct Corners {
-    Place* place[kCorners];
+    uint32_t place[kCorners];
   };
-  Corners corners_of(const LightQuad& q) {
-    Place *const top = places_ + q.top * columns_, *const bottom = places_ + q.bottom * columns_;
+  Corners corners_of(const LightQuad& q) const {
+    const uint32_t top = q.top * columns_, bottom = q.bottom * columns_;
     return {{top + q.left, top + q.right, bottom + q.left, bottom + q.right}};
   }
 
-  template <class Unoccluded> void ask_corners(const LightQuad& q, const Unoccluded& unoccluded) {
-    const Corners corners = corners_of(q);
-    for (uint32_t i = 0; i < kCorners; ++i) {
-      const uint32_t lanes = q.lanes & ~uint32_t(corners.place[i]->asked);
-      if (lanes != 0) ask(*corners.place[i], lanes, unoccluded);
+  void want_corners(const LightQuad& q) {
+    for (const uint32_t place : corners_of(q).place)
+      wanted_[place] |= q.lanes;
+  }
+  /// The same for a quad of 3 x 3 places that is divided, and has asked for its corners.
+  void want_between(const LightQuad& q) {
+    int32_t* const first = wanted_ + q.top * columns_ + q.left;
+    for (const uint32_t place : {1u, columns_, columns_ + 1, columns_ + 2, 2 * columns_ + 1})
+      first[place] |= q.lanes;
+  }
+  /// Asks for what is wanted of places and was not before.
+  template <class Test> void ask_wanted(const Test& test) {
+    const uint32_t places = columns_ * light_.rows;
+    for (uint32_t first = 0; first < places; first += S::kLanes) {
+      const I wanted = I::load(wanted_ + first), lanes = wanted ^ I::load(asked_ + first);
+      const uint32_t asking = ~(lanes == I::splat(0)).bits() & 0xFFFF;
+      if (asking == 0) continue;
+      wanted.store(asked_ + first);
+      WordLanes by_place;
+      store_words<S>(by_place, lanes);
+      for_each_lane(asking, [&](uint32_t i) { ask(first + i, by_place.lane[i], test); });
     }
   }
-  template <class Unoccluded> void ask(Place& place, uint32_t lanes, const Unoccluded& unoccluded) {
-    place.asked |= static_cast<uint16_t>(lanes);
+  template <class Test> void ask(uint32_t place, uint32_t lanes, const Test& test) {
     const auto count = static_cast<uint32_t>(__builtin_popcount(lanes));
     area_.rays_asked += count;
-    const LightGrid::Place& on_grid = grid_.at(static_cast<uint32_t>(&place - places_));
-    if (count >= tuning::kLeastSurfacesByThemselves) {
-      place.lit |= static_cast<uint16_t>(test_place(on_grid, lanes, unoccluded));
-      return;
-    }
-    S::lane_numbers(lanes).store_unaligned(lane_ + pairs_);
-    F(on_grid.column).store_unaligned(column_ + pairs_);
-    F(on_grid.row).store_unaligned(row_ + pairs_);
-    F(on_grid.jitter_x).store_unaligned(jitter_x_ + pairs_);
-    F(on_grid.jitter_y).store_unaligned(jitter_y_ + pairs_);
-    runs_[run_count_++] = {&place, lanes, pairs_};
-    pairs_ += count;
-    if (pairs_ >= S::kLanes) test_pairs(unoccluded);
+    if (pair_count_ + count > kMostPairs) test_packets(test);
+    const LightGrid::Place& on_grid = grid_.at(place);
+    S::lane_numbers(lanes).store_unaligned(lane_ + pair_count_);
+    F(on_grid.column).store_unaligned(column_ + pair_count_);
+    F(on_grid.row).store_unaligned(row_ + pair_count_);
+    F(on_grid.jitter_x).store_unaligned(jitter_x_ + pair_count_);
+    F(on_grid.jitter_y).store_unaligned(jitter_y_ + pair_count_);
+    runs_[run_count_++] = {place, lanes, pair_count_};
+    pair_count_ += count;
   }
+  static constexpr uint32_t packets_of(uint32_t pairs) { return (pairs + S::kLanes - 1) / S::kLanes; }
+  uint32_t packet_count() const { return packets_of(pair_count_); }
 
   /// LightGrid::Place, by lane.
   struct Places {
@@ -161,47 +181,49 @@ private:
     return from_place;
   }
 
-  /// Returns those of many lanes to which light comes from one place.
-  template <class Unoccluded>
-  [[gnu::noinline]] uint32_t test_place(const LightGrid::Place& place, uint32_t lanes,
-                                        const Unoccluded& unoccluded) {
-    ShadowRays& rays = *area_.to_place;
-    const V3<S> to_middle = area_.to_middle.template load<S>();
-    const IncidentLight<S> from_place =
-        aim(to_middle, {F(place.column), F(place.row), F(place.jitter_x), F(place.jitter_y)},
-            [](const F& of_lane) { return of_lane; });
-    rays.rays.direction.template store<S>(from_place.direction);
-    from_place.distance.store(rays.distance.lane);
-    return unoccluded(rays.rays, lanes, rays.distance);
+  /// Tests all that has been asked for.
+  template <class Test> [[gnu::noinline]] void test_packets(const Test& test) {
+    aim_pairs();
+    test(queries_, packet_count());
+    take_pairs();
+    run_count_ = pair_count_ = 0;
   }
-
-  /// Tests as many pairs as there are lanes, or all.
-  template <class Unoccluded> [[gnu::noinline]] void test_pairs(const Unoccluded& unoccluded) {
-    const uint32_t tested = pairs_ < S::kLanes ? pairs_ : S::kLanes;
-    const I lane = I::load(lane_);
+  void aim_pairs() {
+    // The last lanes without a pair are as good as any.
+    I::splat(0).store_unaligned(lane_ + pair_count_);
+    for (float* const numbers : {column_, row_, jitter_x_, jitter_y_})
+      F(0.0f).store_unaligned(numbers + pair_count_);
     const RayPacket& points = area_.to_place->rays;
     const V3<S> origin = points.origin.template load<S>(), middle = area_.to_middle.template load<S>();
-    const V3<S> to_middle = {S::pick(middle.x, lane), S::pick(middle.y, lane), S::pick(middle.z, lane)};
-    const IncidentLight<S> from_place =
-        aim(to_middle, {F::load(column_), F::load(row_), F::load(jitter_x_), F::load(jitter_y_)},
-            [&](const F& of_lane) { return S::pick(of_lane, lane); });
-    rays_.rays.origin.template store<S>(
-        {S::pick(origin.x, lane), S::pick(origin.y, lane), S::pick(origin.z, lane)});
-    rays_.rays.direction.template store<S>(from_place.direction);
-    store_words<S>(rays_.rays.start_object, S::pick(load_words<S>(points.start_object), lane));
-    from_place.distance.store(rays_.distance.lane);
-    const uint32_t lit = unoccluded(rays_.rays, (1u << tested) - 1, rays_.distance);
-    for (uint32_t i = 0; i < run_count_; ++i)
-      runs_[i].place->lit |= static_cast<uint16_t>(S::spread(lit >> runs_[i].first, runs_[i].lanes));
-    const Run last = runs_[run_count_ - 1];
-    run_count_ = 0;
-    pairs_ -= tested;
-    if (pairs_ == 0) return;
-    const uint32_t done = S::spread((1u << (S::kLanes - last.first)) - 1, last.lanes);
-    runs_[run_count_++] = {last.place, last.lanes & ~done, 0};
-    for (float* const numbers : {column_, row_, jitter_x_, jitter_y_})
-      F::load(numbers + S::kLanes).store(numbers);
-    I::load(lane_ + S::kLanes).store(lane_);
+    const I start_object = load_words<S>(points.start_object);
+    for (uint32_t first = 0, i = 0; first < pair_count_; first += S::kLanes, ++i) {
+      const I lane = I::load(lane_ + first);
+      const auto of_pair = [&](const V3<S>& v) -> V3<S> {
+        return {S::pick(v.x, lane), S::pick(v.y, lane), S::pick(v.z, lane)};
+      };
+      const IncidentLight<S> from_place = aim(of_pair(middle),
+                                              {F::load(column_ + first), F::load(row_ + first),
+                                               F::load(jitter_x_ + first), F::load(jitter_y_ + first)},
+                                              [&](const F& of_lane) { return S::pick(of_lane, lane); });
+      WordLanes objects;
+      store_words<S>(objects, S::pick(start_object, lane));
+      make_shadow_rays(of_pair(origin), objects, from_place, rays_[i].rays, rays_[i].distance);
+      const uint32_t left = pair_count_ - first;
+      ask_packet(i, left < S::kLanes ? (1u << left) - 1 : 0xFFFF);
+    }
+  }
+  void ask_packet(uint32_t i, uint32_t lanes) {
+    queries_[i] = {&rays_[i].rays, nullptr, &rays_[i].distance, &area_.light(), lanes};
+  }
+  /// Gives places the lanes of the pairs that are lit.
+  void take_pairs() {
+    const uint32_t last = packets_of(pair_count_);
+    for (uint32_t i = 0; i < run_count_; ++i) {
+      const Run& run = runs_[i];
+      const uint32_t packet = run.first / S::kLanes, next = packet + 1;
+      const uint32_t lit = queries_[packet].lanes | (next < last ? queries_[next].lanes << S::kLanes : 0);
+      lit_[run.place] |= static_cast<uint16_t>(S::spread(lit >> run.first % S::kLanes, run.lanes));
+    }
   }
 
   /// Adds the mean of a quad's corners where they agree, and divides it where not.
@@ -209,7 +231,7 @@ private:
     const Corners corners = corners_of(q);
     uint32_t lit[kCorners], any = 0, all = ~0u;
     for (uint32_t i = 0; i < kCorners; ++i) {
-      lit[i] = corners.place[i]->lit;
+      lit[i] = lit_[corners.place[i]];
       any |= lit[i];
       all &= lit[i];
     }
@@ -217,10 +239,33 @@ private:
     if (q.has_places_between())
       divided = q.level < light_.adaptive ? q.lanes : q.lanes & any & ~all & area_.is_visible;
     const uint32_t agreed = q.lanes & ~divided;
-    if ((agreed & any) != 0)
-      for (uint32_t i = 0; i < kCorners; ++i)
-        share[i] = S::select(S::M::from_bits(lit[i] & agreed), share[i] + F(0.25f * q.weight), share[i]);
-    if (divided != 0) q.divide(divided, push);
+    for (uint32_t i = 0; i < kCorners; ++i)
+      share[i] = S::select(S::M::from_bits(lit[i] & agreed), share[i] + F(0.25f * q.weight), share[i]);
+    if (divided == 0) return;
+    if (q.right == q.left + 2 && q.bottom == q.top + 2)
+      blocks_[block_count_++] = {q.left,  q.top,   q.right, q.bottom, static_cast<uint16_t>(divided),
+                                 q.level, q.weight};
+    else
+      q.divide(divided, push);
+  }
+  /// Adds the means of the quarters of a quad of 3 x 3 places.
+  void add_block(const LightQuad& q, F (&share)[kCorners]) const {
+    const uint16_t* const first = lit_ + q.top * columns_ + q.left;
+    const float weight = 0.0625f * q.weight;
+    const auto add = [&](uint32_t to, uint32_t place, float times) {
+      const auto lit = S::M::from_bits(first[place] & q.lanes);
+      share[to] = S::select(lit, share[to] + F(times * weight), share[to]);
+    };
+    const uint32_t second = columns_, third = 2 * columns_;
+    add(0, 0, 1.0f);
+    add(1, 1, 2.0f);
+    add(2, 2, 1.0f);
+    add(3, second, 2.0f);
+    add(0, second + 1, 4.0f);
+    add(1, second + 2, 2.0f);
+    add(2, third, 1.0f);
+    add(3, third + 1, 2.0f);
+    add(2, third + 2, 1.0f);
   }
 
   bool is_jittered() const { return (light_.kind_and_flags & light_flag::jitter) != 0; }
@@ -229,15 +274,21 @@ private:
   AreaShadow<S>& area_;
   LightGrid& grid_;
   const uint32_t columns_;
-  Place places_[kMostPlaces];
-  LightQuad quads_[2][kMostPlaces]; ///< of a size each by turns: never more than 256
-  // Pairs that are to be tested: of which places, and by pair its lane and where the place is.
-  Run runs_[2 * S::kLanes];
-  uint32_t run_count_ = 0, pairs_ = 0;
-  alignas(64) int32_t lane_[2 * S::kLanes] = {};
-  alignas(64) float column_[2 * S::kLanes] = {}, row_[2 * S::kLanes] = {};
-  alignas(64) float jitter_x_[2 * S::kLanes] = {}, jitter_y_[2 * S::kLanes] = {};
-  ShadowRays rays_;
+  // Lanes, by place: those that want to know of it, have asked, and are lit. A few more places are none.
+  alignas(64) int32_t wanted_[kMostPlaces + kSlack], asked_[kMostPlaces + kSlack];
+  uint16_t lit_[kMostPlaces];
+  LightQuad quads_[2][kMostPlaces];   ///< of a size each by turns: never more than 256
+  LightQuad blocks_[kMostPlaces / 4]; ///< of 3 x 3 places that are to be divided
+  uint32_t block_count_ = 0;
+  // What is to be tested: many lanes with a place each; pairs of which places, and by pair its lane and where
+  // the place is.
+  Run runs_[kMostPackets * S::kLanes];
+  uint32_t run_count_ = 0, pair_count_ = 0;
+  alignas(64) int32_t lane_[kMostPairs + kSlack];
+  alignas(64) float column_[kMostPairs + kSlack], row_[kMostPairs + kSlack];
+  alignas(64) float jitter_x_[kMostPairs + kSlack], jitter_y_[kMostPairs + kSlack];
+  ShadowRays rays_[kMostPackets];
+  RayQuery queries_[kMostPackets];
 };
 
 /// Says where it is tried to sample an area in pairs, which is in vain if light comes tinted: not for some

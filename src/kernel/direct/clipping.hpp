@@ -42,22 +42,29 @@ template <class S> SlabInterval<S> interval_in_half_space(const RayPacket& rays,
   return {S::select(goes_out, F(-kEveryCrossing), at), S::select(goes_out, at, F(kEveryCrossing))};
 }
 
-/// Finds where rays are in a clipping solid. False: it is none of those for which this is fast.
-template <class Spu>
-bool clip_rays(SceneAccess<Spu>& scene, uint32_t condition, const RayPacket& rays, ClippedRays& clipped) {
-  using S = typename Spu::simd;
-  const ClippingSolid clipping = ClippingSolid::of(scene, condition);
-  if (clipping.solid == kNoOffset) return false;
-  const ObjectRecord& object = scene.solid(clipping.solid)->object;
-  const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-  const bool is_box = kind == kPrimitiveKind<BoxPrimitive>;
-  if (!is_box && kind != kPrimitiveKind<PlanePrimitive>) return false;
-  const SlabInterval<S> inside =
-      is_box ? interval_in_box<S>(rays, object) : interval_in_half_space<S>(rays, object);
-  clipped.keeps_inside = clipping.keeps_inside;
-  inside.enter.store(clipped.enter.lane);
-  inside.leave.store(clipped.leave.lane);
-  return true;
-}
+/// A clipping solid of those for which it is fast to find where rays are in it: a box, or a plane.
+struct ClippingObject {
+  const ObjectRecord* object; ///< null: it is none of those
+  bool is_box, keeps_inside;
+
+  template <class Spu> static ClippingObject of(SceneAccess<Spu>& scene, uint32_t condition) {
+    constexpr ClippingObject kNone = {nullptr, false, false};
+    const ClippingSolid clipping = ClippingSolid::of(scene, condition);
+    if (clipping.solid == kNoOffset) return kNone;
+    const ObjectRecord& object = scene.solid(clipping.solid)->object;
+    const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+    const bool is_box = kind == kPrimitiveKind<BoxPrimitive>;
+    if (!is_box && kind != kPrimitiveKind<PlanePrimitive>) return kNone;
+    return {&object, is_box, clipping.keeps_inside};
+  }
+
+  template <class S> void clip(const RayPacket& rays, ClippedRays& clipped) const {
+    const SlabInterval<S> inside =
+        is_box ? interval_in_box<S>(rays, *object) : interval_in_half_space<S>(rays, *object);
+    clipped.keeps_inside = keeps_inside;
+    inside.enter.store(clipped.enter.lane);
+    inside.leave.store(clipped.leave.lane);
+  }
+};
 
 } // namespace celltrace::kernel

@@ -29,8 +29,8 @@ template <class Spu> constexpr bool kTestsWholeLeaves = Spu::direct_memory;
 template <class Spu> constexpr bool kHasBundleViews = Spu::direct_memory;
 
 /// Before the places of a light with an area are looked at, the objects that may be in the way are gathered
-/// (AreaOccluders); if they are too many, those are remembered that are (RecentOccluders). Rays from few
-/// surfaces to a place are tested with those to others (AreaPairs).
+/// (AreaOccluders); if they are too many, those are remembered that are (RecentOccluders). Rays from surfaces
+/// to a place fill packets with those to others (AreaPairs).
 template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 
 /// Where shadow rays would be walked (ShadowWalk), one traversal finds all that they cross (KeptCrossings).

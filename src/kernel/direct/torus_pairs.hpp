@@ -95,7 +95,7 @@ private:
     const bool start_elsewhere = start_here_ == 0;
     start_here_ = 0;
     if (shadows && start_elsewhere)
-      return occlude(TorusPrimitive::crossed<S>(rays, ratio, nullptr).bits() & all);
+      return occlude(TorusPrimitive::crossed<S>(M::from_bits(all), rays, ratio, nullptr).bits());
     Crossings<S> crossings[TorusPrimitive::kCrossingPairs];
     TorusPrimitive::intersect_local<S>(rays, {ratio, F(0.0f), M::none()}, crossings);
     F at(kEveryCrossing);

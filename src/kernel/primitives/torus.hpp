@@ -73,14 +73,14 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     }
   }
 
-  /// The rays that cross a torus farther than `rays.asked->enough`, and nearer than its limit by
-  /// kShadowEpsilon, where `clipped` keeps crossings (nullptr: everywhere). None of them starts on it.
+  /// Those of the rays `wanted`, which may hit it, that cross a torus farther than `rays.asked->enough`, and
+  /// nearer than its limit by kShadowEpsilon, where `clipped` keeps crossings (nullptr: everywhere). None of
+  /// them starts on it.
   template <class S>
-  static typename S::M crossed(const LocalRays<S>& rays, const typename S::F& ratio,
-                               const ClippedRays* clipped) {
+  static typename S::M crossed(const typename S::M& wanted, const LocalRays<S>& rays,
+                               const typename S::F& ratio, const ClippedRays* clipped) {
     using F = typename S::F;
     using Stretch = typename Quartic<S>::Stretch;
-    const auto wanted = may_hit<S>(rays, ratio);
     if (wanted.bits() == 0) return wanted;
     const FromCentre<S> from_centre(rays);
     const Quartic<S> f(from_centre, ratio);
@@ -92,6 +92,38 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     if (clipped->keeps_inside) return f.crosses(wanted, {Stretch{S::max(first, enter), S::min(last, leave)}});
     // Of rays that miss the solid, both stretches overlap.
     return f.crosses(wanted, {Stretch{first, S::min(last, enter)}, Stretch{S::max(first, leave), last}});
+  }
+
+  /// Some of those, at little cost: rays that are within the torus where they cross its plane, and were
+  /// outside of it before. Not those of which rounding might decide.
+  template <class S>
+  static typename S::M crossed_in_plane(const LocalRays<S>& rays, const typename S::F& ratio,
+                                        const ClippedRays* clipped) {
+    using F = typename S::F;
+    const V3<S>&o = rays.origin, &d = rays.direction;
+    const F margin(1e-3f), one(1.0f), zero(0.0f);
+    const F t = -o.z * finite_inverse<S>(d.z);
+    const F first(rays.asked->enough);
+    F begin = first;
+    auto counts = t < F::load(rays.asked->limit->lane) - F(kShadowEpsilon);
+    if (clipped != nullptr) {
+      const F enter = F::load(clipped->enter.lane), leave = F::load(clipped->leave.lane);
+      if (clipped->keeps_inside) {
+        begin = S::max(first, enter);
+        counts = counts & (t < leave);
+      } else {
+        const auto is_behind = t > leave;
+        begin = S::select(is_behind, S::max(first, leave), first);
+        counts = counts & (is_behind | (t < enter));
+      }
+    }
+    counts = counts & (t > begin);
+    const F x = o.x + d.x * t, y = o.y + d.y * t, square = x * x + y * y;
+    const F hole = S::max(one - ratio + margin, zero), outer = one + ratio - margin;
+    counts = counts & (square > hole * hole) & (square < outer * outer) & (outer > hole);
+    const V3<S> p = o + d * begin;
+    const F g = dot<S>(p, p) + one - ratio * ratio;
+    return counts & (g * g * (one - margin) > F(4.0f) * (p.x * p.x + p.y * p.y));
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {

@@ -247,14 +247,18 @@ private:
         if (occluders.are_none())
           return colour.template store<S>(
               select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
-        const auto unoccluded = [&](const RayPacket& rays, uint32_t some, const FloatLanes& distance) {
-          return traversal_.unoccluded(rays, some, distance, area.light(), occluders);
+        const auto test = [&](RayQuery* queries, uint32_t count) {
+          traversal_.test_occluders(queries, count, occluders);
         };
         if (AreaPairs<Spu>::can_sample(light)) {
-          AreaPairs<Spu>(light, grid_, area).sample(unoccluded);
+          AreaPairs<Spu>(light, grid_, area).sample(test);
         } else {
-          while (next_place(scene_.spu(), light, area))
-            answer(area, unoccluded(area.to_place->rays, area.lanes, area.to_place->distance));
+          while (next_place(scene_.spu(), light, area)) {
+            RayQuery query = {&area.to_place->rays, nullptr, &area.to_place->distance, &area.light(),
+                              area.lanes};
+            test(&query, 1);
+            answer(area, query.lanes);
+          }
         }
         return take_area_light(colour);
       }
@@ -296,17 +300,22 @@ private:
     if (!AreaPairs<Spu>::can_sample(light) || !tints_.are_unlikely()) return false;
     const F one(1.0f), zero(0.0f);
     uint32_t tinted = 0;
-    const auto unoccluded = [&](const RayPacket& rays, uint32_t lanes, const FloatLanes& distance) {
-      area.light().template store<S>({one, one, one});
-      if (!trace(rays, lanes, distance, area.light())) return 0u;
-      const V3<S> came = area.light().template load<S>();
-      const uint32_t lit = ((came.x == one) & (came.y == one) & (came.z == one)).bits();
-      const uint32_t dark = ((came.x == zero) & (came.y == zero) & (came.z == zero)).bits();
-      tinted |= lanes & ~(lit | dark);
-      return lanes & lit;
+    const auto test = [&](RayQuery* queries, uint32_t count) {
+      for (uint32_t i = 0; i < count; ++i) {
+        RayQuery& query = queries[i];
+        const uint32_t lanes = query.lanes;
+        area.light().template store<S>({one, one, one});
+        query.lanes = 0;
+        if (!trace(*query.rays, lanes, *query.distance, area.light())) continue;
+        const V3<S> came = area.light().template load<S>();
+        const uint32_t lit = ((came.x == one) & (came.y == one) & (came.z == one)).bits();
+        const uint32_t dark = ((came.x == zero) & (came.y == zero) & (came.z == zero)).bits();
+        tinted |= lanes & ~(lit | dark);
+        query.lanes = lanes & lit;
+      }
     };
     const uint32_t asked = area.rays_asked;
-    const bool found = AreaPairs<Spu>(light, grid_, area).sample(unoccluded, [&] { return tinted != 0; });
+    const bool found = AreaPairs<Spu>(light, grid_, area).sample(test, [&] { return tinted != 0; });
     tints_.count(!found);
     if (found) return true;
     area.rays_asked = asked;
