@@ -1,6 +1,7 @@
 // Less light off the axis of a beam and far away. The formulas are POV-Ray's. Kernel dialect.
 #pragma once
 
+#include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
 #include "kernel/records.hpp"
 
@@ -21,9 +22,13 @@ template <class S> typename S::F beam_share(const LightRecord& light, const type
 
 /// The share of the light at the distance of fading that there is at `distance`. It is negative where an odd
 /// power of a negative distance is below -1.
-template <class S> typename S::F fade_share(const LightRecord& light, const typename S::F& distance) {
+template <class Spu>
+typename Spu::simd::F fade_share(const LightRecord& light, const typename Spu::simd::F& distance) {
+  using S = typename Spu::simd;
   using F = typename S::F;
   const F ratio = distance * F(light.inverse_fade_distance), one(1.0f);
+  if constexpr (kHasRoomForCode<Spu>)
+    if (light.fade_power == 2.0f) return F(2.0f) / (one + ratio * ratio);
   const F behind = S::select(ratio < F(0.0f), F(light.fade_behind), one);
   return F(2.0f) / (one + pow<S>(S::abs(ratio), F(light.fade_power)) * behind);
 }

@@ -53,7 +53,7 @@ CELLTRACE_ONE_COPY void attenuate(SceneAccess<Spu>& scene, const LightRecord& li
     if constexpr (Kind::kIsBeam) share = beam_share<S>(light, Kind::template way_off<S>(light, s, incident));
   });
   if ((light.kind_and_flags & light_flag::fades) != 0)
-    share = share * fade_share<S>(light, incident.distance);
+    share = share * fade_share<Spu>(light, incident.distance);
   incident.distance = S::max(incident.distance, F(0.0f));
   incident.colour = incident.colour * share;
   incident.facing &= (S::abs(share) > F(kLeastShare)).bits();
