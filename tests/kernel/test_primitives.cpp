@@ -379,13 +379,34 @@ TEST_CASE("Tori that a box or a plane clips occlude rays where these cross them 
   CHECK(clipped > times(100));
 }
 
-TEST_CASE("Several packets lose the lanes to an object that each of them loses by itself") {
+namespace {
+
+/// Rays to one of a scene's objects, some of which start on an object, and some in the plane of the top of
+/// the box from -1 to 1 and along it.
+RayPacket rays_in(const Scene& scene, std::uint32_t start, Random& random) {
+  RayPacket rays = rays_to(scene.objects[random.below(scene.objects.size())].transform, 1.2, random);
+  const bool some_start = random.below(2) == 0;
+  for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+    rays.start_object.lane[lane] = some_start && random.below(8) == 0 ? start : 0;
+    if (random.below(8) != 0) continue;
+    rays.origin.y.lane[lane] = 1;
+    rays.direction.y.lane[lane] = 0;
+  }
+  return rays;
+}
+
+} // namespace
+
+TEST_CASE("Several packets against an object have the hits and shadows of each of them by itself") {
   constexpr std::uint32_t kPackets = 16;
   Random random(163);
-  int occluded = 0, off = 0;
+  int hits = 0, occluded = 0, off = 0;
   for (int round = 0; round < times(100); ++round) {
     Scene scene = with_clipped(a_torus(random), random);
     scene.objects.push_back(a_torus(random));
+    Object box;
+    box.shape = Box{Vec3(-1), Vec3(1)};
+    scene.objects.push_back(box);
     for (const Subject& subject : subjects()) {
       scene.objects.push_back(subject.object);
       scene.objects.back().transform = random_transform(random);
@@ -396,31 +417,55 @@ TEST_CASE("Several packets lose the lanes to an object that each of them loses b
     const auto tests = std::make_unique<ObjectTests<DirectSpu>>(access);
     for (std::uint32_t i = 0; i < prepared.object_count(); ++i) {
       const std::uint32_t self = prepared.object_offset(i);
+      const ObjectRecord& object = prepared.object(i);
+      const std::uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+      const bool is_plain = (object.kind_and_flags & object_flag::csg) == 0 && !is_heavy(kind) &&
+                            kind != kPrimitiveKind<PlanePrimitive>;
+      ExtraRecord extra = {};
+      if (object.extra != kNoOffset) extra = prepared.record<ExtraRecord>(object.extra);
       RayPacket rays[kPackets];
       FloatLanes distance[kPackets];
       VectorLanes light;
-      RayQuery all[kPackets], some[kPackets];
-      std::uint32_t lanes[kPackets], packets = 0, expected[kPackets];
+      HitPacket found[kPackets], expected[kPackets];
+      RayQuery closest[kPackets], all[kPackets], some[kPackets];
+      std::uint32_t lanes[kPackets], packets = 0, dark[kPackets];
       for (std::uint32_t k = 0; k < kPackets; ++k) {
-        rays[k] = rays_to(scene.objects[random.below(scene.objects.size())].transform, 1.2, random);
-        for (unsigned l = 0; l < kSimdLanes; ++l) {
-          distance[k].lane[l] = static_cast<float>(random.uniform(0.5, 6));
-          rays[k].start_object.lane[l] =
-              static_cast<std::int32_t>(random.below(8) == 0 && k % 2 == 0 ? self : 0);
-        }
+        rays[k] = rays_in(scene, self, random);
+        for (float& far : distance[k].lane)
+          far = static_cast<float>(random.uniform(0.5, 6));
         lanes[k] = random.word() & 0xFFFF;
         packets |= (random.below(4) != 0 && lanes[k] != 0 ? 1u : 0u) << k;
+        expected[k] = {};
+        expected[k].distance = distance[k];
+        found[k] = expected[k];
+        closest[k] = {&rays[k], &found[k], nullptr, nullptr, 0xFFFF};
         all[k] = some[k] = {&rays[k], nullptr, &distance[k], &light, 0xFFFF};
-        tests->hit_filter().begin_packet();
-        expected[k] = tests->occluded(rays[k], self, 0xFFFF, distance[k], light);
+        if (is_plain) {
+          Crossings<Simd> c[kMaxCrossingPairs];
+          module_shapes::intersect(spu, rays[k], object, extra, self, c);
+          keep_closest<Simd>(c[0], self, expected[k]);
+          const auto shadow = ObjectTests<DirectSpu>::shadow_hits(c[0], distance[k]);
+          dark[k] = shadow.near | shadow.far;
+        } else {
+          tests->test_closest(rays[k], self, expected[k]);
+          tests->hit_filter().begin_packet();
+          dark[k] = tests->occluded(rays[k], self, 0xFFFF, distance[k], light);
+        }
       }
       if (packets == 0) continue;
+      tests->test_closest_of_all(closest, packets, self);
       tests->test_occlusion_of_all(all, packets, self);
       tests->test_occlusion_of_some(some, packets, lanes, self);
       for (std::uint32_t k = 0; k < kPackets; ++k) {
         const bool asked = (packets >> k & 1) != 0;
-        REQUIRE((~all[k].lanes & 0xFFFF) == (asked ? expected[k] : 0));
-        const std::uint32_t lost = asked ? expected[k] & lanes[k] : 0;
+        for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+          const bool is_hit = asked && expected[k].object.lane[lane] == self;
+          REQUIRE((found[k].object.lane[lane] == self) == is_hit);
+          REQUIRE(found[k].distance.lane[lane] == (asked ? expected : found)[k].distance.lane[lane]);
+          hits += is_hit;
+        }
+        REQUIRE((~all[k].lanes & 0xFFFF) == (asked ? dark[k] : 0));
+        const std::uint32_t lost = asked ? dark[k] & lanes[k] : 0;
         off += __builtin_popcount((~some[k].lanes & 0xFFFF) ^ lost);
         occluded += __builtin_popcount(lost);
       }
@@ -429,6 +474,7 @@ TEST_CASE("Several packets lose the lanes to an object that each of them loses b
   // Of tori, rounding may decide otherwise near their surface.
   CHECK(off <= occluded / 10000);
   CHECK(occluded > times(5000));
+  CHECK(hits > times(5000));
 }
 
 TEST_CASE("Rays that start on a shape do not cross it there") {

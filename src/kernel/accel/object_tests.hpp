@@ -85,10 +85,11 @@ public:
   }
 
   /// The same for several packets.
-  void test_closest_of_all(const RayQuery* queries, uint32_t packets, uint32_t self) {
+  void test_closest_of_all(RayQuery* queries, uint32_t packets, uint32_t self) {
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
     if (!kPlainTriangle.are_in(object.kind_and_flags)) {
+      if (test_plain(queries, packets, object, self)) return;
       for_each_lane(packets, [&](uint32_t i) { test_closest(*queries[i].rays, self, *queries[i].hits); });
       return;
     }
@@ -150,9 +151,7 @@ public:
     const uint32_t flags = object.kind_and_flags;
     if ((flags & object_flag::no_shadow) != 0) return;
     if (!kPlainTriangle.are_in(flags) || (flags & object_flag::opaque) == 0) {
-      if ((flags & (object_flag::opaque | object_flag::csg)) == object_flag::opaque &&
-          occlude_all(queries, packets, object, self))
-        return;
+      if ((flags & object_flag::opaque) != 0 && test_plain(queries, packets, object, self)) return;
       for_each_lane(packets, [&](uint32_t i) {
         RayQuery& query = queries[i];
         hit_filter_.begin_packet();
@@ -307,6 +306,10 @@ private:
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags;
     if (is_instance(flags)) return test_instance(rays, record, kMinHitDistance, false, hits);
+    if constexpr (kHasRoomForCode<Spu>) {
+      RayQuery query = {&rays, &hits, nullptr, nullptr, 0xFFFF};
+      if (test_plain(&query, 1, record, self)) return;
+    }
     if constexpr (kGathersTorusPairs<Spu>)
       if (may_wait(flags) && torus_waits(rays, record, self, hits.distance)) return;
     const uint32_t blind = blind_lanes(flags, reflected_);
@@ -336,6 +339,10 @@ private:
     if (is_instance(flags))
       return occluded_by_instance(rays, record, segment.enter != nullptr ? 0xFFFF : lanes, distance);
     const bool is_opaque = (flags & object_flag::opaque) != 0;
+    if constexpr (kHasRoomForCode<Spu>) {
+      RayQuery query = {&rays, nullptr, &distance, &light, 0xFFFF};
+      if (is_opaque && test_plain(&query, 1, record, self)) return ~query.lanes & 0xFFFF;
+    }
     if constexpr (kGathersTorusPairs<Spu>)
       if (is_opaque && may_wait(flags) && torus_waits(rays, record, self, distance)) return 0;
     if constexpr (kHasRoomForCode<Spu>)
@@ -358,38 +365,48 @@ private:
     return dark;
   }
 
-  /// Removes lanes from queries for light that an opaque object occludes which is no part of a CSG. False: it
-  /// is of a kind whose test is worth nothing more for several packets than for one.
-  bool occlude_all(RayQuery* queries, uint32_t packets, const ObjectRecord& object, uint32_t self) {
+  /// Tests an object of a kind whose crossings are one pair, and that no further record changes, against
+  /// several packets: keeps their closest hits, or removes the lanes that it occludes from queries for light,
+  /// if it is opaque. False: it is not of such a kind.
+  bool test_plain(RayQuery* queries, uint32_t packets, const ObjectRecord& object, uint32_t self) {
+    if ((object.kind_and_flags & (object_flag::csg | object_flag::selective)) != 0) return false;
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-    bool occluded = false;
+    bool tested = false;
     Primitives::dispatch(kind, [&](auto shape) {
       using Shape = decltype(shape);
-      if constexpr (has_plain_test<Shape>()) {
-        occlude_all<Shape>(queries, packets, object, self);
-        occluded = true;
+      if constexpr (is_plain<Shape>()) {
+        if (queries[__builtin_ctz(packets)].hits != nullptr)
+          test_all<Shape, true>(queries, packets, object, self);
+        else
+          test_all<Shape, false>(queries, packets, object, self);
+        tested = true;
       }
     });
-    if (occluded) counters_.tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
-    return occluded;
+    if (tested) counters_.tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
+    return tested;
   }
-  /// Of the others, planes and polygons have tests of their own, and triangles are tested elsewhere.
-  template <class Shape> static constexpr bool has_plain_test() {
+  /// Planes and polygons have tests of their own, and triangles are tested elsewhere.
+  template <class Shape> static constexpr bool is_plain() {
     constexpr uint32_t kKind = kPrimitiveKind<Shape>;
     return Shape::kCrossingPairs == 1 && !Shape::kIsHeavy && kKind != kPrimitiveKind<TrianglePrimitive> &&
            kKind != kPrimitiveKind<PlanePrimitive> && kKind != kPrimitiveKind<PolygonPrimitive>;
   }
-  template <class Shape>
-  [[gnu::noinline, gnu::flatten]] void occlude_all(RayQuery* queries, uint32_t packets,
-                                                   const ObjectRecord& object, uint32_t self) {
+  /// Flattened: otherwise the test of a shape would be inlined nowhere.
+  template <class Shape, bool kForHits>
+  [[gnu::noinline, gnu::flatten]] void test_all(RayQuery* queries, uint32_t packets,
+                                                const ObjectRecord& object, uint32_t self) {
     const ExtraRecord extra = object.extra == kNoOffset ? ExtraRecord() : *scene_.extra(object.extra);
     // A loop without a callback: what does not change from packet to packet stays in registers.
     for (uint32_t left = packets; left != 0; left &= left - 1) {
       RayQuery& query = queries[__builtin_ctz(left)];
       Crossings<S> c;
-      Shape::template intersect<S>(*query.rays, object, extra, self, &c);
-      const ShadowHits shadow = shadow_hits(c, *query.distance);
-      query.lanes &= ~(shadow.near | shadow.far);
+      module_shapes::intersect_shape<Spu, Shape>(*query.rays, object, extra, self, &c);
+      if constexpr (kForHits) {
+        keep_closest<S>(c, self, *query.hits);
+      } else {
+        const ShadowHits shadow = shadow_hits(c, *query.distance);
+        query.lanes &= ~(shadow.near | shadow.far);
+      }
     }
   }
 

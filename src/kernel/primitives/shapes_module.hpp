@@ -182,6 +182,22 @@ CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLane
 
 namespace module_shapes {
 
+/// The crossings of rays in the space of a shape that is not heavy.
+template <class Spu, class Shape>
+[[gnu::always_inline]] inline void intersect_local(const LocalRays<typename Spu::simd>& rays,
+                                                   const LocalParameters<typename Spu::simd>& parameters,
+                                                   Crossings<typename Spu::simd>* crossings) {
+  using S = typename Spu::simd;
+  if constexpr (kHasRoomForCode<Spu> && Shape::kHasFaces) {
+    // As in POV-Ray, a ray in the plane of a face is inside of it; rounding moves it off.
+    LocalRays<S> inside = rays;
+    inside.origin = Shape::template off_parallel_faces<S>(rays.origin, rays.direction, 1e-6f);
+    Shape::template intersect_local<S>(inside, parameters, crossings);
+  } else {
+    Shape::template intersect_local<S>(rays, parameters, crossings);
+  }
+}
+
 /// The crossings of a packet with an object; returns how many pairs. Rays are transformed in one place for
 /// all shapes that want it: local store is short.
 template <class Spu>
@@ -204,18 +220,23 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
   Primitives::dispatch(kind, [&](auto shape) {
     using Shape = decltype(shape);
     pairs = Shape::kCrossingPairs;
-    if constexpr (Shape::kIsLocal && !Shape::kIsHeavy) {
-      if constexpr (kHasRoomForCode<Spu> && Shape::kHasFaces) {
-        // As in POV-Ray, a ray in the plane of a face is inside of it; rounding moves it off.
-        LocalRays<S> inside = local;
-        inside.origin = Shape::template off_parallel_faces<S>(local.origin, local.direction, 1e-6f);
-        Shape::template intersect_local<S>(inside, parameters, crossings);
-      } else {
-        Shape::template intersect_local<S>(local, parameters, crossings);
-      }
-    }
+    if constexpr (Shape::kIsLocal && !Shape::kIsHeavy)
+      intersect_local<Spu, Shape>(local, parameters, crossings);
   });
   return pairs;
+}
+
+/// The same of a shape that is known, where there is room for code.
+template <class Spu, class Shape>
+[[gnu::always_inline]] inline void intersect_shape(const RayPacket& rays, const ObjectRecord& object,
+                                                   const ExtraRecord& extra, uint32_t self,
+                                                   Crossings<typename Spu::simd>* crossings) {
+  using S = typename Spu::simd;
+  if constexpr (Shape::kIsLocal)
+    intersect_local<Spu, Shape>(local_rays<S>(rays, object, self), local_parameters<S>(object, extra),
+                                crossings);
+  else
+    Shape::template intersect<S>(rays, object, extra, self, crossings);
 }
 
 /// Which of the points are in a solid whose points are not heavy.
