@@ -130,7 +130,8 @@ private:
   /// The same for a quad of 3 x 3 places that is divided, and has asked for its corners.
   void want_between(const LightQuad& q) {
     int32_t* const first = wanted_ + q.top * columns_ + q.left;
-    for (const uint32_t place : {1u, columns_, columns_ + 1, columns_ + 2, 2 * columns_ + 1})
+    const uint32_t places[] = {1, columns_, columns_ + 1, columns_ + 2, 2 * columns_ + 1};
+    for (const uint32_t place : places)
       first[place] |= q.lanes;
   }
   /// Asks for what is wanted of places and was not before.
