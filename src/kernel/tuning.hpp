@@ -154,9 +154,14 @@ constexpr uint32_t kMostAreaPackets = 16;
 
 // --- patterns ---
 
-/// Up to so many lanes of a packet that are in one cell of crackle are compared with the points around that
-/// cell one lane after the other, all points at once; more lanes one point after the other. 'trace time' of
-/// scenes with crackle near by and as far as the horizon.
+/// The points around up to so many cells of crackle are gathered for a packet cell by cell; if its points are in
+/// more, each lane is compared with the points around its own cell. 'trace time' of scenes with crackle near by
+/// and as far as the horizon.
+constexpr uint32_t kMostCellsOfFeatures = 2;
+/// The same where points that were gathered are kept for points beside these.
+constexpr uint32_t kMostCellsInCache = 8;
+/// Up to so many lanes in one of these cells are compared with the points around it one lane after the other,
+/// all points at once; more lanes one point after the other.
 constexpr int kMostLanesByFeatures = 6;
 
 // --- building the BVH ---

@@ -219,6 +219,31 @@ TEST_CASE("Random points, waves, generator 3 and fractals are POV-Ray's") {
   }
 }
 
+TEST_CASE("Crackle has the same values where lanes are in one cell and where each is in another") {
+  const pattern::Crackle kinds[] = {{},
+                                    {{1, 0, 0}},
+                                    {{-1, 0.5, 0.3}},
+                                    {{0, 1, 0}, 1},
+                                    {{1, -1, 1}, 1},
+                                    {{1, 0, 0}, 3},
+                                    {{-1, 1, 0}, 2, 0, true}};
+  Random random(95);
+  for (const pattern::Crackle& kind : kinds) {
+    INFO("form " << kind.form[0] << ' ' << kind.form[1] << ' ' << kind.form[2] << " metric " << kind.metric);
+    Pattern pattern;
+    pattern.kind = kind;
+    for (const double reach : {1.5, 40.0})
+      for (int k = 0; k < 25; ++k) {
+        const VectorLanes points = points_of([&](unsigned) { return random.point(reach); });
+        const FloatLanes found = values(pattern, points);
+        for (unsigned l = 0; l < kSimdLanes; ++l) {
+          const FloatLanes alone = values(pattern, points_of([&](unsigned) { return test::at(points, l); }));
+          REQUIRE(found.lane[l] == alone.lane[l]);
+        }
+      }
+  }
+}
+
 TEST_CASE("Noise is POV-Ray's") {
   const VectorLanes points = measured_points();
   const FloatLanes first = values(noise_of_generator(1), points),

@@ -71,6 +71,12 @@ template <class T> struct GenericBatch {
     return result;
   }
   static GenericBatch load_aligned(const T* lanes) { return load_unaligned(lanes); }
+  static GenericBatch gather(const T* table, const GenericBatch<int32_t>& indices) {
+    GenericBatch result;
+    for (int i = 0; i < 4; ++i)
+      result.data[i] = table[indices.data[i]];
+    return result;
+  }
   void store_aligned(T* lanes) const { std::memcpy(lanes, &data, sizeof data); }
 
   Bits bits() const { return reinterpret_cast<Bits>(data); }

@@ -244,6 +244,12 @@ template <class Arch> struct HostSimd {
         r.part[i] = IntBatch::load_aligned(lanes + i * kWidth);
       return r;
     }
+    static I gather(const int32_t* table, const I& indices) {
+      I r;
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = IntBatch::gather(table, indices.part[i]);
+      return r;
+    }
     void store(int32_t* lanes) const {
       for (uint32_t i = 0; i < kParts; ++i)
         part[i].store_aligned(lanes + i * kWidth);

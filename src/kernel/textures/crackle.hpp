@@ -3,7 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
-#include "kernel/direct/feature_neighbours.hpp"
+#include "kernel/direct/neighbours_of_lanes.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/textures/features.hpp"
 #include "kernel/textures/pattern_traits.hpp"
@@ -48,9 +48,13 @@ struct CracklePattern : RarePattern {
     Nearest<S> nearest = {{far, far, far}, p};
     Features<Spu> features(scene, features_of(r));
     const float metric = r.parameter[3];
+    // The inner cells first: most of the others are then too far away.
+    if constexpr (kHasRoomForCode<Spu>)
+      if (take_inner_of_lanes(features, p, metric, wanted, nearest) &&
+          reaches_no_further<S>(nearest.power[wanted.last], S::M::all(), metric))
+        return nearest;
     for_each_cell_of<S>(p, [&](uint32_t lanes, const uint32_t(&cell)[3], const V3<S>& from) {
       const auto here = S::M::from_bits(lanes);
-      // The inner cells first: most of the others are then too far away.
       if constexpr (kHasRoomForCode<Spu>) {
         take_inner(features, cell, from, p, lanes, metric, wanted, nearest);
         if (reaches_no_further<S>(nearest.power[wanted.last], here, metric)) return;
@@ -84,12 +88,13 @@ struct CracklePattern : RarePattern {
   }
 
 private:
-  /// The points of the inner cells, for lanes that are all in one cell.
+  /// The points of the inner cells, for lanes that are all in one cell, unless they have been taken before.
   template <class Spu, class S>
   CELLTRACE_ONE_COPY static void take_inner(Features<Spu>& features, const uint32_t (&cell)[3],
                                             const V3<S>& from, const V3<S>& p, uint32_t lanes, float metric,
                                             const Wanted& wanted, Nearest<S>& nearest) {
     using F = typename S::F;
+    if ((S::M::from_bits(lanes) & (nearest.power[0] < F(1e30f))).bits() != 0) return;
     FeatureNeighbours<S> room;
     const FeatureNeighbours<S>& neighbours = features.neighbours_of(cell, room);
     const bool is_simple = metric == 1.0f || metric == 2.0f;
@@ -124,6 +129,71 @@ private:
         nearest.power[i] = S::select(here, F(found.power[i]), nearest.power[i]);
       nearest.point = select<S>(here, p + splat3<S>(found.way), nearest.point);
     });
+  }
+
+  /// Those of lanes that are in many cells, at once; false: they are not, or it cannot be done.
+  template <class Spu, class S>
+  [[gnu::always_inline]] static bool take_inner_of_lanes(Features<Spu>& features, const V3<S>& p,
+                                                         float metric, const Wanted& wanted,
+                                                         Nearest<S>& nearest) {
+    if (metric != 1.0f && metric != 2.0f) return false;
+    const NeighboursOfLanes<S> neighbours(features, p);
+    const uint32_t most = features.are_cached() ? tuning::kMostCellsInCache : tuning::kMostCellsOfFeatures;
+    if (!neighbours.are_of_more_cells_than(most)) return false;
+    take_inner_of_lanes(neighbours, p, metric, wanted, nearest);
+    return true;
+  }
+  template <class S>
+  CELLTRACE_ONE_COPY static void take_inner_of_lanes(const NeighboursOfLanes<S>& neighbours, const V3<S>& p,
+                                                     float metric, const Wanted& wanted,
+                                                     Nearest<S>& nearest) {
+    if (metric == 2.0f && wanted.last == 0 && wanted.point) {
+      Nearest<S> found = nearest;
+      neighbours.for_each_near([&](const V3<S>& d) __attribute__((always_inline)) {
+        take<S>(power<S>(d, 2.0f), d, p, found);
+      });
+      nearest.power[0] = found.power[0];
+      nearest.point = found.point;
+    } else {
+      neighbours.for_each_near([&](const V3<S>& d) __attribute__((always_inline)) {
+        take<S>(power<S>(d, metric), d, p, nearest);
+      });
+    }
+    const typename S::F& longest = nearest.power[wanted.last];
+    const typename S::F reach = metric == 2.0f ? longest : longest * longest; // as the crow flies, squared
+    FloatLanes least[3];
+    for (uint32_t i = 0; i <= wanted.last; ++i)
+      nearest.power[i].store(least[i].lane);
+    VectorLanes way;
+    uint32_t nearer = 0;
+    neighbours.for_each_far(
+        [&](const typename S::F& square) __attribute__((always_inline)) { return (square < reach).bits(); },
+        [&](const V3<S>& ways, const int32_t* lanes, uint32_t count) {
+          FloatLanes found;
+          VectorLanes to;
+          power<S>(ways, metric).store(found.lane);
+          to.template store<S>(ways);
+          for (uint32_t i = 0; i < count; ++i) {
+            const auto lane = static_cast<uint32_t>(lanes[i]);
+            float next = found.lane[i];
+            if (next < least[0].lane[lane]) {
+              nearer |= 1u << lane;
+              way.x.lane[lane] = to.x.lane[i];
+              way.y.lane[lane] = to.y.lane[i];
+              way.z.lane[lane] = to.z.lane[i];
+            }
+            for (uint32_t rank = 0; rank <= wanted.last; ++rank) {
+              float& known = least[rank].lane[lane];
+              const float lower = next < known ? next : known;
+              next = next < known ? known : next;
+              known = lower;
+            }
+          }
+        });
+    for (uint32_t i = 0; i <= wanted.last; ++i)
+      nearest.power[i] = S::F::load(least[i].lane);
+    if (wanted.point && nearer != 0)
+      nearest.point = select<S>(S::M::from_bits(nearer), p + way.template load<S>(), nearest.point);
   }
 
   /// How far a coordinate in a cell is from those of the cell that is `steps` further.

@@ -54,6 +54,13 @@ public:
         table_ + (number & (kFeatures - 1)) * static_cast<uint32_t>(sizeof(FeatureRecord)));
   }
 
+  /// The words of all FeatureRecords, where memory is direct.
+  const int32_t* words() {
+    return reinterpret_cast<const int32_t*>(scene_.template pattern_table<FeatureRecord>(table_));
+  }
+
+  /// Whether the points around cells are kept for points beside these.
+  bool are_cached() const { return scene_.neighbours() != nullptr; }
   /// The points in and around a cell, until the next call: in `room`, unless they are cached. Where memory is
   /// direct.
   template <class Neighbours> const Neighbours& neighbours_of(const uint32_t (&cell)[3], Neighbours& room) {

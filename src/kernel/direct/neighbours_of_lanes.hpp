@@ -1,0 +1,142 @@
+// The random points around those of lanes that are each in a unit cell of its own. Kernel dialect, where
+// memory is direct.
+//
+// Far away, and where points are at random, each lane of a packet is in another cell. Of all lanes at once
+// are read the points of the cells that are nearest: their own, and those that it has in common a face, an
+// edge or a corner with on the sides of it that they are nearer to. The few cells that may have a nearer
+// point besides are other ones for each lane: pairs of a lane and a cell fill packets.
+#pragma once
+
+#include "kernel/direct/record_lanes.hpp"
+#include "kernel/math.hpp"
+#include "kernel/packet.hpp"
+
+#include <stddef.h>
+#include <stdint.h>
+
+namespace celltrace::kernel {
+
+template <class S> class NeighboursOfLanes {
+public:
+  using F = typename S::F;
+  using I = typename S::I;
+
+  /// `features`: the Features of a table.
+  template <class Table> NeighboursOfLanes(Table& features, const V3<S>& p) : table_(features.words()) {
+    const F* const coordinates[3] = {&p.x, &p.y, &p.z};
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      from_[axis] = fraction<S>(*coordinates[axis], cell_[axis]);
+  }
+
+  /// Whether the lanes' points are in more cells than that.
+  bool are_of_more_cells_than(uint32_t most) const {
+    WordLanes of_lane[3];
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      store_words<S>(of_lane[axis], cell_[axis]);
+    uint32_t left = (1u << S::kLanes) - 1;
+    for (uint32_t i = 0; i < most && left != 0; ++i) {
+      const auto first = static_cast<uint32_t>(__builtin_ctz(left));
+      auto same = S::M::all();
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        same = same & (cell_[axis] == S::I::splat(static_cast<int32_t>(of_lane[axis].lane[first])));
+      left &= ~(same.bits() | 1u << first);
+    }
+    return left != 0;
+  }
+
+  /// Calls `take(way)` for the eight nearest cells: the way from each lane's point to the random one.
+  template <class Take> [[gnu::always_inline]] void for_each_near(const Take& take) const {
+    F step[3][2];
+    I next[3];
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      step[axis][0] = F(0.0f);
+      step[axis][1] = to_near(from_[axis]);
+      next[axis] = cell_[axis] + S::to_int(step[axis][1]);
+    }
+    for (uint32_t x = 0; x < 2; ++x) {
+      const I plane = hash_at(x == 0 ? cell_[0] : next[0]);
+      for (uint32_t y = 0; y < 2; ++y) {
+        const I column = hash_at(plane ^ (y == 0 ? cell_[1] : next[1]));
+        for (uint32_t z = 0; z < 2; ++z)
+          take(way_to(hash_at(column ^ (z == 0 ? cell_[2] : next[2])), {step[0][x], step[1][y], step[2][z]},
+                      from_));
+      }
+    }
+  }
+
+  /// The same for the others of the 26 around each lane's cell, in pairs: `take(ways, lanes, count)`,
+  /// lanes[i] that of the i-th way. `reaching(square)`: bits of the lanes that want to know of points so far
+  /// away.
+  template <class Reaching, class Take> void for_each_far(const Reaching& reaching, const Take& take) const {
+    Pairs pairs;
+    F squares[3][kSteps];
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const F low = from_[axis], high = F(1.0f) - low, near = S::min(low, high), far = S::max(low, high);
+      squares[axis][kStay] = F(0.0f);
+      squares[axis][kNear] = near * near;
+      squares[axis][kFar] = far * far;
+    }
+    for (uint32_t x = 0; x < kSteps; ++x)
+      for (uint32_t y = 0; y < kSteps; ++y)
+        for (uint32_t z = x == kFar || y == kFar ? 0 : kFar; z < kSteps; ++z)
+          for_each_lane(reaching(squares[0][x] + squares[1][y] + squares[2][z]), [&](uint32_t lane) {
+            constexpr float kFactor[kSteps] = {0.0f, 1.0f, -1.0f};
+            const uint32_t i = pairs.count++;
+            pairs.lane[i] = static_cast<int32_t>(lane);
+            pairs.factor[0][i] = kFactor[x];
+            pairs.factor[1][i] = kFactor[y];
+            pairs.factor[2][i] = kFactor[z];
+            if (pairs.count == S::kLanes) take_all(pairs, take);
+          });
+    if (pairs.count != 0) take_all(pairs, take);
+  }
+
+private:
+  static constexpr uint32_t kStay = 0, kNear = 1, kFar = 2, kSteps = 3;
+  /// Of lanes and cells, which are as many steps to the near side as `factor` says.
+  struct Pairs {
+    alignas(64) int32_t lane[S::kLanes] = {};
+    alignas(64) float factor[3][S::kLanes] = {};
+    uint32_t count = 0;
+  };
+
+  template <class Take> void take_all(Pairs& pairs, const Take& take) const {
+    const I lanes = I::load(pairs.lane);
+    F step[3], from[3];
+    I number = I::splat(0);
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      from[axis] = S::pick(from_[axis], lanes);
+      step[axis] = to_near(from[axis]) * F::load(pairs.factor[axis]);
+      number = hash_at(number ^ (S::pick(cell_[axis], lanes) + S::to_int(step[axis])));
+    }
+    take(way_to(number, {step[0], step[1], step[2]}, from), pairs.lane, pairs.count);
+    pairs.count = 0;
+  }
+
+  /// Along an axis to the neighbour that is nearer: 1 or -1.
+  static F to_near(const F& from) { return S::select(from < F(0.5f), F(-1.0f), F(1.0f)); }
+  /// The way from points of cells to that of the cell with a number, which is some steps further.
+  [[gnu::always_inline]] V3<S> way_to(const I& number, const V3<S>& steps, const F (&from)[3]) const {
+    WordLanes first;
+    first_word(number).store(reinterpret_cast<int32_t*>(first.lane));
+    const auto record_of = [&](uint32_t lane) __attribute__((always_inline)) {
+      return reinterpret_cast<const float*>(table_ + first.lane[lane]);
+    };
+    F words[4];
+    load_words<S>(record_of, 0, words);
+    return {words[0] + steps.x - from[0], words[1] + steps.y - from[1], words[2] + steps.z - from[2]};
+  }
+  static I first_word(const I& number) {
+    return S::template shift_left<2>(number & I::splat(static_cast<int32_t>(kFeatures - 1)));
+  }
+  [[gnu::always_inline]] I hash_at(const I& number) const {
+    return I::gather(table_ + 3, first_word(number));
+  }
+
+  static_assert(offsetof(FeatureRecord, hash) == 12 && sizeof(FeatureRecord) == 16);
+  const int32_t* table_;
+  I cell_[3];
+  F from_[3]; ///< where in it each lane's point is
+};
+
+} // namespace celltrace::kernel
