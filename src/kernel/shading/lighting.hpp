@@ -36,11 +36,11 @@ typename S::F specular_term(const Surfaces<S>& s, const MaterialLanes<S>& m, con
   using F = typename S::F;
   const V3<S> between = light.direction - s.direction;
   if constexpr (S::kLanes == kSimdLanes) {
-    // Of the cosine's square, without a root.
+    // Of the cosine's square, without a root or a division.
     const F along = dot<S>(between, s.normal), square = dot<S>(between, between);
-    const F least = F(1.0f) - F(kLeastHighlight) / m.inverse_roughness;
+    const F least = m.inverse_roughness - F(kLeastHighlight), scaled = along * m.inverse_roughness;
     const auto shines = (along > F(0.0f)) & !(m.specular == F(0.0f)) &
-                        ((least < F(0.0f)) | (along * along > least * least * square));
+                        ((least < F(0.0f)) | (scaled * scaled > least * least * square));
     if ((shines.bits() & light.facing) == 0) return F(0.0f);
   }
   const V3<S> half = normalise<S>(between);
@@ -55,9 +55,29 @@ V3<S> highlight(const Surfaces<S>& s, const MaterialLanes<S>& m, const IncidentL
   F strength(0.0f);
   if (m.has(material_flag::phong)) strength = strength + phong_term<S>(s, m, light);
   if (m.has(material_flag::specular)) strength = strength + specular_term<S>(s, m, light);
+  if constexpr (S::kLanes == kSimdLanes) // most surfaces are beside their highlights: no tint for these
+    if ((strength > F(0.0f)).bits() == 0) return {F(0.0f), F(0.0f), F(0.0f)};
   const V3<S> white = light.colour * strength;
   return m.has(material_flag::metallic) ? white * metallic_tint<S>(m.metallic, light.cosine, m.pigment)
                                         : white;
+}
+
+/// The cosine of light to the power of the materials' brilliance.
+template <class Spu>
+[[gnu::always_inline]] inline typename Spu::simd::F
+bent_cosine(const MaterialLanes<typename Spu::simd>& m, const IncidentLight<typename Spu::simd>& light) {
+  using S = typename Spu::simd;
+  using R = typename Spu::rare_simd;
+  using RF = typename R::F;
+  typename S::F bent = light.cosine;
+  if (m.has(material_flag::bends_diffuse)) {
+    if constexpr (kHasRoomForCode<Spu>)
+      if (are_whole_powers<S>(m.brilliance, light.facing)) return whole_pow<S>(light.cosine, m.brilliance);
+    by_parts<Spu>(
+        bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
+        m.brilliance);
+  }
+  return bent;
 }
 
 /// What surfaces reflect. What few materials have is done by parts, as its code takes much local store.
@@ -66,12 +86,7 @@ V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
                                        const MaterialLanes<typename Spu::simd>& m,
                                        const IncidentLight<typename Spu::simd>& light, bool highlights) {
   using R = typename Spu::rare_simd;
-  using RF = typename R::F;
-  typename Spu::simd::F bent = light.cosine;
-  if (m.has(material_flag::bends_diffuse))
-    by_parts<Spu>(
-        bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
-        m.brilliance);
+  const typename Spu::simd::F bent = bent_cosine<Spu>(m, light);
   V3<typename Spu::simd> sum = m.pigment * light.colour * (m.diffuse * m.opacity * bent);
   if (highlights && m.has(material_flag::highlights))
     for_each_part<Spu>([&](uint32_t first) {
@@ -91,8 +106,6 @@ CELLTRACE_ONE_COPY void light_of_both_sides(SceneAccess<Spu>& scene, const Surfa
                                             V3<typename Spu::simd>& sent) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  using R = typename Spu::rare_simd;
-  using RF = typename R::F;
   scene.spu().run_in_module(modules::kFinishes);
   const uint32_t behind = (light.cosine < F(0.0f)).bits() & light.facing & ~s.lit_through;
   light.cosine = S::abs(light.cosine);
@@ -102,11 +115,7 @@ CELLTRACE_ONE_COPY void light_of_both_sides(SceneAccess<Spu>& scene, const Surfa
   for_each_value<S>(*m.offsets, behind, [&](uint32_t offset, uint32_t same) {
     share = S::select(S::M::from_bits(same), F(scene.material(offset)->diffuse_behind), share);
   });
-  F bent = light.cosine;
-  if (m.has(material_flag::bends_diffuse))
-    by_parts<Spu>(
-        bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
-        m.brilliance);
+  const F bent = bent_cosine<Spu>(m, light);
   const auto is_behind = S::M::from_bits(behind);
   const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
   light.colour = select<S>(is_behind & (share == F(0.0f)), dark, light.colour);
