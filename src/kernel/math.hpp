@@ -111,19 +111,17 @@ template <class S> typename S::F pow(const typename S::F& x, const typename S::F
   return S::select(x > F(1e-37f), exp2<S>(y * log2<S>(positive)), F(0.0f));
 }
 
-/// Whether all of `lanes` ask for a power that whole_pow() knows: a whole number from 0 to 7.
-template <class S> bool are_whole_powers(const typename S::F& y, uint32_t lanes) {
+/// The nearest power toward 0 that whole_pow() knows: a whole number from 0 to 7.
+template <class S> typename S::I whole_power(const typename S::F& y) {
   using F = typename S::F;
-  const F known = S::to_float(S::to_int(S::min(S::max(y, F(0.0f)), F(7.0f))));
-  return (lanes & ~(known == y).bits()) == 0;
+  return S::to_int(S::min(S::max(y, F(0.0f)), F(7.0f)));
 }
-/// x to such a power, by products. Undefined where the power is another number.
-template <class S> typename S::F whole_pow(const typename S::F& x, const typename S::F& y) {
+/// x to such a power, by products.
+template <class S> typename S::F whole_pow(const typename S::F& x, const typename S::I& power) {
   using F = typename S::F;
   using I = typename S::I;
-  const I whole = S::to_int(S::min(y, F(7.0f)));
   const F second = x * x, one(1.0f);
-  const auto without = [&](int32_t bit) { return (whole & I::splat(bit)) == I::splat(0); };
+  const auto without = [&](int32_t bit) { return (power & I::splat(bit)) == I::splat(0); };
   return S::select(without(1), one, x) * S::select(without(2), one, second) *
          S::select(without(4), one, second * second);
 }

@@ -154,9 +154,9 @@ constexpr uint32_t kMostAreaPackets = 16;
 
 // --- patterns ---
 
-/// The points around up to so many cells of crackle are gathered for a packet cell by cell; if its points are in
-/// more, each lane is compared with the points around its own cell. 'trace time' of scenes with crackle near by
-/// and as far as the horizon.
+/// The points around up to so many cells of crackle are gathered for a packet cell by cell; if its points are
+/// in more, each lane is compared with the points around its own cell. 'trace time' of scenes with crackle near
+/// by and as far as the horizon.
 constexpr uint32_t kMostCellsOfFeatures = 2;
 /// The same where points that were gathered are kept for points beside these.
 constexpr uint32_t kMostCellsInCache = 8;

@@ -34,7 +34,7 @@ struct alignas(128) FacadeBlock {
   // where memory is direct
   alignas(128) float picked[16];
   float stored[32];
-  int32_t int_picked[16], int_stored[32], lane_numbers[16];
+  int32_t int_picked[16], int_stored[32], lane_numbers[16], gathered[16];
   uint32_t spread;
 };
 static_assert(sizeof(FacadeBlock) % 128 == 0, "crosses DMA");
@@ -127,6 +127,7 @@ template <class S> void apply_direct_facade(FacadeBlock& x) {
   S::pick(i, lanes).store(x.int_picked);
   S::lane_numbers(x.m).store(x.lane_numbers);
   x.spread = S::spread(x.n, x.m);
+  I::gather(x.i, lanes).store(x.gathered);
   a.store_unaligned(x.stored + 5);
   i.store_unaligned(x.int_stored + 3);
 }

@@ -191,6 +191,7 @@ void check_direct(const FacadeBlock& x) {
   const int count = static_cast<int>(lanes.size());
   CHECK(same_floats(x.picked, [&](int l) { return x.a[x.j[l] & 15]; }));
   CHECK(same_ints(x.int_picked, [&](int l) { return x.i[x.j[l] & 15]; }));
+  CHECK(same_ints(x.gathered, [&](int l) { return x.i[x.j[l] & 15]; }));
   CHECK(same_ints(x.lane_numbers, [&](int l) { return l < count ? lanes[l] : 0; }));
   std::uint32_t spread = 0;
   for (int k = 0; k < count; ++k)

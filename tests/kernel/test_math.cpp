@@ -88,6 +88,21 @@ TEST_CASE("pow") {
   CHECK(one.lane[9] == 1);
 }
 
+TEST_CASE("whole_pow") {
+  Random random(24);
+  for (int power = 0; power < 8; ++power) {
+    INFO(power);
+    const auto whole = whole_power<Simd>(F(static_cast<float>(power) + 0.25f));
+    CHECK(lanes_of(Simd::to_float(whole)).lane[3] == static_cast<float>(power));
+    CHECK(worst(
+              5000, [&] { return random.uniform(0, 2); },
+              [&](const F& x) { return whole_pow<Simd>(x, whole); },
+              [&](double x, double y) { return relative(y, std::pow(x, power)); }) < 4e-7);
+  }
+  for (const float beyond : {-1.0f, -1e30f, 7.5f, 1e30f})
+    CHECK(lanes_of(Simd::to_float(whole_power<Simd>(F(beyond)))).lane[5] == (beyond < 0 ? 0.0f : 7.0f));
+}
+
 TEST_CASE("coarse_pow") {
   Random random(14);
   for (double power : {0.2, 0.4, 0.45454545, 1.0}) {

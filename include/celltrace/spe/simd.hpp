@@ -24,9 +24,9 @@
 //   to_int (truncates), to_float, floor (all of |x| < 2^31; floor may give a 0 any sign),
 //   bits_of / float_of (reinterpret), shift_left<n>, shift_right<n> (arithmetic)
 //
-// Where memory is direct it has also I::gather(const int32_t* table, I indices), in each lane the number of the
-// table at its index; and to gather lanes of several packets:
+// Where memory is direct it has also, for tables and to gather lanes of several packets:
 //
+//   I::gather(const int32_t* table, I indices): in each lane the number of the table at its index,
 //   store_unaligned() of F and I, to any number on,
 //   pick(a, I lanes): of F and I, in each lane that of the lane of `a` whose number is in `lanes`,
 //   lane_numbers(uint32 lanes) -> I, the numbers of those whose bits are set, in the first lanes; then 0,

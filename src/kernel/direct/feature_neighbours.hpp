@@ -1,9 +1,9 @@
 // The random points in and around a unit cell, side by side in SIMD lanes. Kernel dialect, where memory is
 // direct.
 //
-// Far away, and where points are at random, each lane of a packet is in another cell. The distances from one
-// lane's point to all of these are then found at once, in place of those from all lanes to one of them after
-// the other.
+// Where few lanes of a packet are in the same cell, the distances from one lane's point to all of these are
+// found at once, in place of those from all lanes to one of them after the other. Where points are farther
+// apart, see neighbours_of_lanes.hpp.
 #pragma once
 
 #include "kernel/direct/door.hpp"

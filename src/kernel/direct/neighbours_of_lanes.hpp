@@ -10,6 +10,7 @@
 #include "kernel/direct/record_lanes.hpp"
 #include "kernel/math.hpp"
 #include "kernel/packet.hpp"
+#include "kernel/textures/features.hpp"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -30,17 +31,12 @@ public:
 
   /// Whether the lanes' points are in more cells than that.
   bool are_of_more_cells_than(uint32_t most) const {
-    WordLanes of_lane[3];
+    alignas(64) int32_t of_lane[3][S::kLanes];
     for (uint32_t axis = 0; axis < 3; ++axis)
-      store_words<S>(of_lane[axis], cell_[axis]);
-    uint32_t left = (1u << S::kLanes) - 1;
-    for (uint32_t i = 0; i < most && left != 0; ++i) {
-      const auto first = static_cast<uint32_t>(__builtin_ctz(left));
-      auto same = S::M::all();
-      for (uint32_t axis = 0; axis < 3; ++axis)
-        same = same & (cell_[axis] == S::I::splat(static_cast<int32_t>(of_lane[axis].lane[first])));
-      left &= ~(same.bits() | 1u << first);
-    }
+      cell_[axis].store(of_lane[axis]);
+    uint32_t left = (1u << S::kLanes) - 1, cell[3];
+    for (uint32_t i = 0; i < most && left != 0; ++i)
+      left &= ~find_cell<S>(static_cast<uint32_t>(__builtin_ctz(left)), cell_, of_lane, cell);
     return left != 0;
   }
 

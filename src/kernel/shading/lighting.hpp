@@ -71,8 +71,11 @@ bent_cosine(const MaterialLanes<typename Spu::simd>& m, const IncidentLight<type
   using RF = typename R::F;
   typename S::F bent = light.cosine;
   if (m.has(material_flag::bends_diffuse)) {
-    if constexpr (kHasRoomForCode<Spu>)
-      if (are_whole_powers<S>(m.brilliance, light.facing)) return whole_pow<S>(light.cosine, m.brilliance);
+    if constexpr (kHasRoomForCode<Spu>) {
+      const typename S::I power = whole_power<S>(m.brilliance);
+      if ((light.facing & ~(S::to_float(power) == m.brilliance).bits()) == 0)
+        return whole_pow<S>(light.cosine, power);
+    }
     by_parts<Spu>(
         bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
         m.brilliance);

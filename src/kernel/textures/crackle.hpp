@@ -44,7 +44,7 @@ struct CracklePattern : RarePattern {
              const Wanted& wanted) {
     using S = typename Spu::rare_simd;
     using F = typename S::F;
-    const F far(1e30f);
+    const F far(kFar);
     Nearest<S> nearest = {{far, far, far}, p};
     Features<Spu> features(scene, features_of(r));
     const float metric = r.parameter[3];
@@ -88,23 +88,27 @@ struct CracklePattern : RarePattern {
   }
 
 private:
+  /// What a distance is a root of where no point is known.
+  static constexpr float kFar = 1e30f;
+  /// Of metrics whose distances tell how far away a point is as the crow flies, at most.
+  static constexpr bool is_simple(float metric) { return metric == 1.0f || metric == 2.0f; }
+
   /// The points of the inner cells, for lanes that are all in one cell, unless they have been taken before.
   template <class Spu, class S>
   CELLTRACE_ONE_COPY static void take_inner(Features<Spu>& features, const uint32_t (&cell)[3],
                                             const V3<S>& from, const V3<S>& p, uint32_t lanes, float metric,
                                             const Wanted& wanted, Nearest<S>& nearest) {
     using F = typename S::F;
-    if ((S::M::from_bits(lanes) & (nearest.power[0] < F(1e30f))).bits() != 0) return;
+    if ((S::M::from_bits(lanes) & (nearest.power[0] < F(kFar))).bits() != 0) return;
     FeatureNeighbours<S> room;
     const FeatureNeighbours<S>& neighbours = features.neighbours_of(cell, room);
-    const bool is_simple = metric == 1.0f || metric == 2.0f;
-    if (!is_simple || __builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
+    if (!is_simple(metric) || __builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
       const auto here = S::M::from_bits(lanes);
       const auto take_all = [&](float of_metric) __attribute__((always_inline)) {
         Nearest<S> found = nearest;
         for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
           const V3<S> d = neighbours.way_to(i, from);
-          take<S>(S::select(here, power<S>(d, of_metric), F(1e30f)), d, p, found);
+          take<S>(S::select(here, power<S>(d, of_metric), F(kFar)), d, p, found);
         }
         return found;
       };
@@ -131,22 +135,21 @@ private:
     });
   }
 
-  /// Those of lanes that are in many cells, at once; false: they are not, or it cannot be done.
+  /// Those of all lanes at once; false: they are in few cells, or the metric is not simple.
   template <class Spu, class S>
   [[gnu::always_inline]] static bool take_inner_of_lanes(Features<Spu>& features, const V3<S>& p,
                                                          float metric, const Wanted& wanted,
                                                          Nearest<S>& nearest) {
-    if (metric != 1.0f && metric != 2.0f) return false;
+    if (!is_simple(metric)) return false;
     const NeighboursOfLanes<S> neighbours(features, p);
     const uint32_t most = features.are_cached() ? tuning::kMostCellsInCache : tuning::kMostCellsOfFeatures;
     if (!neighbours.are_of_more_cells_than(most)) return false;
-    take_inner_of_lanes(neighbours, p, metric, wanted, nearest);
+    take_neighbours(neighbours, p, metric, wanted, nearest);
     return true;
   }
   template <class S>
-  CELLTRACE_ONE_COPY static void take_inner_of_lanes(const NeighboursOfLanes<S>& neighbours, const V3<S>& p,
-                                                     float metric, const Wanted& wanted,
-                                                     Nearest<S>& nearest) {
+  CELLTRACE_ONE_COPY static void take_neighbours(const NeighboursOfLanes<S>& neighbours, const V3<S>& p,
+                                                 float metric, const Wanted& wanted, Nearest<S>& nearest) {
     if (metric == 2.0f && wanted.last == 0 && wanted.point) {
       Nearest<S> found = nearest;
       neighbours.for_each_near([&](const V3<S>& d) __attribute__((always_inline)) {
@@ -164,7 +167,7 @@ private:
     FloatLanes least[3];
     for (uint32_t i = 0; i <= wanted.last; ++i)
       nearest.power[i].store(least[i].lane);
-    VectorLanes way;
+    VectorLanes way = {};
     uint32_t nearer = 0;
     neighbours.for_each_far(
         [&](const typename S::F& square) __attribute__((always_inline)) { return (square < reach).bits(); },
@@ -216,7 +219,7 @@ private:
   template <class S>
   [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power, const typename S::M& here,
                                                         float metric) {
-    return (metric == 1.0f || metric == 2.0f) && (here & (power > typename S::F(1.0f))).bits() == 0;
+    return is_simple(metric) && (here & (power > typename S::F(1.0f))).bits() == 0;
   }
 
   /// What the distance is a root of.

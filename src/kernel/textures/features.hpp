@@ -6,6 +6,20 @@
 
 namespace celltrace::kernel {
 
+/// The coordinates modulo 2^32 of the unit cell that the point of `lane` is in, and the lanes whose points
+/// are in the same. `whole`: the coordinates of all lanes' cells, `of_lane`: the same, stored.
+template <class S>
+[[gnu::always_inline]] inline uint32_t find_cell(uint32_t lane, const typename S::I (&whole)[3],
+                                                 const int32_t (&of_lane)[3][S::kLanes],
+                                                 uint32_t (&cell)[3]) {
+  auto same = S::M::all();
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    same = same & (whole[axis] == S::I::splat(of_lane[axis][lane]));
+    cell[axis] = static_cast<uint32_t>(of_lane[axis][lane]);
+  }
+  return same.bits() | 1u << lane;
+}
+
 /// Calls `visit(lanes, cell, from)` for each of the unit cells that points are in: the lanes that have their
 /// point in it, its coordinates modulo 2^32, and where in the cell the points of all lanes are (of other
 /// lanes: in theirs).
@@ -19,12 +33,7 @@ template <class S, class Visit>
   for (uint32_t left = (1u << S::kLanes) - 1; left != 0;) {
     const uint32_t first = static_cast<uint32_t>(__builtin_ctz(left));
     uint32_t cell[3];
-    auto same = S::M::all();
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      same = same & (whole[axis] == S::I::splat(of_lane[axis][first]));
-      cell[axis] = static_cast<uint32_t>(of_lane[axis][first]);
-    }
-    const uint32_t lanes = same.bits() | 1u << first;
+    const uint32_t lanes = find_cell<S>(first, whole, of_lane, cell);
     left &= ~lanes;
     visit(lanes, cell, from);
   }
