@@ -1015,7 +1015,7 @@ shape_start
 shape_head
   : shape_start ARGUMENTS    { $$ = std::move($1); }
   | shape_start quantity     { $$ = std::move($1); $$.arguments.push_back({$2, @2}); }
-  | shape_head quantity      { $$ = std::move($1); append(session, $$.arguments, {$2, @2}, @2); }
+  | shape_head quantity      { $$ = std::move($1); append_argument(session, $$, {$2, @2}); }
   | shape_head ',' quantity  { $$ = std::move($1); append(session, $$.arguments, {$3, @3}, @3); }
   ;
 
@@ -1027,7 +1027,7 @@ option_shape_start
 option_shape_head
   : option_shape_start ARGUMENTS   { $$ = std::move($1); }
   | option_shape_start quantity    { $$ = std::move($1); $$.arguments.push_back({$2, @2}); }
-  | option_shape_head quantity     { $$ = std::move($1); append(session, $$.arguments, {$2, @2}, @2); }
+  | option_shape_head quantity     { $$ = std::move($1); append_argument(session, $$, {$2, @2}); }
   | option_shape_head ',' quantity { $$ = std::move($1); append(session, $$.arguments, {$3, @3}, @3); }
   ;
 
@@ -1110,10 +1110,7 @@ object_body
       $$ = std::move($1);
       limit(session, *$$, $$->bounded_by, $$->clipped_by, @2);
     }
-  | object_body colour {
-      $$ = std::move($1);
-      session.diagnostics.warn_once(@2, "this colour is ignored: what gives an object one is its 'pigment'");
-    }
+  | object_body colour                 { $$ = std::move($1); ignore_colour(session, @2); }
   | object_body photons                { $$ = std::move($1); $$->is_photon_target = $2; }
   | object_body RADIOSITY              { $$ = std::move($1); session.tokens.skip_group(); } // of radiosity
   | object_body unsupported_modifier   { $$ = std::move($1); mark($$->unsupported, $2); }

@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "pov/actions.hpp"
 #include "pov/session.hpp"
 #include "pov/value.hpp"
 
@@ -243,6 +244,20 @@ std::vector<const char*> shape_names() {
   std::transform(std::begin(kShapes), std::end(kShapes), std::back_inserter(names),
                  [](const ShapeForm& shape) { return shape.name; });
   return names;
+}
+
+void ignore_colour(Session& session, const Location& where) {
+  session.diagnostics.warn_once(where, "this colour is ignored: what gives an object one is its 'pigment'");
+}
+
+void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument) {
+  const ShapeForm& shape = kShapes[written.number];
+  const std::size_t count = written.arguments.size();
+  const bool takes_vector =
+      count < shape.most() ? shape.parameters[count].is_vector : shape.vectors != nullptr;
+  if (argument.value.is_colour && count >= shape.fewest() && !takes_vector)
+    return ignore_colour(session, argument.where);
+  append(session, written.arguments, argument, argument.where);
 }
 
 Shape read_shape(Session& session, const WrittenShape& written) {

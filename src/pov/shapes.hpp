@@ -29,6 +29,11 @@ std::vector<const char*> shape_names();
 /// Whether something may be left out behind what such a shape has to have; by its place in shape_names().
 bool has_option(int shape);
 
+/// What POV-Ray makes of a colour among an object's modifiers.
+void ignore_colour(Session& session, const Location& where);
+/// Adds what stands behind other arguments without a comma: that may also be the name of a colour, which is
+/// ignored where the shape takes no vector.
+void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
 /// Fails if the arguments are not the shape's.
 Shape read_shape(Session& session, const WrittenShape& written);
 

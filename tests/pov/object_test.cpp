@@ -127,6 +127,17 @@ TEST_CASE("a colour of an object is ignored") {
   CHECK(output("#for (I, 1, 3) sphere { 0, 1 colour red I } #end\nsphere { 0, 1 rgb 1 }") ==
         "scene.pov:1:30: warning: this colour is ignored: what gives an object one is its 'pigment'\n"
         "scene.pov:2:15: warning: this colour is ignored: what gives an object one is its 'pigment'\n");
+  // By its name it is one as well, where the shape has all its arguments.
+  const std::string name = "#declare Red = rgb <1, 0, 0>; ";
+  CHECK(output(name +
+               "sphere { 0, 1 Red } cylinder { -x, x, 1 Red open } torus { 1, 0.5 Red pigment { Red } }\n"
+               "plane { y, 1\nRed scale 2 } cone { 0, 1, y, 0 Red }") ==
+        "scene.pov:1:45: warning: this colour is ignored: what gives an object one is its 'pigment'\n"
+        "scene.pov:1:71: warning: this colour is ignored: what gives an object one is its 'pigment'\n"
+        "scene.pov:1:97: warning: this colour is ignored: what gives an object one is its 'pigment'\n"
+        "scene.pov:3:1: warning: this colour is ignored: what gives an object one is its 'pigment'\n"
+        "scene.pov:3:33: warning: this colour is ignored: what gives an object one is its 'pigment'\n");
+  CHECK(error_line(name + "sphere { 0 Red }").find("found a colour as radius") != std::string::npos);
   CHECK(error_line("light_source { 0, 1 rgb 1 }").find("unexpected 'rgb'") != std::string::npos);
 }
 
