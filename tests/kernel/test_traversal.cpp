@@ -10,7 +10,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace celltrace {
 SpeProgram traversal_program(); // made by the build
@@ -65,43 +68,37 @@ std::vector<TraversalQuery> queries_for(const PreparedScene& scene, unsigned see
   return queries;
 }
 
+/// What an accelerator has to answer to a query.
+struct Answer {
+  HitPacket hits;
+  std::array<Vec3, kSimdLanes> light; ///< what is left of it
+};
+/// Queries and their answers, by brute force.
+struct Round {
+  std::vector<TraversalQuery> asked;
+  std::vector<Answer> answers;
+};
+
 /// Makes of each ray that hit something one that starts there, or a shadow ray that ends a little before or
 /// behind.
-void continue_from_hits(std::vector<TraversalQuery>& queries, const std::vector<TraversalQuery>& hits) {
+std::vector<TraversalQuery> continued_from_hits(const Round& round) {
+  std::vector<TraversalQuery> queries = round.asked;
   Random random(100);
   for (std::size_t i = 0; i < queries.size(); ++i)
     for_each_lane(queries[i].lanes, [&](unsigned l) {
       TraversalQuery& q = queries[i];
-      const float distance = hits[i].hits.distance.lane[l];
-      if (hits[i].hits.object.lane[l] == kNoOffset) return;
+      const HitPacket& hits = round.answers[i].hits;
+      const float distance = hits.distance.lane[l];
+      if (hits.object.lane[l] == kNoOffset) return;
       if (l % 2 == 0) {
         q.distance.lane[l] = distance + (l % 4 == 0 ? 0.0005f : 0.0015f);
         return;
       }
       set(q.rays.origin, l, at(q.rays.origin, l) + at(q.rays.direction, l) * double{distance});
       set(q.rays.direction, l, random.direction());
-      q.rays.start_object.lane[l] = hits[i].hits.object.lane[l];
+      q.rays.start_object.lane[l] = hits.object.lane[l];
     });
-}
-
-void brute_closest(const PreparedScene& scene, TraversalQuery& q) {
-  for (unsigned l = 0; l < kSimdLanes; ++l) {
-    q.hits.distance.lane[l] = kMaxHitDistance;
-    q.hits.object.lane[l] = kNoOffset;
-  }
-  for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
-    const Crossings<Simd> c = intersect(q.rays, scene.object(i), scene.object_offset(i));
-    const FloatLanes near = lanes_of(c.near), far = lanes_of(c.far);
-    for_each_lane(q.lanes, [&](unsigned l) {
-      const auto meet = [&](std::uint32_t hit, float t) {
-        if ((hit >> l & 1) == 0 || !(t > kMinHitDistance) || !(t < q.hits.distance.lane[l])) return;
-        q.hits.distance.lane[l] = t;
-        q.hits.object.lane[l] = scene.object_offset(i);
-      };
-      meet(c.near_hit.bits(), near.lane[l]);
-      meet(c.far_hit.bits(), far.lane[l]);
-    });
-  }
+  return queries;
 }
 
 Vec3 filter_of(const PreparedScene& scene, const ObjectRecord& object, double u, double v) {
@@ -115,34 +112,59 @@ Vec3 filter_of(const PreparedScene& scene, const ObjectRecord& object, double u,
          filter(blend.material[2]) * v;
 }
 
-/// What is left of the light of lane `l`, with every crossing of every object once.
-Vec3 brute_light(const PreparedScene& scene, const TraversalQuery& q, unsigned l) {
-  Vec3 light = {1, 0.5, 2};
+/// The closest hits, and the light with every crossing of every object once.
+Answer brute_force(const PreparedScene& scene, const TraversalQuery& q) {
+  Answer answer;
+  for (unsigned l = 0; l < kSimdLanes; ++l) {
+    answer.hits.distance.lane[l] = kMaxHitDistance;
+    answer.hits.object.lane[l] = kNoOffset;
+    answer.light[l] = at(q.light, l);
+  }
   for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
     const ObjectRecord& object = scene.object(i);
-    if ((object.kind_and_flags & object_flag::no_shadow) != 0) continue;
     const Crossings<Simd> c = intersect(q.rays, object, scene.object_offset(i));
-    const Vec3 filter = filter_of(scene, object, lanes_of(c.u).lane[l], lanes_of(c.v).lane[l]);
-    const auto cross = [&](const M& hit, const F& t) {
-      const float at = lanes_of(t).lane[l];
-      if ((hit.bits() >> l & 1) != 0 && at > 1e-3f && at < q.distance.lane[l] - 1e-3f) light *= filter;
-    };
-    cross(c.near_hit, c.near);
-    cross(c.far_hit, c.far);
+    const std::uint32_t near_hit = c.near_hit.bits(), far_hit = c.far_hit.bits();
+    if (((near_hit | far_hit) & q.lanes) == 0) continue;
+    const bool has_shadow = (object.kind_and_flags & object_flag::no_shadow) == 0;
+    const FloatLanes near = lanes_of(c.near), far = lanes_of(c.far), u = lanes_of(c.u), v = lanes_of(c.v);
+    for_each_lane((near_hit | far_hit) & q.lanes, [&](unsigned l) {
+      const auto cross = [&](std::uint32_t hit, float t) {
+        if ((hit >> l & 1) == 0) return;
+        if (t > kMinHitDistance && t < answer.hits.distance.lane[l]) {
+          answer.hits.distance.lane[l] = t;
+          answer.hits.object.lane[l] = scene.object_offset(i);
+        }
+        if (has_shadow && t > 1e-3f && t < q.distance.lane[l] - 1e-3f)
+          answer.light[l] *= filter_of(scene, object, u.lane[l], v.lane[l]);
+      };
+      cross(near_hit, near.lane[l]);
+      cross(far_hit, far.lane[l]);
+    });
   }
-  return light;
+  return answer;
 }
 
-void check(const PreparedScene& scene, const TraversalQuery& asked, const TraversalQuery& answer) {
-  TraversalQuery expected = asked;
-  brute_closest(scene, expected);
+Round brute_force(const PreparedScene& scene, std::vector<TraversalQuery> queries) {
+  Round round = {std::move(queries), {}};
+  for (const TraversalQuery& query : round.asked)
+    round.answers.push_back(brute_force(scene, query));
+  return round;
+}
+using Rounds = std::array<Round, 2>;
+Rounds rounds_of(const PreparedScene& scene, const std::vector<TraversalQuery>& first) {
+  Round one = brute_force(scene, first);
+  Round two = brute_force(scene, continued_from_hits(one));
+  return {std::move(one), std::move(two)};
+}
+
+void check(const TraversalQuery& asked, const Answer& expected, const TraversalQuery& answer) {
   for_each_lane(asked.lanes, [&](unsigned l) {
     INFO("lane " << l << " from " << asked.rays.origin.x.lane[l] << ' ' << asked.rays.origin.y.lane[l] << ' '
                  << asked.rays.origin.z.lane[l] << " along " << asked.rays.direction.x.lane[l] << ' '
                  << asked.rays.direction.y.lane[l] << ' ' << asked.rays.direction.z.lane[l]);
     REQUIRE(answer.hits.distance.lane[l] == expected.hits.distance.lane[l]);
     REQUIRE(answer.hits.object.lane[l] == expected.hits.object.lane[l]);
-    const Vec3 light = brute_light(scene, asked, l);
+    const Vec3& light = expected.light[l];
     INFO("light " << light.x << " of 1, distance " << asked.distance.lane[l]);
     for (int i = 0; i < 3; ++i)
       REQUIRE(at(answer.light, l)[i] == Approx(light[i]).epsilon(1e-5).margin(1e-9));
@@ -151,45 +173,41 @@ void check(const PreparedScene& scene, const TraversalQuery& asked, const Traver
     REQUIRE(at(answer.light, l).y <= 0.5); // nothing else was touched
 }
 
-void check_accelerator(PreparedScene& prepared, const std::vector<TraversalQuery>& first) {
-  const auto packets = static_cast<unsigned>(first.size());
+void check_accelerator(PreparedScene& prepared, const Rounds& rounds) {
   const bool bvh = static_cast<AcceleratorKind>(prepared.frame().accelerator) == AcceleratorKind::bvh;
   for (const auto& machine : machines()) {
     if (bvh && machine->backend() != Backend::native) continue;
     INFO(machine->spu_key() << (bvh ? ", BVH" : ", grid"));
-    std::vector<TraversalQuery> asked = first;
-    for (int round = 0; round < 2; ++round) {
-      std::vector<TraversalQuery> answers;
+    for (const Round& round : rounds)
       for (const std::uint32_t bundles : {0u, 1u}) {
         INFO((bundles != 0 ? "bundles" : "packets"));
-        answers = asked;
+        std::vector<TraversalQuery> answers = round.asked;
+        const auto packets = static_cast<unsigned>(answers.size());
         TraversalTask task = {to_ea(&prepared.frame()), to_ea(answers.data()), packets, 0, 0, bundles};
         machine->start(0, traversal_program(), to_ea(&task));
         machine->wait(0);
         REQUIRE(task.built == 1);
         for (unsigned i = 0; i < packets; ++i)
-          check(prepared, asked[i], answers[i]);
+          check(round.asked[i], round.answers[i], answers[i]);
       }
-      continue_from_hits(asked, answers);
-    }
   }
 }
 
 /// As they are for few objects, for many, and for more than that.
-void check_hierarchies(PreparedScene& prepared, const std::vector<TraversalQuery>& first) {
+void check_hierarchies(PreparedScene& prepared, const Rounds& rounds) {
   const struct { bool wide_leaves, far_nodes; } kinds[] = {{true, false}, {false, false}, {false, true}};
   for (const auto& kind : kinds) {
     INFO("wide leaves: " << kind.wide_leaves << ", far nodes: " << kind.far_nodes);
     prepared.use_bvh(kind.wide_leaves, kind.far_nodes);
-    check_accelerator(prepared, first);
+    check_accelerator(prepared, rounds);
   }
 }
 
 void check_scene(const Scene& scene, unsigned packets = times(160)) {
   PreparedScene prepared(scene);
-  const std::vector<TraversalQuery> first = queries_for(prepared, 99, packets);
-  check_accelerator(prepared, first);
-  check_hierarchies(prepared, first);
+  const Rounds rounds = rounds_of(prepared, queries_for(prepared, 99, packets));
+  check_accelerator(prepared, rounds);
+  check_hierarchies(prepared, rounds);
 }
 
 } // namespace
@@ -211,7 +229,7 @@ TEST_CASE("Through more objects than are at hand, so that leaves wait") {
   constexpr int few = times(64) / 16 > 0 ? times(64) / 16 : 1;
   std::vector<TraversalQuery> some(all.begin(), all.begin() + few);
   some.insert(some.end(), all.end() - few, all.end());
-  check_hierarchies(prepared, some);
+  check_hierarchies(prepared, rounds_of(prepared, some));
 }
 
 TEST_CASE("Through large and small scenes, and far from the origin") {
