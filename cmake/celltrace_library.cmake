@@ -27,6 +27,7 @@ function(celltrace_public_headers target scope)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} ${scope} cxx_std_20)
+  target_compile_options(${target} ${scope} ${CELLTRACE_BASELINE_OPTIONS})
 endfunction()
 
 function(celltrace_library name)

@@ -4,7 +4,10 @@ add_library(celltrace_options INTERFACE)
 target_compile_features(celltrace_options INTERFACE cxx_std_20)
 # The kernels give the same bits on every backend only if no compiler fuses multiply and add on its own.
 target_compile_options(celltrace_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -ffp-contract=off ${CELLTRACE_BASELINE_OPTIONS})
+if(CELLTRACE_BASELINE_SIMD STREQUAL "avx512")
+  target_compile_options(celltrace_options INTERFACE ${CELLTRACE_AVX512_WARNINGS})
+endif()
 if(NOT CELLTRACE_UNITY)
   target_compile_options(celltrace_options INTERFACE -Wshadow)
 elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -37,6 +37,7 @@ endfunction()
 set(native_flags "")
 set(hot_flags "")
 set(wide_hot_flags "")
+set(wide_flags "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # A program is one translation unit, and GCC stops inlining what is called for every packet where the unit grows by
   # more than 40 %: rays then take 2 to 4 % longer.
@@ -47,33 +48,31 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # instructions are as good as 400, 3 %, and compile in less time.
   set(hot_flags --param=inline-unit-growth=600 --param=max-inline-insns-auto=100)
   set(wide_hot_flags --param=inline-unit-growth=600 --param=max-inline-insns-auto=400)
+  # Rays are copied by vectors: REP MOVS, GCC's way for anything larger, takes longer to start than to copy a packet.
+  set(wide_flags -mmemcpy-strategy=vector_loop:-1:noalign)
 endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  # Processors with AVX2 know PREFETCHW, or take it for nothing.
-  set(avx2_flags -mavx2 -mprfchw)
-  set(avx512_flags -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mprfchw -mprefer-vector-width=512)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # Rays are copied by vectors: REP MOVS, GCC's way for anything larger, takes longer to start than to copy a packet.
-    list(APPEND avx2_flags -mmemcpy-strategy=vector_loop:-1:noalign)
-    list(APPEND avx512_flags -mmemcpy-strategy=vector_loop:-1:noalign)
-    # GCC 12 reports the undefined operands of its own AVX-512 headers.
-    list(APPEND avx512_flags -Wno-uninitialized -Wno-maybe-uninitialized)
+  set(CELLTRACE_BASELINE_SPU native_${CELLTRACE_BASELINE_SIMD} CACHE INTERNAL "")
+  if(CELLTRACE_BASELINE_SIMD STREQUAL "sse2")
+    celltrace_spu_type(native_sse2 HEADER backends/native/spu.hpp KEY native.sse2
+      TYPE "celltrace::native::Spu<xsimd::sse2>" FLAGS ${native_flags} HOT_FLAGS ${hot_flags})
   endif()
-  set(CELLTRACE_BASELINE_SPU native_sse2 CACHE INTERNAL "")
-  celltrace_spu_type(native_sse2 HEADER backends/native/spu.hpp KEY native.sse2
-    TYPE "celltrace::native::Spu<xsimd::sse2>" FLAGS ${native_flags} HOT_FLAGS ${hot_flags})
-  if(CELLTRACE_WIDE_SIMD)
+  if(CELLTRACE_BASELINE_SIMD STREQUAL "avx2" OR (CELLTRACE_WIDE_SIMD AND CELLTRACE_BASELINE_SIMD STREQUAL "sse2"))
     celltrace_spu_type(native_avx2 HEADER backends/native/spu.hpp KEY native.avx2
-      TYPE "celltrace::native::Spu<xsimd::avx2>" FLAGS ${native_flags} ${avx2_flags} HOT_FLAGS ${wide_hot_flags})
+      TYPE "celltrace::native::Spu<xsimd::avx2>"
+      FLAGS ${native_flags} ${CELLTRACE_AVX2_FLAGS} ${wide_flags} HOT_FLAGS ${wide_hot_flags})
+  endif()
+  if(CELLTRACE_BASELINE_SIMD STREQUAL "avx512" OR CELLTRACE_WIDE_SIMD)
     celltrace_spu_type(native_avx512 HEADER backends/native/spu.hpp KEY native.avx512
-      TYPE "celltrace::native::Spu<xsimd::avx512dq>" FLAGS ${native_flags} ${avx512_flags} HOT_FLAGS ${wide_hot_flags})
+      TYPE "celltrace::native::Spu<xsimd::avx512dq>"
+      FLAGS ${native_flags} ${CELLTRACE_AVX512_FLAGS} ${wide_flags} ${CELLTRACE_AVX512_WARNINGS} HOT_FLAGS ${wide_hot_flags})
   endif()
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   set(CELLTRACE_BASELINE_SPU native_neon64 CACHE INTERNAL "")
   celltrace_spu_type(native_neon64 HEADER backends/native/spu.hpp KEY native.neon64
     TYPE "celltrace::native::Spu<xsimd::neon64>" FLAGS ${native_flags} HOT_FLAGS ${hot_flags})
 else()
-  set(CELLTRACE_GENERIC_SIMD ON)
+  set(CELLTRACE_GENERIC_SIMD ON) # there is no other
   set(CELLTRACE_BASELINE_SPU native_generic CACHE INTERNAL "")
 endif()
 if(CELLTRACE_GENERIC_SIMD)

@@ -26,20 +26,23 @@ std::string names() {
 
 const std::vector<SpuType>& spu_types() {
   static const std::vector<SpuType> types = {
-#if defined(__x86_64__)
-#ifdef CELLTRACE_WIDE_SIMD
+#ifdef CELLTRACE_HAS_NATIVE_AVX512
     spu_type<xsimd::avx512dq>([] {
       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
              __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
              __builtin_cpu_supports("avx512vl");
     }),
+#endif
+#ifdef CELLTRACE_HAS_NATIVE_AVX2
     spu_type<xsimd::avx2>([]() -> bool { return __builtin_cpu_supports("avx2"); }),
 #endif
+#ifdef CELLTRACE_HAS_NATIVE_SSE2
     spu_type<xsimd::sse2>([] { return true; }),
-#elif defined(__aarch64__)
+#endif
+#ifdef CELLTRACE_HAS_NATIVE_NEON64
     spu_type<xsimd::neon64>([] { return true; }),
 #endif
-#ifdef CELLTRACE_GENERIC_SIMD
+#ifdef CELLTRACE_HAS_NATIVE_GENERIC
     spu_type<GenericArch>([] { return true; }),
 #endif
   };

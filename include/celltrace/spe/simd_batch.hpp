@@ -20,8 +20,12 @@ namespace celltrace {
 /// In the place of an architecture of xsimd's.
 struct GenericArch {};
 
-/// What every CPU that the build is for has.
-#if defined(__x86_64__)
+/// What every CPU that the build is for has. Builds for one machine define more: CELLTRACE_BASELINE_SIMD.
+#if defined(CELLTRACE_BASELINE_AVX512)
+using BaselineArch = xsimd::avx512dq;
+#elif defined(CELLTRACE_BASELINE_AVX2)
+using BaselineArch = xsimd::avx2;
+#elif defined(__x86_64__)
 using BaselineArch = xsimd::sse2;
 #elif defined(__aarch64__)
 using BaselineArch = xsimd::neon64;
