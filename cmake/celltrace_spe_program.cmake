@@ -1,11 +1,12 @@
 # Compiles SPE programs for every SPU type of the build.
 #
-#   celltrace_spe_program(NAME [HOT] SOURCE entry.cpp [SPUS types...] [CODE_BYTES n STACK_BYTES n]
+#   celltrace_spe_program(NAME [HOT] [LEVEL -On] SOURCE entry.cpp [SPUS types...] [CODE_BYTES n STACK_BYTES n]
 #     [SPU_HEADER kernel.hpp SPU_KERNEL qualified::function [SPU_ARENA bytes] [SPU_MODULES script.ld]] [LINK targets...])
 #
 # makes the static library celltrace_NAME_program. CODE_BYTES (with data) and STACK_BYTES are what the program takes of
 # a real SPE's local store; celltrace_spu_budget_test() of the same name holds them against the real build. HOT: what
-# users wait for, which may take longer to compile. The source says which kernel it is:
+# users wait for, which may take longer to compile. LEVEL: of optimisation, in place of the build's. The source says
+# which kernel it is:
 #
 #   #include "kernel/program/tracer.hpp"
 #   #include "backends/spe_entry.hpp"
@@ -82,7 +83,7 @@ endif()
 celltrace_spu_type(cell_emu HEADER celltrace/spe/emulated_spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
 
 function(celltrace_spe_program name)
-  cmake_parse_arguments(PROGRAM "HOT" "SOURCE;CODE_BYTES;STACK_BYTES;SPU_HEADER;SPU_KERNEL;SPU_ARENA;SPU_MODULES" "LINK;SPUS" ${ARGN})
+  cmake_parse_arguments(PROGRAM "HOT" "LEVEL;SOURCE;CODE_BYTES;STACK_BYTES;SPU_HEADER;SPU_KERNEL;SPU_ARENA;SPU_MODULES" "LINK;SPUS" ${ARGN})
   if(NOT PROGRAM_SPUS)
     set(PROGRAM_SPUS ${CELLTRACE_SPUS})
   endif()
@@ -101,7 +102,7 @@ function(celltrace_spe_program name)
     set(object ${library}_${spu})
     add_library(${object} OBJECT ${PROGRAM_SOURCE})
     target_link_libraries(${object} PUBLIC celltrace_options celltrace_native celltrace_cell_emu ${PROGRAM_LINK})
-    target_compile_options(${object} PRIVATE ${CELLTRACE_SPU_${spu}_FLAGS})
+    target_compile_options(${object} PRIVATE ${CELLTRACE_SPU_${spu}_FLAGS} ${PROGRAM_LEVEL})
     if(PROGRAM_HOT)
       target_compile_options(${object} PRIVATE ${CELLTRACE_SPU_${spu}_HOT_FLAGS})
     endif()
