@@ -547,6 +547,17 @@ void check(Session& session, const ObjectDefinition& object, const Location& whe
     session.fail(where, "an object with an 'interior_texture' has to have a texture, too");
 }
 
+void ignore_colour(Session& session, const Location& where) {
+  session.diagnostics.warn_once(where, "this colour is ignored: what gives an object one is its 'pigment'");
+}
+
+void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument) {
+  if (argument.value.is_colour && is_complete(written.number, written.arguments.size()))
+    ignore_colour(session, argument.where);
+  else
+    append(session, written.arguments, argument, argument.where);
+}
+
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written) {
   auto object = std::make_shared<ObjectDefinition>();
   object->shape = read_shape(session, written);

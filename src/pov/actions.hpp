@@ -244,6 +244,11 @@ void set_uv_mapping(Session& session, ObjectDefinition& object, const Location& 
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 /// What an object has to have when it ends.
 void check(Session& session, const ObjectDefinition& object, const Location& where);
+/// What POV-Ray makes of a colour among an object's modifiers.
+void ignore_colour(Session& session, const Location& where);
+/// Adds what stands behind other arguments without a comma: that may also be the name of a colour, which is
+/// such a modifier where the shape is complete.
+void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
 /// With POV-Ray's defaults: no direction, and an arc without an end.
 std::shared_ptr<RainbowDefinition> new_rainbow();

@@ -11,7 +11,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "pov/actions.hpp"
 #include "pov/session.hpp"
 #include "pov/value.hpp"
 
@@ -246,18 +245,10 @@ std::vector<const char*> shape_names() {
   return names;
 }
 
-void ignore_colour(Session& session, const Location& where) {
-  session.diagnostics.warn_once(where, "this colour is ignored: what gives an object one is its 'pigment'");
-}
-
-void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument) {
-  const ShapeForm& shape = kShapes[written.number];
-  const std::size_t count = written.arguments.size();
-  const bool takes_vector =
-      count < shape.most() ? shape.parameters[count].is_vector : shape.vectors != nullptr;
-  if (argument.value.is_colour && count >= shape.fewest() && !takes_vector)
-    return ignore_colour(session, argument.where);
-  append(session, written.arguments, argument, argument.where);
+bool is_complete(int shape, std::size_t count) {
+  const ShapeForm& form = kShapes[shape];
+  const bool takes_vector = count < form.most() ? form.parameters[count].is_vector : form.vectors != nullptr;
+  return count >= form.fewest() && !takes_vector;
 }
 
 Shape read_shape(Session& session, const WrittenShape& written) {

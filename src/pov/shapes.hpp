@@ -3,6 +3,7 @@
 // language's words and the messages about wrong arguments come from there too.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -29,11 +30,9 @@ std::vector<const char*> shape_names();
 /// Whether something may be left out behind what such a shape has to have; by its place in shape_names().
 bool has_option(int shape);
 
-/// What POV-Ray makes of a colour among an object's modifiers.
-void ignore_colour(Session& session, const Location& where);
-/// Adds what stands behind other arguments without a comma: that may also be the name of a colour, which is
-/// ignored where the shape takes no vector.
-void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
+/// Whether such a shape has all its arguments with so many, and takes no vector as the next one.
+bool is_complete(int shape, std::size_t count);
+
 /// Fails if the arguments are not the shape's.
 Shape read_shape(Session& session, const WrittenShape& written);
 

@@ -114,7 +114,7 @@ Vec3 filter_of(const PreparedScene& scene, const ObjectRecord& object, double u,
 
 /// The closest hits, and the light with every crossing of every object once.
 Answer brute_force(const PreparedScene& scene, const TraversalQuery& q) {
-  Answer answer;
+  Answer answer = {};
   for (unsigned l = 0; l < kSimdLanes; ++l) {
     answer.hits.distance.lane[l] = kMaxHitDistance;
     answer.hits.object.lane[l] = kNoOffset;
