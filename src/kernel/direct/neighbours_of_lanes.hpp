@@ -61,21 +61,22 @@ public:
   }
 
   /// The same for the others of the 26 around each lane's cell, in pairs: `take(ways, lanes, count)`,
-  /// lanes[i] that of the i-th way. `reaching(square)`: bits of the lanes that want to know of points so far
-  /// away.
-  template <class Reaching, class Take> void for_each_far(const Reaching& reaching, const Take& take) const {
+  /// lanes[i] that of the i-th way. `along(gap)`: what a gap along one axis adds to what distances are a root
+  /// of. `reaching(sum)`: bits of the lanes that want to know of points whose gaps add up to that.
+  template <class Along, class Reaching, class Take>
+  void for_each_far(const Along& along, const Reaching& reaching, const Take& take) const {
     Pairs pairs;
-    F squares[3][kSteps];
+    F gaps[3][kSteps];
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      const F low = from_[axis], high = F(1.0f) - low, near = S::min(low, high), far = S::max(low, high);
-      squares[axis][kStay] = F(0.0f);
-      squares[axis][kNear] = near * near;
-      squares[axis][kFar] = far * far;
+      const F low = from_[axis], high = F(1.0f) - low;
+      gaps[axis][kStay] = F(0.0f);
+      gaps[axis][kNear] = along(S::min(low, high));
+      gaps[axis][kFar] = along(S::max(low, high));
     }
     for (uint32_t x = 0; x < kSteps; ++x)
       for (uint32_t y = 0; y < kSteps; ++y)
         for (uint32_t z = x == kFar || y == kFar ? 0 : kFar; z < kSteps; ++z)
-          for_each_lane(reaching(squares[0][x] + squares[1][y] + squares[2][z]), [&](uint32_t lane) {
+          for_each_lane(reaching(gaps[0][x] + gaps[1][y] + gaps[2][z]), [&](uint32_t lane) {
             constexpr float kFactor[kSteps] = {0.0f, 1.0f, -1.0f};
             const uint32_t i = pairs.count++;
             pairs.lane[i] = static_cast<int32_t>(lane);

@@ -51,29 +51,36 @@ struct CracklePattern : RarePattern {
     // The inner cells first: most of the others are then too far away.
     if constexpr (kHasRoomForCode<Spu>)
       if (take_inner_of_lanes(features, p, metric, wanted, nearest) &&
-          reaches_no_further<S>(nearest.power[wanted.last], S::M::all(), metric))
+          reaches_no_further<S>(nearest.power[wanted.last], S::M::all()))
         return nearest;
     for_each_cell_of<S>(p, [&](uint32_t lanes, const uint32_t(&cell)[3], const V3<S>& from) {
       const auto here = S::M::from_bits(lanes);
       if constexpr (kHasRoomForCode<Spu>) {
         take_inner(features, cell, from, p, lanes, metric, wanted, nearest);
-        if (reaches_no_further<S>(nearest.power[wanted.last], here, metric)) return;
+        if (reaches_no_further<S>(nearest.power[wanted.last], here)) return;
       }
+      // What a cell's points are away at least, along an axis: where code is short, by the usual metric
+      // alone.
+      const auto across = [metric](const F& coordinate, int32_t steps) {
+        const F width = gap<S>(coordinate, steps);
+        if constexpr (!kHasRoomForCode<Spu>) return metric == 2.0f ? width * width : F(0.0f);
+        return along<S>(width, metric);
+      };
+      const auto is_too_far = [&](const F& sum) {
+        return (here & (sum < nearest.power[wanted.last])).bits() == 0;
+      };
       for (int32_t reach = kHasRoomForCode<Spu> ? 2 : 1; reach <= 2; ++reach)
         for (int32_t x = -reach; x <= reach; ++x) {
-          const F gap_x = gap<S>(from.x, x);
+          const F gap_x = across(from.x, x);
           const uint32_t plane = features.number_after(0, cell[0] + static_cast<uint32_t>(x));
           for (int32_t y = -reach; y <= reach; ++y) {
-            const F gap_y = gap<S>(from.y, y), gap_xy = gap_x * gap_x + gap_y * gap_y;
+            const F gap_xy = gap_x + across(from.y, y);
             const bool is_outer = reach == 2 && (x < -1 || x > 1 || y < -1 || y > 1);
-            if (reach == 2 && is_too_far<S>(gap_xy, nearest.power[wanted.last], here, metric)) continue;
+            if (reach == 2 && is_too_far(gap_xy)) continue;
             const uint32_t column = features.number_after(plane, cell[1] + static_cast<uint32_t>(y));
             const int32_t step = reach == 1 || is_outer ? 1 : 4;
             for (int32_t z = -reach; z <= reach; z += step) {
-              const F gap_z = gap<S>(from.z, z);
-              if (reach == 2 &&
-                  is_too_far<S>(gap_xy + gap_z * gap_z, nearest.power[wanted.last], here, metric))
-                continue;
+              if (reach == 2 && is_too_far(gap_xy + across(from.z, z))) continue;
               const FeatureRecord feature =
                   features.at(features.number_after(column, cell[2] + static_cast<uint32_t>(z)));
               const V3<S> d = {F(feature.place[0] + static_cast<float>(x)) - from.x,
@@ -90,8 +97,6 @@ struct CracklePattern : RarePattern {
 private:
   /// What a distance is a root of where no point is known.
   static constexpr float kFar = 1e30f;
-  /// Of metrics whose distances tell how far away a point is as the crow flies, at most.
-  static constexpr bool is_simple(float metric) { return metric == 1.0f || metric == 2.0f; }
 
   /// The points of the inner cells, for lanes that are all in one cell, unless they have been taken before.
   template <class Spu, class S>
@@ -102,7 +107,7 @@ private:
     if ((S::M::from_bits(lanes) & (nearest.power[0] < F(kFar))).bits() != 0) return;
     FeatureNeighbours<S> room;
     const FeatureNeighbours<S>& neighbours = features.neighbours_of(cell, room);
-    if (!is_simple(metric) || __builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
+    if (__builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
       const auto here = S::M::from_bits(lanes);
       const auto take_all = [&](float of_metric) __attribute__((always_inline)) {
         Nearest<S> found = nearest;
@@ -135,12 +140,11 @@ private:
     });
   }
 
-  /// Those of all lanes at once; false: they are in few cells, or the metric is not simple.
+  /// Those of all lanes at once; false: they are in few cells.
   template <class Spu, class S>
   [[gnu::always_inline]] static bool take_inner_of_lanes(Features<Spu>& features, const V3<S>& p,
                                                          float metric, const Wanted& wanted,
                                                          Nearest<S>& nearest) {
-    if (!is_simple(metric)) return false;
     const NeighboursOfLanes<S> neighbours(features, p);
     const uint32_t most = features.are_cached() ? tuning::kMostCellsInCache : tuning::kMostCellsOfFeatures;
     if (!neighbours.are_of_more_cells_than(most)) return false;
@@ -162,37 +166,38 @@ private:
         take<S>(power<S>(d, metric), d, p, nearest);
       });
     }
-    const typename S::F& longest = nearest.power[wanted.last];
-    const typename S::F reach = metric == 2.0f ? longest : longest * longest; // as the crow flies, squared
+    const typename S::F reach = nearest.power[wanted.last];
     FloatLanes least[3];
     for (uint32_t i = 0; i <= wanted.last; ++i)
       nearest.power[i].store(least[i].lane);
     VectorLanes way = {};
     uint32_t nearer = 0;
-    neighbours.for_each_far(
-        [&](const typename S::F& square) __attribute__((always_inline)) { return (square < reach).bits(); },
-        [&](const V3<S>& ways, const int32_t* lanes, uint32_t count) {
-          FloatLanes found;
-          VectorLanes to;
-          power<S>(ways, metric).store(found.lane);
-          to.template store<S>(ways);
-          for (uint32_t i = 0; i < count; ++i) {
-            const auto lane = static_cast<uint32_t>(lanes[i]);
-            float next = found.lane[i];
-            if (next < least[0].lane[lane]) {
-              nearer |= 1u << lane;
-              way.x.lane[lane] = to.x.lane[i];
-              way.y.lane[lane] = to.y.lane[i];
-              way.z.lane[lane] = to.z.lane[i];
-            }
-            for (uint32_t rank = 0; rank <= wanted.last; ++rank) {
-              float& known = least[rank].lane[lane];
-              const float lower = next < known ? next : known;
-              next = next < known ? known : next;
-              known = lower;
-            }
-          }
-        });
+    const auto take_pairs = [&](const V3<S>& ways, const int32_t* lanes, uint32_t count) {
+      FloatLanes found;
+      VectorLanes to;
+      power<S>(ways, metric).store(found.lane);
+      to.template store<S>(ways);
+      for (uint32_t i = 0; i < count; ++i) {
+        const auto lane = static_cast<uint32_t>(lanes[i]);
+        float next = found.lane[i];
+        if (next < least[0].lane[lane]) {
+          nearer |= 1u << lane;
+          way.x.lane[lane] = to.x.lane[i];
+          way.y.lane[lane] = to.y.lane[i];
+          way.z.lane[lane] = to.z.lane[i];
+        }
+        for (uint32_t rank = 0; rank <= wanted.last; ++rank) {
+          float& known = least[rank].lane[lane];
+          const float lower = next < known ? next : known;
+          next = next < known ? known : next;
+          known = lower;
+        }
+      }
+    };
+    neighbours.for_each_far([&](const typename S::F& gap) { return along<S>(gap, metric); },
+                            [&](const typename S::F& sum)
+                                __attribute__((always_inline)) { return (sum < reach).bits(); },
+                            take_pairs);
     for (uint32_t i = 0; i <= wanted.last; ++i)
       nearest.power[i] = S::F::load(least[i].lane);
     if (wanted.point && nearer != 0)
@@ -206,30 +211,28 @@ private:
     if (steps == 0) return F(0.0f);
     return steps > 0 ? F(static_cast<float>(steps)) - from : from - F(static_cast<float>(steps + 1));
   }
-  /// Whether no point that has this square of the distance as the crow flies is nearer, in any lane of
-  /// `here`. Metrics of a number above 2 find points nearer than the crow does.
+  /// Whether no point beyond the inner cells, which are 1 away or more along an axis, is nearer.
   template <class S>
-  [[gnu::always_inline]] static bool is_too_far(const typename S::F& square, const typename S::F& power,
-                                                const typename S::M& here, float metric) {
-    if (metric == 2.0f) return (here & (square < power)).bits() == 0;
-    return metric == 1.0f && (here & (square < power * power)).bits() == 0;
+  [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power,
+                                                        const typename S::M& here) {
+    return (here & (power > typename S::F(1.0f))).bits() == 0;
   }
 
-  /// Whether no point beyond the inner cells, which are 1 away or more, is nearer.
+  /// What a distance along one axis adds to what the distance is a root of.
   template <class S>
-  [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power, const typename S::M& here,
-                                                        float metric) {
-    return is_simple(metric) && (here & (power > typename S::F(1.0f))).bits() == 0;
+  [[gnu::always_inline]] static typename S::F along(const typename S::F& distance, float metric) {
+    using F = typename S::F;
+    if (metric == 2.0f) return distance * distance;
+    return metric == 1.0f ? distance : pow<S>(distance, F(metric));
   }
-
   /// What the distance is a root of.
   template <class S> [[gnu::always_inline]] static typename S::F power(const V3<S>& d, float metric) {
     using F = typename S::F;
     if (metric == 2.0f) return dot<S>(d, d);
     F sum(0.0f);
     const F distance[3] = {S::abs(d.x), S::abs(d.y), S::abs(d.z)};
-    for (const F& along : distance)
-      sum = sum + (metric == 1.0f ? along : pow<S>(along, F(metric)));
+    for (const F& one : distance)
+      sum = sum + along<S>(one, metric);
     return sum;
   }
   template <class S>
