@@ -65,7 +65,7 @@ constexpr CodeModule kMaps = {"maps", 27, 1, 6784};
 constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
 
 /// What few finishes do with light, and light from behind.
-constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
+constexpr CodeModule kFinishes = {"finishes", 19, 1, 4864};
 
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 

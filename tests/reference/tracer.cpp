@@ -232,7 +232,7 @@ Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material&
       colour *= arriving(light, {point.position, to_light}, distance, branch.inside);
     sum += lit(material, scene_.version, colour, to_light, direction, point.normal, !light.shadowless,
                is_lit_through) *
-           film(f, scene_.irid_wavelength, std::abs(cosine), -glm::dot(direction, point.normal));
+           film(f, scene_.irid_wavelength, std::abs(cosine), std::abs(glm::dot(direction, point.normal)));
   }
   return sum;
 }
@@ -276,7 +276,7 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
                            branch.weight * strength,
                            branch.inside,
                            true});
-  return sum + mirrored * filmed * glm::pow(seen, Vec3(1 / material.finish.reflection_exponent));
+  return sum + mirrored * glm::pow(filmed * seen, Vec3(1 / material.finish.reflection_exponent));
 }
 
 } // namespace celltrace::reference

@@ -17,7 +17,7 @@ cylinder { <1.6, 0, 3>, <1.6, 4, 3>, 0.3 pigment { color rgb <0, 1, 1> } no_imag
 triangle { <-5, 0, 4>, <-1, 0, 4>, <-3, 4, 4> pigment { color rgb <0.9, 0.8, 0.2> } no_image }
 triangle { <-6, 0, 5>, <-2, 0, 5>, <-4, 4, 5> pigment { color rgb <0.5, 0.3, 0.7> } no_reflection }
 sphere { <-1, 0.6, -2.5>, 0.6 pigment { color rgb <0.6, 0.6, 0.7> } finish { diffuse 0.5 specular 0.5 roughness 0.05 irid { 0.4 thickness 0.9 turbulence 0.3 } } }
-sphere { <0.8, 0.6, -2.8>, 0.6 pigment { gradient y color_map { [0 color rgb 0.4] [1 color rgb 0.9] } scale 0.3 } finish { reflection 0.4 irid { 0.35 thickness 0.5 } } }
+sphere { <0.8, 0.6, -2.8>, 0.6 pigment { gradient y color_map { [0 color rgb 0.4] [1 color rgb 0.9] } scale 0.3 } finish { reflection { 0.4 exponent 1.4 } irid { 0.35 thickness 0.5 } } }
 intersection {
   sphere { <3.2, 0.6, -2.5>, 0.6 no_image no_shadow } box { <2.6, 0, -3>, <3.7, 1, -2> no_reflection }
   pigment { color rgb <0.9, 0.5, 0.1> }

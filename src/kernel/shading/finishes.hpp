@@ -3,6 +3,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/lights/incident_light.hpp"
+#include "kernel/math.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/shading/material_lanes.hpp"
 #include "kernel/shading/secondary_rays.hpp"
@@ -88,8 +89,8 @@ CELLTRACE_ONE_COPY void change_special_light(SceneAccess<Spu>& scene, const Surf
         after = after - part_of<Spu>(m.pigment, first) * part_of<Spu>(light.colour, first) * less;
       }
       if (f.irid != 0.0f) {
-        const F cosines = part_of<Spu>(light.cosine, first) -
-                          dot<R>(part_of<Spu>(s.direction, first), part_of<Spu>(s.normal, first));
+        const F cosines = part_of<Spu>(light.cosine, first) +
+                          R::abs(dot<R>(part_of<Spu>(s.direction, first), part_of<Spu>(s.normal, first)));
         after = after * detail::film_factors(scene.spu(), f, point, cosines);
       }
       set_part<Spu>(sent, first, select<R>(R::M::from_bits(some), after, before));
@@ -98,9 +99,10 @@ CELLTRACE_ONE_COPY void change_special_light(SceneAccess<Spu>& scene, const Surf
 }
 
 /// Changes what surfaces mirror and reflect inside, in the lanes of `m.special`: films are passed as light
-/// from there would pass them.
+/// from there would pass them. `smooth`: the surfaces' normals before they were disturbed.
 template <class Spu>
 CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
+                                              const V3<typename Spu::simd>& smooth,
                                               const MaterialLanes<typename Spu::simd>& m,
                                               SecondaryRays<typename Spu::simd>& onward) {
   using S = typename Spu::simd;
@@ -114,15 +116,20 @@ CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Sur
         for_each_part<Spu>([&](uint32_t first) {
           const uint32_t some = part_of<Spu>(same, first);
           if (some == 0) return;
-          const F cosine = -dot<R>(part_of<Spu>(s.direction, first), part_of<Spu>(s.normal, first));
-          const V3<R> factors =
-              detail::film_factors(scene.spu(), f, part_of<Spu>(s.point, first), cosine + cosine);
-          const auto pass = [&](V3<typename Spu::simd>& light) {
+          const V3<R> direction = part_of<Spu>(s.direction, first), normal = part_of<Spu>(s.normal, first);
+          const V3<R> mirrored = mirror_inline<R>(direction, normal, part_of<Spu>(smooth, first));
+          const F cosines = R::abs(dot<R>(mirrored, normal)) + R::abs(dot<R>(direction, normal));
+          const V3<R> factors = detail::film_factors(scene.spu(), f, part_of<Spu>(s.point, first), cosines);
+          const auto pass = [&](V3<typename Spu::simd>& light, const V3<R>& shares) {
             const V3<R> before = part_of<Spu>(light, first);
-            set_part<Spu>(light, first, select<R>(R::M::from_bits(some), before * factors, before));
+            set_part<Spu>(light, first, select<R>(R::M::from_bits(some), before * shares, before));
           };
-          pass(onward.mirror);
-          pass(onward.reflected_inside);
+          pass(onward.reflected_inside, factors);
+          if (!onward.bends_reflection) return pass(onward.mirror, factors);
+          // The mirrored light is raised to a power when it arrives: what it passed by then is, too.
+          const F power = part_of<Spu>(onward.reflection_power, first);
+          const auto raised = [&](const F& factor) { return pow<R>(R::max(factor, F(0.0f)), power); };
+          pass(onward.mirror, {raised(factors.x), raised(factors.y), raised(factors.z)});
         });
       });
 }

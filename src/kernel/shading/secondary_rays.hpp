@@ -145,7 +145,9 @@ V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& 
 
 /// Of a surface whose disturbed normal is `normal`. As in POV-Ray, a normal that is turned away from the ray
 /// is as if it were smooth, and what would go below the smooth surface is mirrored there again.
-template <class S> V3<S> mirror(const V3<S>& direction, const V3<S>& normal, const V3<S>& smooth) {
+template <class S>
+[[gnu::always_inline]] inline V3<S> mirror_inline(const V3<S>& direction, const V3<S>& normal,
+                                                  const V3<S>& smooth) {
   using F = typename S::F;
   const F zero(0.0f);
   const F disturbed_cosine = -dot<S>(direction, normal);
@@ -154,6 +156,9 @@ template <class S> V3<S> mirror(const V3<S>& direction, const V3<S>& normal, con
   const V3<S> mirrored = normalise<S>(direction + select<S>(away, smooth, normal) * (cosine + cosine));
   const F below = S::min(dot<S>(mirrored, smooth), zero);
   return mirrored - smooth * (below + below);
+}
+template <class S> V3<S> mirror(const V3<S>& direction, const V3<S>& normal, const V3<S>& smooth) {
+  return mirror_inline<S>(direction, normal, smooth);
 }
 
 /// Fresnel reflectance of unpolarised light, going from index `from` to `to` at `cosine` to the normal; 1

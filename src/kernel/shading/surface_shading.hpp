@@ -205,7 +205,8 @@ private:
     scene_.spu().compute(scalar_work::kShade);
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
     add_light(surfaces, m, lanes, {share, share, share});
-    return round_.is_first() ? onward_rays(surfaces, interior, m, lanes, share) : SecondaryRays<S>::nothing();
+    return round_.is_first() ? onward_rays(surfaces, surfaces.normal, interior, m, lanes, share)
+                             : SecondaryRays<S>::nothing();
   }
   /// Adds what surfaces send by themselves, times `share`. One copy, whose vectors are not on the stack while
   /// rays go on.
@@ -215,8 +216,10 @@ private:
     const V3<S> rest = local_light(scene_, frame_, round_, surfaces, m, lanes, weight);
     if (!round_.only_gathers) add_weighted(lanes, rest, weight);
   }
-  CELLTRACE_ONE_COPY SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const WordLanes& interior,
-                                                  const MaterialLanes<S>& m, uint32_t lanes, const F& share) {
+  /// `smooth`: the surfaces' normals before they were disturbed.
+  CELLTRACE_ONE_COPY SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const V3<S>& smooth,
+                                                  const WordLanes& interior, const MaterialLanes<S>& m,
+                                                  uint32_t lanes, const F& share) {
     SecondaryRays<S> onward = SecondaryRays<S>::nothing();
     if (!m.has(material_flag::reflects | material_flag::transmits)) return onward;
     scene_.spu().compute(scalar_work::kSecondaryRays);
@@ -230,7 +233,7 @@ private:
     onward.reflected_inside = {counted, counted, counted};
     if ((m.special & (onward.mirrors | onward.clear)) != 0) {
       scene_.spu().enter_module(modules::kFinishes);
-      change_special_mirror(scene_, surfaces, m, onward);
+      change_special_mirror(scene_, surfaces, smooth, m, onward);
     }
     return onward;
   }
@@ -254,7 +257,7 @@ private:
       surfaces.normal = smooth;
       add_textures(materials, m, surfaces);
       add_light(surfaces, m, lanes, above * share);
-      SecondaryRays<S> rays = onward_rays(surfaces, interior, m, lanes, one);
+      SecondaryRays<S> rays = onward_rays(surfaces, smooth, interior, m, lanes, one);
       if (rays.is_nothing()) break;
       const uint32_t clear = rays.clear;
       rays.clear = 0;
