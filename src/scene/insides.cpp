@@ -1,5 +1,6 @@
 #include "scene/insides.hpp"
 
+#include "scene/mesh_geometry.hpp"
 #include "scene/shape_geometry.hpp"
 #include "scene/shapes.hpp"
 #include "scene/surface_records.hpp"
@@ -96,32 +97,52 @@ bool may_have_inside(const Object& object) {
   return sphere == nullptr || sphere->radius != 0;
 }
 
-Aabb box_of(const Object& object, const Transform& around);
+/// Whether it or something that it is made of is inverse.
+bool has_inverse(const Object& object) {
+  const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+  return object.inverse ||
+         (csg != nullptr && std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_inverse));
+}
+
+/// Without inverse parts nothing is in an object beyond its meshes: they are not worth a look at all of their
+/// vertices then.
+enum class Meshes { bounded, unbounded };
+
+Aabb box_of(const Object& object, const Transform& around, Meshes meshes);
 
 /// Of what all parts of an intersection or difference have in common. What is inverse does not limit it, nor
 /// what is taken away, which counts as inverse. Nothing is a point, as in POV-Ray.
-Aabb common_box(const Csg& csg, const Transform& transform) {
+Aabb common_box(const Csg& csg, const Transform& transform, Meshes meshes) {
   Aabb box = kUnbounded;
   for (const Object& part : csg.parts)
-    if (part.inverse == is_taken_away(part, csg)) box = intersected(box, box_of(part, transform));
+    if (part.inverse == is_taken_away(part, csg)) box = intersected(box, box_of(part, transform, meshes));
   for (int axis = 0; axis < 3; ++axis)
     if (box.min[axis] > box.max[axis]) return {{0, 0, 0}, {0, 0, 0}};
   return box;
 }
 
 /// Of an object that is not clipped. `transform`: all of its own.
-Aabb box_of_shape(const Object& object, const Transform& transform) {
+Aabb box_of_shape(const Object& object, const Transform& transform, Meshes meshes) {
   if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
     using Operation = Csg::Operation;
     const Operation operation = (*csg)->operation;
     if (operation == Operation::intersection || operation == Operation::difference)
-      return common_box(**csg, transform);
+      return common_box(**csg, transform, meshes);
     Aabb box = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
     for (const Object& part : (*csg)->parts)
-      box = united(box, box_of(part, transform));
+      box = united(box, box_of(part, transform, meshes));
     return box;
   }
-  if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape)) return kUnbounded;
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape)) {
+    if (meshes == Meshes::unbounded) return kUnbounded;
+    const Extent extent = geometry::extent_of(**mesh).moved(transform);
+    Aabb box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = static_cast<float>(extent.min[axis]);
+      box.max[axis] = static_cast<float>(extent.max[axis]);
+    }
+    return box;
+  }
   Object shape = object;
   shape.inverse = false;
   shape.transform = transform;
@@ -132,11 +153,11 @@ Aabb box_of_shape(const Object& object, const Transform& transform) {
 
 /// Around what POV-Ray takes for the object when it asks what the camera is in: what is inverse counts as if
 /// it were not, in merges too. As far as it is worth finding out.
-Aabb box_of(const Object& object, const Transform& around) {
-  Aabb box = box_of_shape(object, object.transform.then(around));
+Aabb box_of(const Object& object, const Transform& around, Meshes meshes) {
+  Aabb box = box_of_shape(object, object.transform.then(around), meshes);
   if (object.clipped_by)
     for (const Object& clip : *object.clipped_by)
-      if (!clip.inverse) box = intersected(box, box_of(clip, around));
+      if (!clip.inverse) box = intersected(box, box_of(clip, around, meshes));
   return box;
 }
 
@@ -144,7 +165,7 @@ Aabb box_of(const Object& object, const Transform& around) {
 Aabb box_around(const Object& object) {
   if (std::holds_alternative<Sphere>(object.shape) && !object.inverse && !object.clipped_by)
     return kUnbounded;
-  return box_of(object, Transform());
+  return box_of(object, Transform(), has_inverse(object) ? Meshes::bounded : Meshes::unbounded);
 }
 
 } // namespace

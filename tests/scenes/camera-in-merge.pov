@@ -19,3 +19,22 @@ merge {
   sphere { 0, 0.6 inverse clipped_by { box { -2, 2 } } }
   texture { Clear } interior { Bent } translate <1.3, 0, 0>
 }
+
+// The same with a mesh, in front: beside an inverse box, whose bounds would be everywhere, and inverse itself.
+#declare Corners = array[4] { <1, 1, 1>, <-1, -1, 1>, <-1, 1, -1>, <1, -1, -1> }
+#declare Pyramid = mesh {
+  #for (I, 0, 3)
+    triangle { Corners[I], Corners[mod(I + 1, 4)], Corners[mod(I + 2, 4)] }
+  #end
+  inside_vector y
+}
+union {
+  box { -0.3, 0.3 inverse clipped_by { sphere { 0, 0.5 } } }
+  object { Pyramid scale 0.2 translate 0.5*y }
+  texture { Clear } interior { Bent } translate <-0.7, -0.6, -2>
+}
+union {
+  object { Pyramid scale 0.4 inverse }
+  sphere { 0.5*x, 0.2 }
+  texture { Clear } interior { Bent } translate <0.6, -0.6, -2>
+}
