@@ -1,5 +1,5 @@
 // Points and normals where rays hit, against the reference's geometry.
-#include "kernel/accel/traversal.hpp"
+#include "compiled_once.hpp"
 #include "kernel/shading/hit_points.hpp"
 #include "prepared_scene.hpp"
 #include "reference/geometry.hpp"

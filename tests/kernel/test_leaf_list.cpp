@@ -1,5 +1,5 @@
 // The leaves of a small BVH, tested one after the other: against tests of all objects.
-#include "kernel/accel/traversal.hpp"
+#include "compiled_once.hpp"
 #include "kernel/direct/leaf_list.hpp"
 #include "lanes.hpp"
 #include "prepared_scene.hpp"

@@ -1,6 +1,6 @@
 // Bundles of rays to a light: what they are bounded by, which triangles their packets see, and what light
 // comes to them.
-#include "kernel/accel/traversal.hpp"
+#include "compiled_once.hpp"
 #include "kernel/direct/light_bundle.hpp"
 #include "kernel/direct/shadow_volumes.hpp"
 #include "kernel/direct/triangle_culling.hpp"

@@ -1,5 +1,5 @@
 // Bundles of primary rays that leave one point: what they are bounded by, and what is found by that.
-#include "kernel/accel/traversal.hpp"
+#include "compiled_once.hpp"
 #include "kernel/cameras/primary_rays.hpp"
 #include "made_records.hpp"
 #include "prepared_scene.hpp"

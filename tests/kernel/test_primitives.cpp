@@ -1,7 +1,7 @@
 // Every shape against what its inside says, in double precision: a ray crosses the surface where it changes
 // from inside to outside. Shapes are placed at random, as a Scene places them.
+#include "compiled_once.hpp"
 #include "kernel/accel/object_bounds.hpp"
-#include "kernel/accel/object_tests.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "lanes.hpp"
 #include "prepared_scene.hpp"

@@ -1,5 +1,5 @@
 // The light of a hit in single precision against the formulas of the reference.
-#include "kernel/accel/traversal.hpp"
+#include "compiled_once.hpp"
 #include "kernel/shading/atmosphere.hpp"
 #include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"

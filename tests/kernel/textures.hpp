@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/texture.hpp"
+#include "compiled_once.hpp"
 #include "kernel/textures/pigments.hpp"
 #include "lanes.hpp"
 #include "scene/scene_image.hpp"
