@@ -38,7 +38,7 @@ Image native_picture(const Scene& scene, int width) {
 using Sizes = std::vector<std::pair<unsigned, int>>; // SPEs and pixels a row
 
 // Smaller where there are few: simulating takes the time of a core whatever their number.
-const Sizes kSmall{{1, 32}, {2, 48}, {8, 64}}, kLarge{{1, 72}, {2, 72}, {8, 160}};
+const Sizes kSmall{{1, 24}, {2, 32}, {8, 48}}, kLarge{{1, 72}, {2, 72}, {8, 160}};
 
 void check_scene(const std::filesystem::path& path, const Sizes& sizes) {
   INFO(path.filename().string());
