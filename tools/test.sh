@@ -14,4 +14,4 @@ export CCACHE_SLOPPINESS=pch_defines,time_macros # else ccache compiles again wh
 tools/install-dependencies.sh build tests python docs
 tools/configure.sh ci
 cmake --build --preset ci
-ctest --preset ci --no-tests=error -j "$(nproc)"
+ctest --preset ci --no-tests=error -j $(($(nproc) + 1)) # some tests wait for programs
