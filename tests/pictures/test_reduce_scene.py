@@ -26,7 +26,7 @@ class ReduceScene(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             scene, smaller = Path(folder) / "scene.pov", Path(folder) / "smaller.pov"
             scene.write_text(SCENE % finish)
-            done = subprocess.run([sys.executable, TOOL, "--celltrace", PROGRAM, "--size", "40x30", str(scene), str(smaller)],
+            done = subprocess.run([sys.executable, TOOL, str(scene), str(smaller), "--celltrace", PROGRAM, "--size", "40x30"],
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=200)
             return done.returncode, done.stdout.decode(), smaller.read_text() if smaller.exists() else None
 
