@@ -59,8 +59,8 @@ struct CracklePattern : RarePattern {
         take_inner(features, cell, from, p, lanes, metric, wanted, nearest);
         if (reaches_no_further<S>(nearest.power[wanted.last], here)) return;
       }
-      // What a cell's points are away at least, along an axis: where code is short, by the usual metric
-      // alone.
+      // What a cell's points are away at least, along an axis: where room for code is short, by the usual
+      // metric alone.
       const auto across = [metric](const F& coordinate, int32_t steps) {
         const F width = gap<S>(coordinate, steps);
         if constexpr (!kHasRoomForCode<Spu>) return metric == 2.0f ? width * width : F(0.0f);
