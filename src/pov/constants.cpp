@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "celltrace/error.hpp"
+#include "pov/functions.hpp"
 
 namespace celltrace::pov {
 
@@ -41,6 +42,8 @@ Value value_of(Constant constant, const Session& session) {
     return Quantity(session.options.frame.clock_delta);
   case Constant::clock:
     return Quantity(session.options.clock);
+  case Constant::now:
+    return Quantity(days_now());
   case Constant::version:
     return Quantity(session.builder.version());
   }

@@ -6,7 +6,7 @@
 
 namespace celltrace::pov {
 
-enum class Constant { x, y, z, u, v, t, pi, on, off, clock, clock_delta, version };
+enum class Constant { x, y, z, u, v, t, pi, on, off, clock, clock_delta, now, version };
 
 Value value_of(Constant constant, const Session& session);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "pov/constants.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
 #include "pov/session.hpp"
@@ -39,7 +40,7 @@ std::optional<Values> dependencies(const Session& session, const TokenRange& con
     const Token& token = (*condition.tokens)[i];
     if (token.kind != Token::Kind::word) continue;
     const Names::Entry& name = session.names[token.name];
-    if (name.token == Number::T_CONSTANT) continue;
+    if (name.token == Number::T_CONSTANT && name.detail != static_cast<int>(Constant::now)) continue;
     if (name.token == Number::T_FUNCTION && is_pure(name.detail)) continue;
     const Value* const value = name.token == 0 ? session.symbols.value_of(token.name) : nullptr;
     if (value == nullptr || is_macro(value)) return std::nullopt;

@@ -85,12 +85,19 @@ private:
       if (variables_.size() >= kMostParameters)
         session_.fail(terminal_.where,
                       "a function has at most " + std::to_string(kMostParameters) + " parameters");
-      variables_.push_back(*name);
+      variables_.push_back(variable_of(*name));
       advance();
       take(',');
     }
     advance();
     function_->parameters = variables_.size();
+  }
+  /// u and v are other names of x and y.
+  NameId variable_of(NameId name) const {
+    const std::string& text = session_.names.text(name);
+    if (text == "u") return session_.names.intern("x");
+    if (text == "v") return session_.names.intern("y");
+    return name;
   }
   bool is_coordinate(NameId name) const {
     const std::string& text = session_.names.text(name);
@@ -243,7 +250,11 @@ private:
 
   void read_operand() {
     const std::optional<NameId> name = word();
-    if (name && is_variable(*name)) return read_variable(*name);
+    if (name) {
+      const NameId variable = variable_of(*name);
+      if (is_variable(variable)) return read_variable(variable);
+      if (is_coordinate(variable) && session_.names.text(variable) != "t") return read_missing(*name);
+    }
     switch (terminal_.token) {
     case '(':
       advance();
@@ -275,6 +286,14 @@ private:
     // The innermost one of that name.
     const auto found = std::find(variables_.rbegin(), variables_.rend(), name);
     emit(Kind::load, static_cast<std::uint32_t>(variables_.rend() - found - 1));
+    advance();
+  }
+
+  /// A coordinate that is no parameter, in place of the vector that it is elsewhere.
+  void read_missing(NameId name) {
+    session_.diagnostics.warn_once(terminal_.where, "'" + session_.names.text(name) +
+                                                        "' is no parameter of this function: it is 0 here");
+    emit_constant(0);
     advance();
   }
 

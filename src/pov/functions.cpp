@@ -188,10 +188,6 @@ Quantity turbulence(const Call& call) {
 constexpr double kSecondsTo2000 = 946684800;
 constexpr double kSecondsPerDay = 86400;
 
-double days_now(const Call&) {
-  return (static_cast<double>(std::time(nullptr)) - kSecondsTo2000) / kSecondsPerDay;
-}
-
 /// As strftime() has it.
 std::string date_text(const Call& call) {
   const double seconds = call.number(0) * kSecondsPerDay + kSecondsTo2000;
@@ -259,7 +255,6 @@ const Function kFunctions[] = {
     {"log", "n", CELLTRACE_NUMERIC(logarithm(c, std::log10))},
     {"max", "n+", CELLTRACE_NUMERIC(best(c, std::greater<>()))},
     {"min", "n+", CELLTRACE_NUMERIC(best(c, std::less<>()))},
-    {"now", "", CELLTRACE_NUMERIC(days_now(c))},
     {"mod", "nn", CELLTRACE_NUMERIC(std::fmod(c.number(0), c.number(1)))},
     {"pow", "nn", CELLTRACE_NUMERIC(std::pow(c.number(0), c.number(1)))},
     {"radians", "n", CELLTRACE_NUMERIC(c.number(0) / kDegreesPerRadian)},
@@ -353,10 +348,14 @@ void check_numeric_call(Session& session, int function, std::size_t arguments, c
     session.fail(where, std::string(called.name) + "() is no function of floats");
 }
 
+double days_now() {
+  return (static_cast<double>(std::time(nullptr)) - kSecondsTo2000) / kSecondsPerDay;
+}
+
 bool is_pure(int function) {
   const char* const name = kFunctions[function].name;
   const auto is_name = [name](const char* other) { return std::strcmp(name, other) == 0; };
-  return !is_name("rand") && !is_name("seed") && !is_name("now") && !is_name("file_exists");
+  return !is_name("rand") && !is_name("seed") && !is_name("file_exists");
 }
 
 Quantity call_numeric(Session& session, int function, const std::vector<Value>& arguments,

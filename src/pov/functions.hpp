@@ -18,6 +18,8 @@ std::vector<FunctionName> function_names();
 
 /// Fails unless the function is one of floats only, of so many, that gives a float.
 void check_numeric_call(Session& session, int function, std::size_t arguments, const Location& where);
+/// Days since the year 2000 began (UTC).
+double days_now();
 /// Whether a function depends on nothing but its arguments, and changes nothing.
 bool is_pure(int function);
 /// Checks the arguments and calls function number `function`.

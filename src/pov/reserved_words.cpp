@@ -240,6 +240,7 @@ const DetailedWord kDetailedWords[] = {
     {"false", tokens::T_CONSTANT, detail(Constant::off)},
     {"clock", tokens::T_CONSTANT, detail(Constant::clock)},
     {"clock_delta", tokens::T_CONSTANT, detail(Constant::clock_delta)},
+    {"now", tokens::T_CONSTANT, detail(Constant::now)},
     {"version", tokens::T_CONSTANT, detail(Constant::version)},
     {"rgb", tokens::T_COLOUR_MODEL, detail(ColourModel::rgb)},
     {"rgbf", tokens::T_COLOUR_MODEL, detail(ColourModel::rgbf)},

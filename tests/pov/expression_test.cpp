@@ -150,6 +150,7 @@ TEST_CASE("constants and what the caller sets") {
   CHECK(value("clock_delta + clock_on + initial_frame + final_frame + frame_number + final_clock") ==
         "0.000");
   CHECK(value("version") == "3.700");
+  CHECK(value("now > 9000 & now*2 < 1e6") == "1.000"); // days since 2000
   celltrace::ParseOptions options;
   options.width = 320;
   options.height = 200;
