@@ -2,7 +2,6 @@
 
 #include "image/formats.hpp"
 #include "image/limits.hpp"
-#include "memory/huge_pages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,8 +61,6 @@ BasicImage<Channel>::BasicImage(int image_width, int image_height)
     : width(image_width), height(image_height) {
   image::check_size(image_width, image_height);
   const std::size_t count = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  rgba.reserve(count);
-  use_huge_pages(rgba.data(), count * sizeof(Channel));
   rgba.resize(count);
   for (std::size_t alpha = 3; alpha < rgba.size(); alpha += 4)
     rgba[alpha] = kOpaque<Channel>;

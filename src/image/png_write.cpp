@@ -3,8 +3,6 @@
 #include "image/formats.hpp"
 #include "image/limits.hpp"
 
-#include "memory/huge_pages.hpp"
-
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -27,12 +25,6 @@ using Bytes = std::unique_ptr<std::uint8_t[]>;
 struct FreeCompressor {
   void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
 };
-
-Bytes make_bytes(std::size_t count) {
-  Bytes bytes = std::make_unique_for_overwrite<std::uint8_t[]>(count);
-  use_huge_pages(bytes.get(), count);
-  return bytes;
-}
 
 void put_big_endian(std::uint8_t* target, std::uint32_t value) {
   for (int i = 0; i < 4; ++i)
@@ -78,7 +70,7 @@ void filter_row(const Channel* row, const Channel* above, std::uint8_t* target, 
 template <class Channel> Bytes filtered(const BasicImage<Channel>& image, bool opaque, std::size_t& count) {
   const std::size_t row_bytes = (opaque ? 3 : 4) * sizeof(Channel) * static_cast<std::size_t>(image.width);
   count = (1 + row_bytes) * static_cast<std::size_t>(image.height);
-  Bytes bytes = make_bytes(count);
+  Bytes bytes = std::make_unique_for_overwrite<std::uint8_t[]>(count);
   const std::vector<Channel> zeros(4 * static_cast<std::size_t>(image.width));
   std::uint8_t* target = bytes.get();
   for (int y = 0; y < image.height; ++y) {
@@ -97,7 +89,7 @@ template <class Channel> void write_pixels(std::FILE* file, const BasicImage<Cha
   std::size_t count = 0;
   const Bytes pixels = filtered(image, opaque, count);
   const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), count);
-  const Bytes compressed = make_bytes(most);
+  const Bytes compressed = std::make_unique_for_overwrite<std::uint8_t[]>(most);
   // The largest picture stays far below the 2^31 - 1 bytes a chunk can hold.
   const std::size_t size =
       libdeflate_zlib_compress(compressor.get(), pixels.get(), count, compressed.get(), most);

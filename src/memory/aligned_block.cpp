@@ -22,9 +22,9 @@ void AlignedBlock::Free::operator()(std::byte* bytes) const noexcept {
   std::free(bytes);
 }
 
-AlignedBlock AlignedBlock::uninitialised(std::size_t bytes) {
-  // From half of one on: it is there in a fifth of the time that as many small ones take.
-  const bool large = bytes >= kHugePage / 2;
+AlignedBlock AlignedBlock::uninitialised(std::size_t bytes, Pages pages) {
+  // From half of one on: it is there in a fifth of the time that as many normal ones take.
+  const bool large = pages == Pages::huge && bytes >= kHugePage / 2;
   const std::size_t unit = large ? kHugePage : kLine;
   const std::size_t whole = round_up(bytes == 0 ? 1 : bytes, unit);
   AlignedBlock block;

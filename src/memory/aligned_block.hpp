@@ -6,15 +6,19 @@
 
 namespace celltrace {
 
-/// Starts on a 128-byte boundary. Large blocks lie on huge pages where the system has them, for rays go
-/// through them in no order.
+/// Huge pages, where the system has them, are for what rays go through in no order. For what is written and
+/// read once they are not worth it: the host of a virtual machine may have to provide them first, which takes
+/// ten times as long as to fill normal ones.
+enum class Pages { normal, huge };
+
+/// Starts on a 128-byte boundary.
 class AlignedBlock {
 public:
   AlignedBlock() = default;
-  /// Zero at first. Throws std::bad_alloc.
+  /// Zero at first; on huge pages if it is large. Throws std::bad_alloc.
   explicit AlignedBlock(std::size_t bytes);
   /// With anything in it.
-  static AlignedBlock uninitialised(std::size_t bytes);
+  static AlignedBlock uninitialised(std::size_t bytes, Pages pages = Pages::huge);
 
   /// Has `bytes` at least; what was in it is lost if it was smaller.
   void reserve(std::size_t bytes);

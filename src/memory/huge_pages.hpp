@@ -1,7 +1,7 @@
 // Large blocks of memory on huge pages, where the system has them to give (Linux: transparent_hugepage).
 //
-// A picture is written once and read once or twice, so that bringing in its pages, 4 KB at a time, can take
-// as long as the work on it.
+// Rays that go through such a block in no order then miss the TLB less often; and where a scene's text or
+// triangles fill it once, bringing in its pages 4 KB at a time would take as long as the work on it.
 #pragma once
 
 #include <cstddef>

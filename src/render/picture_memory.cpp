@@ -18,7 +18,7 @@ namespace {
 
 /// A block that a DMA list can address: all of it in one region of 4 GB.
 AlignedBlock make_list_target(std::size_t bytes) {
-  AlignedBlock block = AlignedBlock::uninitialised(bytes);
+  AlignedBlock block = AlignedBlock::uninitialised(bytes, Pages::normal);
   const auto region = [](const std::byte* at) { return reinterpret_cast<std::uintptr_t>(at) >> 31 >> 1; };
   // The block that straddles a border is kept while another one is made, which therefore lies elsewhere.
   if (region(block.data()) != region(block.data() + bytes - 1)) return make_list_target(bytes);
@@ -33,9 +33,10 @@ void PictureMemory::make_room(unsigned spes, std::uint32_t bundle_edge) {
   frame_.surface = to_ea(surface_.data());
   grid_points_ = AlignedBlock();
   if (options_.antialiasing || brings_colours(options_))
-    grid_points_ =
-        AlignedBlock::uninitialised(std::size_t{frame_.packet_columns} * frame_.packet_rows *
-                                    (kGridPacketBytes + (options_.first_hits ? sizeof(FirstHitRecord) : 0)));
+    grid_points_ = AlignedBlock::uninitialised(
+        std::size_t{frame_.packet_columns} * frame_.packet_rows *
+            (kGridPacketBytes + (options_.first_hits ? sizeof(FirstHitRecord) : 0)),
+        Pages::normal);
   frame_.grid_points = to_ea(grid_points_.data());
   if (options_.antialiasing) make_room_for_samples(spes, bundle_edge);
 }
