@@ -19,8 +19,8 @@
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
-// rule for what comes before.
-%expect 117
+// rule for what comes before. Among an object's modifiers a colour's name is one only where no number can be.
+%expect 124
 
 %code requires {
 #include "pov/actions.hpp"
@@ -1111,6 +1111,11 @@ object_body
       limit(session, *$$, $$->bounded_by, $$->clipped_by, @2);
     }
   | object_body colour                 { $$ = std::move($1); ignore_colour(session, @2); }
+  | object_body QUANTITY { // a colour's name
+      if (!$2.is_colour) session.fail(@2, "unexpected " + session.tokens.describe_last());
+      $$ = std::move($1);
+      ignore_colour(session, @2);
+    }
   | object_body photons                { $$ = std::move($1); $$->is_photon_target = $2; }
   | object_body RADIOSITY              { $$ = std::move($1); session.tokens.skip_group(); } // of radiosity
   | object_body unsupported_modifier   { $$ = std::move($1); mark($$->unsupported, $2); }

@@ -112,7 +112,7 @@ void Parser::report_syntax_error(const context& ctx) const {
   symbol_kind_type expected[kMost];
   const int count = ctx.expected_tokens(expected, kMost);
   std::string hint;
-  if (expects(expected, count, symbol_kind::S_QUANTITY))
+  if (expects(expected, count, symbol_kind::S_FUNCTION)) // a mere quantity may be a colour's name only
     hint = ", expected a number";
   else if (expects(expected, count, symbol_kind::S_TEXT))
     hint = ", expected a string";

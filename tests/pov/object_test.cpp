@@ -137,6 +137,10 @@ TEST_CASE("a colour of an object is ignored") {
         "scene.pov:1:97: warning: this colour is ignored: what gives an object one is its 'pigment'\n"
         "scene.pov:3:1: warning: this colour is ignored: what gives an object one is its 'pigment'\n"
         "scene.pov:3:33: warning: this colour is ignored: what gives an object one is its 'pigment'\n");
+  const Scene named = parse(name + "#declare Ball = sphere { 0, 1 pigment { rgb <3, 4, 5> } } "
+                                   "object { Ball Red no_shadow Red }");
+  CHECK(named.materials.at(named.objects.at(0).material).pigment.rgb == Vec3(3, 4, 5));
+  CHECK(error_line("sphere { 0, 1 no_shadow 2 }") == "scene.pov:1:25: error: unexpected number");
   CHECK(error_line(name + "sphere { 0 Red }").find("found a colour as radius") != std::string::npos);
   CHECK(error_line("light_source { 0, 1 rgb 1 }").find("unexpected 'rgb'") != std::string::npos);
 }
