@@ -144,7 +144,7 @@ struct Surroundings {
   bool no_shadow = false, no_image = false, no_reflection = false;
   /// Whether what the object says of these counts. So it is in POV-Ray: in unions all of it, but where they
   /// are clipped or parts of other operations only no_reflection; in merges all but no_shadow; in
-  /// intersections and differences nothing.
+  /// intersections and differences nothing. What is inverted counts as what it becomes.
   bool hides_shadow = true, hides_image = true, hides_reflection = true;
   bool is_in_unions = true; ///< alone, and in none that is clipped
   bool inverse = false;
@@ -206,10 +206,10 @@ private:
     else // in POV-Ray an intersection that is inverted becomes a merge, whatever it was before
       node.kind =
           csg.operation == Operation::union_ && !around.was_inverse ? Node::Kind::union_ : Node::Kind::merge;
-    around.is_in_unions = around.is_in_unions && csg.operation == Operation::union_;
+    around.is_in_unions = around.is_in_unions && node.kind == Node::Kind::union_;
     around.hides_shadow = around.is_in_unions;
-    around.hides_image = around.is_in_unions || csg.operation == Operation::merge;
-    around.hides_reflection = joins;
+    around.hides_image = around.is_in_unions || node.kind == Node::Kind::merge;
+    around.hides_reflection = node.kind != Node::Kind::intersection;
     const bool inverse = around.inverse;
     for (std::size_t i = 0; i < csg.parts.size(); ++i) {
       around.inverse = inverse != (csg.operation == Operation::difference && i > 0);

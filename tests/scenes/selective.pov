@@ -51,3 +51,10 @@ merge {
   merge { cylinder { <0.3, 0.2, 0>, <1.4, 0.2, 0.2>, 0.2 } sphere { <1.3, 0.3, 0.1>, 0.3 no_image } no_reflection }
   pigment { color rgbt <0.9, 0.6, 0.2, 0.3> } translate <-3.8, 0, -2.2>
 }
+// What is subtracted becomes a merge if it is an intersection or a difference: then what it says itself counts.
+difference {
+  sphere { 0, 0.8 }
+  intersection { box { <-0.3, -0.2, -1>, <0.5, 0.5, 0.1> } sphere { -0.3*z, 0.7 } no_image }
+  merge { box { <-0.6, -0.1, -1>, <-0.4, 0.4, 0.1> } sphere { -0.8*y, 0.2 } no_image }
+  pigment { color rgb <0.5, 0.9, 0.3> } translate <0.2, 2.9, 2>
+}
