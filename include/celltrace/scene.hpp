@@ -177,7 +177,8 @@ inline constexpr int kMostLightGroups = 255;
 
 /// Triangles with shared vertices; vertices, normals and surface coordinates are single precision, as in
 /// POV-Ray. Where a material looks different from inside, a triangle's outside is where its normals point, or
-/// that of a flat one where -(b - a) x (c - a) does, of its corners a, b and c.
+/// that of a flat one where -(b - a) x (c - a) does, of its corners a, b and c; of a face with several
+/// materials the first says what it looks like from there.
 struct Mesh {
   struct Triangle {
     Index vertex[3];

@@ -64,8 +64,9 @@ constexpr CodeModule kTextures = {"textures", 9, 1, 6912};
 constexpr CodeModule kMaps = {"maps", 27, 1, 6784};
 constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
 
-/// What few finishes do with light, and light from behind.
-constexpr CodeModule kFinishes = {"finishes", 19, 1, 4864};
+/// What few finishes do with light, light from behind, and the materials of surfaces that look different from
+/// inside.
+constexpr CodeModule kFinishes = {"finishes", 19, 1, 5248};
 
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 

@@ -577,7 +577,7 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<Mesh
 
 /// The object's interior_texture is that of triangles with textures of their own, too.
 std::shared_ptr<const Mesh> SceneBuilder::with_inside(const std::shared_ptr<const Mesh>& mesh,
-                                                      const std::shared_ptr<const Material>& inside,
+                                                      std::shared_ptr<const Material> inside,
                                                       const Location& where) {
   const auto has_material = [](const Mesh::Triangle& triangle) { return triangle.material[0] != kNoIndex; };
   if (std::none_of(mesh->triangles.begin(), mesh->triangles.end(), has_material)) return mesh;

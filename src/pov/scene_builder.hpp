@@ -130,8 +130,7 @@ private:
   std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
                                           const Transform& transform, bool uv_mapping, const Location& where);
   std::shared_ptr<const Mesh> with_inside(const std::shared_ptr<const Mesh>& mesh,
-                                          const std::shared_ptr<const Material>& inside,
-                                          const Location& where);
+                                          std::shared_ptr<const Material> inside, const Location& where);
 
   /// A texture that depends on where it is.
   struct PlacedTexture {

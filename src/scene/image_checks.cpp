@@ -144,8 +144,10 @@ bool objects_are_valid(const std::byte* base, const ImageHeader& h) {
     if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
                 : !is_material(object.material))
       return false;
-    if ((flags & object_flag::two_sided) != 0 && !blended &&
-        !is_material(reinterpret_cast<const MaterialRecord*>(base + object.material)->inside))
+    const std::uint32_t outside =
+        blended ? reinterpret_cast<const BlendRecord*>(base + object.material)->material[0] : object.material;
+    if ((flags & object_flag::two_sided) != 0 &&
+        !is_material(reinterpret_cast<const MaterialRecord*>(base + outside)->inside))
       return false;
     if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord)))
       return false;

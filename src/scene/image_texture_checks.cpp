@@ -254,9 +254,9 @@ private:
       const auto has = [&](std::uint32_t flag) { return (object.kind_and_flags & flag) != 0; };
       bool object_asks = false;
       if (has(object_flag::blended)) {
-        for (const std::uint32_t material :
-             reinterpret_cast<const BlendRecord*>(base_ + object.material)->material)
-          object_asks = object_asks || asks(material, false);
+        const BlendRecord& blend = *reinterpret_cast<const BlendRecord*>(base_ + object.material);
+        object_asks = asks(blend.material[0], has(object_flag::two_sided)) ||
+                      asks(blend.material[1], false) || asks(blend.material[2], false);
       } else {
         object_asks = asks(object.material, has(object_flag::two_sided));
       }

@@ -478,12 +478,16 @@ private:
   void blend(ObjectRecord& r, const Object& object, const Mesh::Triangle& triangle) {
     BlendRecord record{};
     std::uint32_t all = ~0u, any = 0;
+    const auto material_of = [&](Index own) { return own != kNoIndex ? own : object.material; };
+    const Index first = material_of(triangle.material[0]);
     for (int i = 0; i < 3; ++i) {
-      const Index material = triangle.material[i] != kNoIndex ? triangle.material[i] : object.material;
+      const Index material = material_of(triangle.material[i]);
       record.material[i] = tables_.offset_of_material(material);
       all &= tables_.material_flags[material];
       any |= tables_.material_flags[material];
     }
+    // From inside it looks as its first material says.
+    if ((tables_.material_flags[first] & object_flag::two_sided) == 0) any &= ~object_flag::two_sided;
     r.kind_and_flags &= ~object_flag::opaque;
     r.kind_and_flags |= object_flag::blended | (all & object_flag::opaque) | (any & ~object_flag::opaque);
     r.material = tables_.blend_offset + blended_ * static_cast<std::uint32_t>(sizeof(BlendRecord));

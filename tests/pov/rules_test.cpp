@@ -188,18 +188,23 @@ TEST_CASE("a light without a colour is black") {
 
 TEST_CASE("an interior_texture is that of a mesh's own textures, too") {
   const Scene scene =
-      parse("#declare M = mesh2 { vertex_vectors { 4, 0, x, y, z } texture_list { 1, texture { "
-            "pigment { rgb x } } } face_indices { 2, <0, 1, 2>, 0, <1, 2, 3> } } "
+      parse("#declare M = mesh2 { vertex_vectors { 4, 0, x, y, z } texture_list { 2, texture { "
+            "pigment { rgb x } }, texture { pigment { rgb 3 } } } face_indices { 3, <0, 1, 2>, 0, <1, 2, 3>, "
+            "<0, 1, 3>, 1 } } "
             "#declare I = texture { pigment { rgb z } } #declare T = texture { pigment { rgb y } } "
             "object { M texture { T } interior_texture { I } } object { M texture { T } } "
             "object { M texture { T } interior_texture { I } translate x }");
   const auto mesh = [&](std::size_t i) {
     return std::get<std::shared_ptr<const Mesh>>(scene.objects.at(i).shape);
   };
-  const auto own = [&](std::size_t i) { return scene.materials.at(mesh(i)->triangles.at(0).material[0]); };
-  REQUIRE(own(0).inside);
-  CHECK(own(0).inside->pigment.rgb == Vec3(0, 0, 1));
-  CHECK(own(0).pigment.rgb == Vec3(1, 0, 0));
+  const auto own = [&](std::size_t i, std::size_t triangle = 0) {
+    return scene.materials.at(mesh(i)->triangles.at(triangle).material[0]);
+  };
+  for (const std::size_t triangle : {0, 2}) {
+    REQUIRE(own(0, triangle).inside);
+    CHECK(own(0, triangle).inside->pigment.rgb == Vec3(0, 0, 1));
+    CHECK(own(0, triangle).pigment.rgb == (triangle == 0 ? Vec3(1, 0, 0) : Vec3(3)));
+  }
   CHECK(mesh(0)->triangles.at(1).material[0] == kNoIndex);
   CHECK_FALSE(own(1).inside);
   CHECK(mesh(0) == mesh(2));

@@ -26,6 +26,14 @@ mesh2 {
   face_indices { 2, <0, 1, 2>, <1, 2, 3> }
   Sides() scale 0.7 translate <-2.4, 0, 0>
 }
+// Faces with textures of their own look the same from inside, also those with three.
+#declare Patchwork = mesh2 {
+  vertex_vectors { 5, <-1, -1, 0>, <0, -1, -0.5>, <1, -1, 0>, <-0.6, 1, 0.2>, <0.6, 1, 0.2> }
+  texture_list { 3, texture { pigment { rgb <0.9, 0.1, 0.1> } }, texture { pigment { rgb <0.1, 0.9, 0.1> } }, texture { pigment { rgb <0.9, 0.9, 0.1> } } }
+  face_indices { 3, <0, 3, 1>, 0, 1, 2, <1, 2, 4>, 0, 1, 2, <1, 3, 4>, 1 }
+}
+object { Patchwork Sides() scale 0.45 translate <0, 3.2, 0> }
+object { Patchwork Sides() scale 0.45 rotate 180*y translate <1.2, 3.2, 0> }
 mesh { // closed, in CSG
   #local A = <0, 1, 0>; #local B = <-0.9, -0.6, -0.6>; #local C = <0.9, -0.6, -0.6>; #local D = <0, -0.6, 0.9>;
   triangle { A, B, C } triangle { A, C, D } triangle { A, D, B } triangle { B, C, D }

@@ -123,15 +123,18 @@ template <class Spu>
   }
 }
 
-/// Of surfaces that are seen from inside. Without a store by lane, where there is room for code: whoever
-/// loads them next would wait for all.
+/// Of surfaces that are seen from inside; of several materials that one has, the first says what that is.
+/// Without a store by lane, where there is room for code: whoever loads them next would wait for all.
 template <class Spu>
-[[gnu::always_inline]] inline void take_inside_materials(SceneAccess<Spu>& scene, uint32_t lanes,
-                                                         WordLanes& materials) {
+CELLTRACE_ONE_COPY void take_inside_materials(SceneAccess<Spu>& scene, uint32_t lanes,
+                                              HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   using I = typename S::I;
+  scene.spu().run_in_module(modules::kFinishes);
+  WordLanes& materials = points.material;
   [[maybe_unused]] I all = load_words<S>(materials);
   for_each_value<S>(materials, lanes, [&](uint32_t outside, uint32_t same) {
+    if ((same & points.blended) != 0) outside = scene.blend(outside)->material[0];
     const uint32_t inside = scene.material(outside)->inside;
     if constexpr (kHasRoomForCode<Spu>)
       all = S::select(S::M::from_bits(same), I::splat(static_cast<int32_t>(inside)), all);
@@ -139,6 +142,7 @@ template <class Spu>
       for_each_lane(same, [&](uint32_t lane) { materials.lane[lane] = inside; });
   });
   if constexpr (kHasRoomForCode<Spu>) store_words<S>(materials, all);
+  points.blended &= ~lanes;
 }
 
 } // namespace detail
@@ -303,9 +307,10 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   const V3<S> along_ray = rays.origin.template load<S>() + way;
   detail::surface_of(scene.spu(), o.objects, way, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
-  if (const uint32_t seen_inside = o.two_sided & (away.bits() ^ o.inverse) & ~points.blended;
-      seen_inside != 0)
-    detail::take_inside_materials(scene, seen_inside, points.material);
+  if (const uint32_t seen_inside = o.two_sided & (away.bits() ^ o.inverse); seen_inside != 0) {
+    scene.spu().enter_module(modules::kFinishes);
+    detail::take_inside_materials(scene, seen_inside, points);
+  }
   const V3<S> opposite = {-points.normal.x, -points.normal.y, -points.normal.z};
   points.normal = select<S>(away, opposite, points.normal);
 }
