@@ -4,6 +4,7 @@
 """
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -36,14 +37,15 @@ class CompareWithPovray(unittest.TestCase):
     def write(self, name, text):
         (self.scenes / name).write_text(text)
 
-    def run_tool(self, *arguments):
+    def run_tool(self, *arguments, stdout=subprocess.PIPE):
         """(exit code, text report, rows by the scene's name)."""
         report = self.root / "report.json"
         report.unlink(missing_ok=True)
         process = subprocess.run([sys.executable, TOOL, "--celltrace", PROGRAM, "--size", "40x30", "--json", str(report),
-                                  *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=200)
+                                  *map(str, arguments)], stdout=stdout, stderr=subprocess.PIPE, timeout=200)
         rows = json.loads(report.read_text())["scenes"] if report.exists() else []
-        return process.returncode, process.stdout.decode() + process.stderr.decode(), {row["scene"]: row for row in rows}
+        text = (process.stdout or b"").decode() + process.stderr.decode()
+        return process.returncode, text, {row["scene"]: row for row in rows}
 
     def make_reference(self, folder, *switches):
         folder.mkdir(exist_ok=True)
@@ -57,6 +59,15 @@ class CompareWithPovray(unittest.TestCase):
         self.assertTrue(rows["good.pov"]["identical"])
         self.assertIsNone(rows["good.pov"]["ratio"])
         self.assertRegex(text, r"good\.pov +identical")
+
+    def test_a_pipe_that_nobody_reads_loses_no_report(self):
+        self.make_reference(self.root / "references")
+        reading, writing = os.pipe()
+        os.close(reading)
+        code, text, rows = self.run_tool("--references", self.root / "references", self.scenes, stdout=writing)
+        os.close(writing)
+        self.assertEqual((code, text), (0, ""))
+        self.assertTrue(rows["good.pov"]["identical"])
 
     def test_another_picture_is_too_far_away(self):
         self.make_reference(self.root / "references", "--max-level", "1")
