@@ -184,6 +184,15 @@ Quantity turbulence(const Call& call) {
   return Quantity::vector(turbulence_vector(call.vector(3), octaves, lambda, omega));
 }
 
+/// Of the first characters in which texts differ, an end counting as 0; 0 if they are the same.
+double difference(const std::string& a, const std::string& b) {
+  const auto [at, other] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  const auto code = [](const std::string& text, std::string::const_iterator i) {
+    return i == text.end() ? 0 : static_cast<int>(static_cast<unsigned char>(*i));
+  };
+  return code(a, at) - code(b, other);
+}
+
 /// Since the year 2000, in universal time.
 constexpr double kSecondsTo2000 = 946684800;
 constexpr double kSecondsPerDay = 86400;
@@ -264,7 +273,7 @@ const Function kFunctions[] = {
     {"sin", "n", CELLTRACE_NUMERIC(std::sin(c.number(0)))},
     {"sinh", "n", CELLTRACE_NUMERIC(std::sinh(c.number(0)))},
     {"sqrt", "n", CELLTRACE_NUMERIC(square_root(c))},
-    {"strcmp", "ss", CELLTRACE_NUMERIC(std::clamp(c.text(0).compare(c.text(1)), -1, 1))},
+    {"strcmp", "ss", CELLTRACE_NUMERIC(difference(c.text(0), c.text(1)))},
     {"strlen", "s", CELLTRACE_NUMERIC(static_cast<double>(c.text(0).size()))},
     {"tan", "n", CELLTRACE_NUMERIC(std::tan(c.number(0)))},
     {"tanh", "n", CELLTRACE_NUMERIC(std::tanh(c.number(0)))},

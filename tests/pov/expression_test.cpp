@@ -136,6 +136,7 @@ TEST_CASE("strings") {
   CHECK(output("#debug str(2.5, 0, 0)") == "2");
   CHECK(output("#debug \"quote \\\" and backslash \\\\\\n\"") == "quote \" and backslash \\\n");
   CHECK(value("strlen(\"abc\") + asc(\"A\") + val(\" 2.5\") + strcmp(\"b\", \"a\")") == "71.500");
+  CHECK(value("strcmp(\"ab\", \"ad\") + 1000*strcmp(\"abc\", \"ab\") + strcmp(\"x\", \"x\")") == "98998.000");
   CHECK(value("val(\"abc\") + asc(\"\")") == "0.000");
 }
 
