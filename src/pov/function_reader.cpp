@@ -392,7 +392,8 @@ private:
     require(',', "after the last number");
     const auto counter = static_cast<std::uint32_t>(variables_.size());
     const std::uint32_t last = counter + 1, result = counter + 2;
-    variables_.push_back(*name);
+    // As in POV-Ray, what is named like a coordinate is still the parameter.
+    variables_.push_back(is_coordinate(*name) ? kNoName : *name);
     variables_.push_back(kNoName);
     variables_.push_back(kNoName);
     most_variables_ = std::max(most_variables_, variables_.size());

@@ -575,7 +575,8 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<Mesh
   return mesh;
 }
 
-/// The object's interior_texture is that of triangles with textures of their own, too.
+/// The object's interior_texture is that of triangles with textures of their own, too. `inside` is a copy:
+/// the scene's materials, one of which it may be part of, move when more are added.
 std::shared_ptr<const Mesh> SceneBuilder::with_inside(const std::shared_ptr<const Mesh>& mesh,
                                                       std::shared_ptr<const Material> inside,
                                                       const Location& where) {

@@ -39,6 +39,7 @@ TEST_CASE("declared functions of floats") {
         "2233.000000");
   CHECK(number("#declare F = function(a) { a + 10*y } ", "F(4)") ==
         "scene.pov:1:35: warning: 'y' is no parameter of this function: it is 0 here\n4.000000");
+  CHECK(number("#declare F = function(x) { sum(x, 1, 3, x) + sum(u, 1, 2, u) } ", "F(5)") == "25.000000");
   const std::string s = "#declare s = function(n) { sum(i, 1, n, i*i) + prod(i, 1, n, i) } ";
   CHECK(number(s, "s(4)") == "54.000000");
   CHECK(number(s, "s(0)") == "1.000000");

@@ -48,6 +48,7 @@ TEST_CASE("loops that cannot end are found before they have run long") {
     CHECK(contains(error_line(start + loop),
                    "error: this loop never ends: nothing in it changes what that depends on"));
   }
+  CHECK(contains(error_line("#while (now < 1e9) #end"), "the loops of the scene run more than 10000000 "));
   CHECK(contains(error_line("#for (I, 1, 1e8) sphere { I, 1 } #end"),
                  "the loops of the scene run more than 10000000 "));
   CHECK(contains(error_line("#for (I, 0, -1e8, -1) #end"), "the loops of the scene run more than 10000000 "));
