@@ -6,9 +6,9 @@
 
 namespace celltrace {
 
-/// Huge pages, where the system has them, are for what rays go through in no order. For what is written and
-/// read once they are not worth it: the host of a virtual machine may have to provide them first, which takes
-/// ten times as long as to fill normal ones.
+/// Huge pages, where the system has them, are for what rays go through in no order. For pictures they are not
+/// worth it: the host of a virtual machine may have to provide them first, which takes ten times as long as
+/// to fill normal ones.
 enum class Pages { normal, huge };
 
 /// Starts on a 128-byte boundary.

@@ -44,7 +44,7 @@ void PictureMemory::make_room(unsigned spes, std::uint32_t bundle_edge) {
 void PictureMemory::make_room_for_samples(unsigned spes, std::uint32_t bundle_edge) {
   const std::size_t bytes = std::size_t{spes} * sample_store_bytes(bundle_edge, options_.alpha);
   if (sample_store_.size() >= bytes) return; // it does not depend on the picture's size
-  sample_store_ = AlignedBlock::uninitialised(bytes);
+  sample_store_ = AlignedBlock::uninitialised(bytes, Pages::normal);
   frame_.sample_store = to_ea(sample_store_.data());
 }
 
