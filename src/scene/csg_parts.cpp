@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
+#include "scene/box_bounds.hpp"
 #include "scene/build_watch.hpp"
 #include "scene/extent.hpp"
 #include "scene/polytope.hpp"
@@ -95,10 +96,11 @@ struct Node {
   Object object;               ///< of a solid
   PlacedShape shape;           ///< of a solid that is no mesh
   Aabb mesh_bounds;            ///< of a mesh
+  std::optional<Aabb> box;     ///< of a solid that is a box along the axes of the world
   std::uint32_t record = 0;    ///< of a solid: index in CsgParts::solids
   std::uint32_t leaves = 1;    ///< solids in it
   std::uint32_t unseen_by = 0; ///< of object_flag::selective: rays that see none of it
-  bool needs_bounds = false;   ///< it has a quadric, that others may limit
+  bool needs_bounds = false;   ///< it has a quadric or an inverse box: what these leave depends on others
   std::vector<Node> children;
 
   /// Of a solid; null: no mesh.
@@ -231,7 +233,8 @@ private:
     node.object.clipped_by = nullptr;
     node.record = static_cast<std::uint32_t>(solids_.size());
     solids_.push_back(node.mesh() != nullptr ? place_mesh(node) : place_solid(node));
-    node.needs_bounds = node.quadric() != nullptr && !node.inverse;
+    if (node.mesh() == nullptr) node.box = box_along_axes(node.shape);
+    node.needs_bounds = node.inverse ? node.box.has_value() : node.quadric() != nullptr;
     return node;
   }
 
@@ -338,6 +341,7 @@ Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space =
       const Transform& transform = node.object.transform;
       return bounds_of_quadric(*quadric, space != nullptr ? transform.then(*space) : transform, true, within);
     }
+    if (node.box && node.inverse && space == nullptr) return left_by_box(*node.box, within);
     // The inside of a disc is a half-space.
     if (node.inverse || !node.shape.is_bounded ||
         (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
@@ -513,6 +517,7 @@ private:
     if (is_empty(part.bounds)) return;
     if (const Quadric* quadric = node.quadric())
       part.bounds = bounds_of_quadric(*quadric, node.object.transform, false, part.bounds);
+    if (node.box) part.bounds = bounds_of_faces(*node.box, part.bounds);
     if (is_empty(part.bounds)) return;
     part.bounds = intersected(part.bounds, bounds_in_own_space(node, limits_));
     if (is_empty(part.bounds)) return;

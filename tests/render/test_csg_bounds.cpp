@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
+#include <variant>
 
 using namespace celltrace;
 
@@ -59,6 +61,12 @@ std::vector<Object> octahedron() {
                                 : plane(-normal, -std::sqrt(1.0 / 3), true));
   }
   return planes;
+}
+
+Object box(const Vec3& from, const Vec3& to) {
+  Object object;
+  object.shape = Box{{from, to}};
+  return object;
 }
 
 } // namespace
@@ -254,4 +262,98 @@ TEST_CASE("All that a box has of a quadric is in the quadric's bounds") {
   CHECK(on_surface > 5000);
   CHECK(within_solid > 5000);
   CHECK(limited > 2000);
+}
+
+TEST_CASE("Boxes that are cut away bound what they leave, and show the faces of the cut alone") {
+  Object cylinder;
+  cylinder.shape = Cylinder{{0, 0, 0}, {0, 0, 1}, 2, false};
+  Object quarter =
+      csg(Csg::Operation::difference, {cylinder, box({-3, 0, -1}, {3, 3, 2}), box({-3, -3, -1}, {0, 3, 2})});
+
+  SECTION("along the axes") {
+    const CsgParts parts = parts_of(quarter);
+    REQUIRE(parts.parts.size() == 3);
+    check_bounds(parts.parts[0].bounds, {0, -2, 0}, {2, 0, 1});
+    check_bounds(parts.parts[1].bounds, {0, 0, 0}, {2, 0, 1});
+    check_bounds(parts.parts[2].bounds, {0, -2, 0}, {0, 0, 1});
+  }
+  SECTION("turned by right angles") {
+    quarter.transform = Transform::rotate({0, 0, 180}).then(Transform::rotate({90, 0, 0}));
+    const CsgParts parts = parts_of(quarter);
+    REQUIRE(parts.parts.size() == 3);
+    check_bounds(parts.parts[0].bounds, {-2, -1, 0}, {0, 0, 2});
+  }
+  SECTION("but not where faces coincide: there those of what is cut away may be seen") {
+    const CsgParts parts = parts_of(
+        csg(Csg::Operation::difference, {box({-1, -1, -1}, {1, 1, 1}), box({-1, 0, -1}, {1, 1, 1})}));
+    REQUIRE(parts.parts.size() == 2);
+    check_bounds(parts.parts[0].bounds, {-1, -1, -1}, {1, 1, 1});
+    check_bounds(parts.parts[1].bounds, {-1, 0, -1}, {1, 1, 1});
+  }
+  SECTION("unless they leave something on several sides") {
+    const CsgParts parts = parts_of(
+        csg(Csg::Operation::difference, {cylinder, box({-3, -1, -1}, {3, 1, 2}), box({1, 0, -1}, {3, 3, 2}),
+                                         box({0, 0, 0.5}, {1, 1, 0.75})}));
+    REQUIRE(parts.parts.size() == 4);
+    check_bounds(parts.parts[0].bounds, {-2, -2, 0}, {2, 2, 1});
+  }
+  SECTION("to nothing") {
+    CHECK(parts_of(csg(Csg::Operation::difference, {cylinder, box({-3, -3, -1}, {3, 3, 2})})).parts.empty());
+  }
+}
+
+TEST_CASE("Every point that is seen of boxes is in the bounds of its box") {
+  std::mt19937 random(11);
+  // On a small grid, so that faces often lie in one plane.
+  const auto corner = [&] {
+    const auto any = [&] { return static_cast<double>(random() % 5); };
+    return Vec3(any(), any(), any());
+  };
+  std::uniform_real_distribution<double> within(0, 1);
+  int seen = 0, smaller = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<Object> boxes;
+    std::vector<std::pair<Vec3, Vec3>> corners;
+    while (boxes.size() < 2 + random() % 4) {
+      const Vec3 a = corner(), b = corner();
+      if (a.x == b.x || a.y == b.y || a.z == b.z) continue;
+      corners.emplace_back(glm::min(a, b), glm::max(a, b));
+      boxes.push_back(box(a, b));
+    }
+    const bool difference = random() % 2 == 0;
+    const CsgParts parts =
+        parts_of(csg(difference ? Csg::Operation::difference : Csg::Operation::intersection, boxes));
+    for (int sample = 0; sample < 300; ++sample) {
+      const std::size_t own = random() % boxes.size();
+      Vec3 at = corners[own].first + Vec3(within(random), within(random), within(random)) *
+                                         (corners[own].second - corners[own].first);
+      const int axis = static_cast<int>(random() % 3);
+      at[axis] = random() % 2 == 0 ? corners[own].first[axis] : corners[own].second[axis];
+      bool shows = true;
+      for (std::size_t other = 0; other < boxes.size(); ++other) {
+        if (other == own) continue;
+        bool inside = true;
+        for (int i = 0; i < 3; ++i)
+          inside = inside && at[i] >= corners[other].first[i] && at[i] <= corners[other].second[i];
+        shows = shows && inside == (!difference || other == 0);
+      }
+      if (!shows) continue;
+      ++seen;
+      // Parts that show nothing are left out; the others keep their order.
+      bool contained = false;
+      for (const CsgPart& part : parts.parts)
+        contained =
+            contained ||
+            (std::get<Box>(part.object.shape).corner[0] == std::get<Box>(boxes[own].shape).corner[0] &&
+             std::get<Box>(part.object.shape).corner[1] == std::get<Box>(boxes[own].shape).corner[1] &&
+             contains(part.bounds, at));
+      CHECK(contained);
+    }
+    for (const CsgPart& part : parts.parts)
+      for (int i = 0; i < 3; ++i)
+        smaller += part.bounds.max[i] - part.bounds.min[i] + 0.01f <
+                   part.shape.bounds().max[i] - part.shape.bounds().min[i];
+  }
+  CHECK(seen > 3000);
+  CHECK(smaller > 500);
 }
