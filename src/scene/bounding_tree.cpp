@@ -68,10 +68,10 @@ std::optional<double> entry(const float (&low)[3], const float (&size)[3], const
 
 } // namespace
 
-BoundingTree::BoundingTree(const std::vector<Extent>& objects) {
+BoundingTree::BoundingTree(const std::vector<Extent>& objects, std::size_t lights) {
   constexpr std::size_t kFewest = 3;
   constexpr double kLongest = 1e6; // what is longer has no box
-  is_list_ = objects.size() < kFewest;
+  is_list_ = objects.size() + lights < kFewest;
   std::vector<std::size_t> finite;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Vec3 size = objects[i].max - objects[i].min;

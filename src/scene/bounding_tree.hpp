@@ -13,8 +13,8 @@ namespace celltrace {
 /// Built as POV-Ray builds it, in its order and precision. Thread safety: as a standard container.
 class BoundingTree {
 public:
-  /// Of objects in the order of the scene.
-  explicit BoundingTree(const std::vector<Extent>& objects);
+  /// Of objects in the order of the scene. `lights`: those of the scene, which are objects there, too.
+  BoundingTree(const std::vector<Extent>& objects, std::size_t lights);
 
   /// Whether a ray that hits both objects at the same distance is tested for `a` first, if nothing else is in
   /// its way.

@@ -436,7 +436,7 @@ private:
       std::vector<Extent> extents;
       for (const Object& object : scene_.objects)
         extents.push_back(extent_of(object, Transform()));
-      tree_.emplace(extents);
+      tree_.emplace(extents, scene_.lights.size());
     }
     const Extent both = a.extent.common(b.extent);
     const Vec3 eye = scene_.camera.location;
