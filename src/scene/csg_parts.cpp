@@ -93,6 +93,7 @@ struct Node {
   Kind kind = Kind::solid;
   bool inverse = false;        ///< of a solid
   bool shows = true;           ///< its surfaces are seen; not those of what clips
+  bool is_clipped = false;     ///< its first child is, by the others
   Object object;               ///< of a solid
   PlacedShape shape;           ///< of a solid that is no mesh
   Aabb mesh_bounds;            ///< of a mesh
@@ -166,6 +167,7 @@ public:
     // What clips is not inverted with what it clips.
     Node clipped;
     clipped.kind = Node::Kind::intersection;
+    clipped.is_clipped = true;
     clipped.shows = around.shows;
     around.is_in_unions = false;
     clipped.add(build_unclipped(object, around));
@@ -427,6 +429,7 @@ public:
         show(child, condition, bounds);
       return;
     }
+    const std::size_t first = to_.parts.size();
     const auto steps = static_cast<std::uint32_t>(to_.steps.size());
     compile_siblings(node);
     std::vector<Aabb> filled;
@@ -460,12 +463,32 @@ public:
                              is_plane(child) ? polytope->bounds_of_face(child.record) : polytope->bounds());
       to_.conditions.push_back(record);
       if (node.kind == Node::Kind::intersection) limits_.push_back({&node, i});
-      show(child, static_cast<std::uint32_t>(to_.conditions.size()) - 1, inside);
+      const auto number = static_cast<std::uint32_t>(to_.conditions.size()) - 1;
+      if (!node.is_clipped)
+        show_reversed(child, number, inside);
+      else if (child.kind == Node::Kind::union_)
+        for (const Node& part : child.children)
+          show_reversed(part, number, inside);
+      else
+        show(child, number, inside);
       if (node.kind == Node::Kind::intersection) limits_.pop_back();
     }
+    if (condition == kNoCondition) reverse_from(first);
   }
 
 private:
+  /// Of surfaces at one place the kernel shows that of the first part. In POV-Ray the last one that is found
+  /// counts, and an intersection or a merge takes what is found of each part from the last on; so does a
+  /// clipped union.
+  void show_reversed(const Node& node, std::uint32_t condition, const Aabb& bounds) {
+    const std::size_t first = to_.parts.size();
+    show(node, condition, bounds);
+    reverse_from(first);
+  }
+  void reverse_from(std::size_t first) {
+    std::reverse(to_.parts.begin() + static_cast<std::ptrdiff_t>(first), to_.parts.end());
+  }
+
   /// The program of which every child's condition leaves out the child itself: in an intersection all others
   /// have to be filled, in a merge none.
   void compile_siblings(const Node& node) {

@@ -5,6 +5,7 @@
 #include "kernel/direct/build_bvh_bounds.hpp"
 #include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
+#include "scene/test_order.hpp"
 #include "scene/triangles.hpp"
 
 #include <algorithm>
@@ -65,6 +66,12 @@ bool has_size(const LaneAabb& box) {
           not_above_bits(box.max, Simd::F4::splat(kSmall)) & 7) == 7;
 }
 
+/// Of parts, which are in the order of what they are parts of.
+struct ComparesWholes {
+  bool operator()(const CsgPart& part, std::size_t whole) const { return part.whole < whole; }
+  bool operator()(std::size_t whole, const CsgPart& part) const { return whole < part.whole; }
+};
+
 /// In parts of a reasonable size.
 template <class Change>
 std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Change change) {
@@ -89,18 +96,21 @@ SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
                            const MeshInstances& instances, unsigned threads)
     : scene_(scene), material_flags_(material_flags), instanced_(instanced), csg_(scene, patterns),
       polygons_(scene) {
-  for (std::size_t i = 0; i < projectors; ++i) {
+  for (const std::size_t i : order_of_tests(scene, projectors, csg_)) {
     BuildWatch::look_at(i);
     const Object& object = scene.objects[i];
+    if (CsgParts::contains(object)) {
+      add_parts(i, threads);
+      continue;
+    }
     are_all_seen_ = are_all_seen_ && !object.no_image;
-    if (instances.contains(i) || CsgParts::contains(object)) continue;
+    if (instances.contains(i)) continue;
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
     if (mesh != nullptr && !instanced.contains(i))
       add_mesh(object, **mesh, nullptr, threads);
     else
       add_shape(object);
   }
-  add_parts(projectors, threads);
   add_projectors(scene, projectors);
 }
 
@@ -117,7 +127,7 @@ void SceneObjects::add_shape(const Object& object) {
     return;
   }
   const auto goes_on = [&](const Piece& piece) {
-    return piece.mesh == nullptr && &object == piece.object + (count_ - piece.first);
+    return piece.mesh == nullptr && piece.part == nullptr && &object == piece.object + (count_ - piece.first);
   };
   if (pieces_.empty() || !goes_on(pieces_.back())) pieces_.push_back({count_, &object, nullptr, {}, {}});
   grow(1);
@@ -136,23 +146,23 @@ void SceneObjects::add_projectors(const Scene& scene, std::size_t first) {
   }
 }
 
-void SceneObjects::add_parts(std::size_t projectors, unsigned threads) {
-  const CsgPart* previous = nullptr;
-  for (const CsgPart& part : csg_.parts) {
-    if (part.whole >= projectors) break; // all others are later ones
-    are_all_seen_ = are_all_seen_ && !part.object.no_image;
-    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&part.object.shape)) {
-      add_mesh(part.object, **mesh, &part, threads);
-      previous = nullptr;
+void SceneObjects::add_parts(std::size_t whole, unsigned threads) {
+  const auto parts = std::equal_range(csg_.parts.begin(), csg_.parts.end(), whole, ComparesWholes());
+  for (auto part = parts.first; part != parts.second; ++part) {
+    are_all_seen_ = are_all_seen_ && !part->object.no_image;
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&part->object.shape)) {
+      add_mesh(part->object, **mesh, &*part, threads);
       continue;
     }
-    if (!part.is_bounded) {
-      unbounded_.push_back({&part.object, &part});
+    if (!part->is_bounded) {
+      unbounded_.push_back({&part->object, &*part});
       continue;
     }
-    if (previous == nullptr || previous + 1 != &part)
-      pieces_.push_back({count_, nullptr, nullptr, {}, {}, &part});
-    previous = &part;
+    const auto goes_on = [&](const Piece& piece) {
+      return piece.mesh == nullptr && piece.part != nullptr && &*part == piece.part + (count_ - piece.first);
+    };
+    if (pieces_.empty() || !goes_on(pieces_.back()))
+      pieces_.push_back({count_, nullptr, nullptr, {}, {}, &*part});
     grow(1);
   }
 }

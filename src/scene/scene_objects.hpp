@@ -110,7 +110,8 @@ private:
   void visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
                        Visit visit) const;
   void add_shape(const Object& object);
-  void add_parts(std::size_t projectors, unsigned threads);
+  /// Those of one object of the scene.
+  void add_parts(std::size_t whole, unsigned threads);
   void add_projectors(const Scene& scene, std::size_t first);
   /// `part`: that it is of a CSG, or null.
   void add_mesh(const Object& object, const Mesh& mesh, const CsgPart* part, unsigned threads);
