@@ -564,9 +564,47 @@ std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& wr
   return object;
 }
 
+/// Whether a union is nothing but its parts, placed with it.
+bool is_mere_union(const ObjectDefinition& object) {
+  const auto* const compound = std::get_if<std::shared_ptr<const Compound>>(&object.shape);
+  return compound != nullptr && (*compound)->operation == Csg::Operation::union_ &&
+         !(*compound)->is_light_group && !object.texture && !object.inside && !object.uv_mapping &&
+         !object.interior && !object.no_shadow && !object.no_image && !object.no_reflection &&
+         !object.is_lit_through && !object.hollow && !object.inverse && object.clipped_by.empty() &&
+         object.bounded_by.empty() && !object.unsupported && !object.missing && !object.is_photon_target &&
+         object.role == ObjectDefinition::Role::none;
+}
+
+/// Takes the parts of unions that nest deeply in place of these: scenes make long rows of objects by loops
+/// in which each round makes a union of all rounds before and one object more.
+void flatten(std::vector<ObjectPtr>& parts) {
+  constexpr int kDeep = 500; // sooner the copies are not worth it
+  if (std::none_of(parts.begin(), parts.end(), [](const ObjectPtr& part) { return part->depth >= kDeep; }))
+    return;
+  std::vector<ObjectPtr> flat;
+  for (ObjectPtr& part : parts) {
+    if (part->depth < kDeep || !is_mere_union(*part)) {
+      flat.push_back(std::move(part));
+      continue;
+    }
+    for (const ObjectPtr& inner : std::get<std::shared_ptr<const Compound>>(part->shape)->parts) {
+      const ObjectPtr named = part->is_declared ? declared(inner) : inner;
+      if (part->transform.is_identity()) {
+        flat.push_back(named);
+        continue;
+      }
+      auto moved = std::make_shared<ObjectDefinition>(*named);
+      moved->apply(part->transform);
+      flat.push_back(std::move(moved));
+    }
+  }
+  parts = std::move(flat);
+}
+
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where) {
   if (compound.parts.size() < 2 && !compound.is_light_group)
     session.diagnostics.warn_once(where, "this CSG has less than two objects");
+  if (compound.operation == Csg::Operation::union_ && !compound.is_light_group) flatten(compound.parts);
   auto object = std::make_shared<ObjectDefinition>();
   for (const ObjectPtr& part : compound.parts)
     nest(session, *object, *part, where);

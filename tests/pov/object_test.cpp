@@ -37,6 +37,22 @@ TEST_CASE("unions come apart, inside out") {
   CHECK(scene.objects[1].transform.point({1, 0, 0}) == Vec3(0, 1, -1));
 }
 
+TEST_CASE("a loop can add to a union as often as it likes") {
+  const Scene scene = parse("#declare U = sphere { 0, 1 pigment { rgb 1 } } "
+                            "#for (I, 1, 3000) #declare U = union { object { U translate x } "
+                            "sphere { 0, 2 pigment { rgb <0, I / 3000, 0> scale 2 } } } #end U");
+  REQUIRE(scene.objects.size() == 3001);
+  for (std::size_t i = 0; i < 3001; ++i) {
+    CHECK(std::get<Sphere>(scene.objects[i].shape).radius == (i == 0 ? 1 : 2));
+    CHECK(scene.objects[i].transform.point(Vec3(0)).x == (i == 0 ? 3000.0 : 3000.0 - static_cast<double>(i)));
+  }
+  CHECK(scene.materials.size() == 3001);
+  CHECK(
+      parse("#declare U = sphere { 0, 1 } #for (I, 1, 3000) #declare U = union { object { U } light_source { "
+            "I, 1 } } #end union { U no_shadow }")
+          .lights.size() == 3000);
+}
+
 TEST_CASE("parts inherit what they do not have") {
   const Scene scene = parse("union { sphere { 0, 1 } sphere { 0, 2 pigment { rgb 1 } no_shadow } "
                             "  pigment { rgb 0.5 } interior { ior 1.5 } }"

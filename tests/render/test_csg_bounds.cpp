@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -32,10 +33,14 @@ Object csg(Csg::Operation operation, std::vector<Object> parts) {
   return object;
 }
 
+/// With the parts in the order in which they are written, as their conditions are.
 CsgParts parts_of(Object object) {
   Scene scene;
   scene.objects.push_back(std::move(object));
-  return CsgParts(scene);
+  CsgParts parts(scene);
+  std::stable_sort(parts.parts.begin(), parts.parts.end(),
+                   [](const CsgPart& a, const CsgPart& b) { return a.condition < b.condition; });
+  return parts;
 }
 
 void check_bounds(const kernel::Aabb& box, const Vec3& min, const Vec3& max) {
