@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 using namespace celltrace;
@@ -79,9 +80,28 @@ struct Sampling {
     return sample(lanes,
                   [&](const Surfaces<Simd>& surfaces, const IncidentLight<Simd>& incident, VectorLanes& sum) {
                     begin_sampling(spu, record, surfaces, incident, to_place, *shadow);
-                    AreaPairs<DirectSpu>(record, *grid, *shadow).sample(test);
+                    AreaPairs<DirectSpu, false>(record, *grid, *shadow).sample(test);
                     module_areas::dim(spu, *shadow, sum);
                   });
+  }
+  /// The same where light may come tinted. `tint(rays, lane, distance)` is by what. Nothing if there is no
+  /// room for what does.
+  template <class Tint> std::optional<VectorLanes> run_tinted_in_pairs(std::uint32_t lanes, Tint tint) {
+    const auto test = [&](RayQuery* queries, std::uint32_t count) {
+      for (std::uint32_t i = 0; i < count; ++i)
+        for_each_lane(queries[i].lanes, [&](unsigned l) {
+          REQUIRE(test::at(*queries[i].light, l) == Vec3(1));
+          set(*queries[i].light, l, tint(*queries[i].rays, l, *queries[i].distance));
+        });
+    };
+    bool is_found = false;
+    const VectorLanes sum = sample(
+        lanes, [&](const Surfaces<Simd>& surfaces, const IncidentLight<Simd>& incident, VectorLanes& sent) {
+          begin_sampling(spu, record, surfaces, incident, to_place, *shadow);
+          is_found = AreaPairs<DirectSpu, true>(record, *grid, *shadow).sample(test);
+          module_areas::dim(spu, *shadow, sent);
+        });
+    return is_found ? std::optional(sum) : std::nullopt;
   }
 
 private:
@@ -230,7 +250,7 @@ TEST_CASE("Places in pairs with surfaces leave the share that they leave one by 
     Light light = area_light(random);
     light.area->jitter = random.below(2) == 0;
     Sampling sampling(light, random);
-    REQUIRE(AreaPairs<DirectSpu>::can_sample(sampling.record));
+    REQUIRE(AreaPairs<DirectSpu, false>::can_sample(sampling.record));
     for (unsigned l = 0; l < kSimdLanes; ++l)
       sampling.objects.lane[l] = 64 * l;
     // Stripes, which no two rays are in the same place of.
@@ -259,14 +279,25 @@ TEST_CASE("Places in pairs with surfaces leave the share that they leave one by 
 
 TEST_CASE("There is room for all quads of a grid that is looked at in pairs") {
   Random random(150);
-  for (const Place& size : {Place{17, 17}, {2, 144}, {3, 96}, {96, 3}, {1, 289 - 33}, {5, 57}, {16, 18}}) {
+  for (const Place& size : {Place{17, 17},
+                            {41, 41},
+                            {2, 256},
+                            {3, 96},
+                            {96, 3},
+                            {1, 256},
+                            {5, 57},
+                            {16, 18},
+                            {256, 6},
+                            {7, 240},
+                            {40, 42},
+                            {33, 50}}) {
     Light light = area_light(random);
     light.area->columns = size.first;
     light.area->rows = size.second;
     light.area->adaptive = 100;
     light.area->circular = false;
     Sampling sampling(light, random);
-    REQUIRE(AreaPairs<DirectSpu>::can_sample(sampling.record));
+    REQUIRE(AreaPairs<DirectSpu, false>::can_sample(sampling.record));
     const VectorLanes sum = sampling.run_in_pairs(
         0xFFFF, [](const RayPacket&, std::uint32_t lanes, const FloatLanes&) { return lanes; });
     CHECK(sampling.shadow->rays_asked ==
@@ -275,20 +306,56 @@ TEST_CASE("There is room for all quads of a grid that is looked at in pairs") {
   }
 }
 
-TEST_CASE("Places are not tested in pairs where light comes tinted, or there are too many of them") {
+TEST_CASE("What comes tinted from places in pairs with surfaces is what does one by one") {
   Random random(149);
+  int tinted = 0;
+  for (int k = 0; k < times(400); ++k) {
+    Light light = area_light(random);
+    light.area->jitter = random.below(2) == 0;
+    Sampling sampling(light, random);
+    // Stripes of shadow, light and glass; for some surfaces glass alone.
+    const Vec3 axis = random.point(3);
+    const std::uint32_t clear = random.below(3);
+    const auto tint = [&](const RayPacket& rays, unsigned l, const FloatLanes& distance) -> Vec3 {
+      const double at = glm::dot(axis, test::at(rays.direction, l)) + distance.lane[l];
+      const double part = at - std::floor(at);
+      if (clear == 0 || part < 0.3) return {0.875, 0.25, 0.5};
+      return part < 0.6 ? Vec3(0) : Vec3(1);
+    };
+    const std::uint32_t lanes = random.word() & 0xFFFF;
+    const VectorLanes expected = sampling.run(lanes, [&](AreaShadow<Simd>& shadow) {
+      for (unsigned l = 0; l < kSimdLanes; ++l) {
+        const bool asks = (shadow.lanes >> l & 1) != 0;
+        set(shadow.light(), l,
+            asks ? light.colour * tint(shadow.to_place->rays, l, shadow.to_place->distance) : Vec3(0));
+      }
+    });
+    const std::uint32_t rays = sampling.shadow->rays_asked;
+    const std::optional<VectorLanes> found = sampling.run_tinted_in_pairs(lanes, tint);
+    REQUIRE(found);
+    // One by one what comes tinted is asked for again.
+    CHECK(sampling.shadow->rays_asked <= rays);
+    for_each_lane(sampling.facing, [&](unsigned l) {
+      REQUIRE(glm::length(test::at(*found, l) - test::at(expected, l)) < 1e-5);
+    });
+    tinted += __builtin_popcount(sampling.shadow->is_tinted);
+  }
+  CHECK(tinted > 500);
+}
+
+TEST_CASE("Places are not tested in pairs where there are too many, or light comes tinted from too many") {
+  Random random(151);
   Light light = area_light(random);
-  light.area->columns = light.area->rows = 5;
-  Sampling sampling(light, random);
-  sampling.run(0xFFFF, [](AreaShadow<Simd>&) {});
-  bool is_tinted = false;
-  const auto some = [&](RayQuery*, std::uint32_t) { is_tinted = true; };
-  sampling.shadow->quad = LightQuad::whole(sampling.record, 0xFFFF);
-  CHECK_FALSE(AreaPairs<DirectSpu>(sampling.record, *sampling.grid, *sampling.shadow).sample(some, [&] {
-    return is_tinted;
-  }));
-  light.area->rows = 60;
-  CHECK_FALSE(AreaPairs<DirectSpu>::can_sample(make_record(light)));
+  light.area->columns = light.area->rows = 41;
+  light.area->adaptive = 100;
+  const auto glass = [](const RayPacket&, unsigned, const FloatLanes&) { return Vec3(0.5); };
+  Sampling large(light, random);
+  CHECK_FALSE(large.run_tinted_in_pairs(0xFFFF, glass));
+  CHECK(large.shadow->is_tinted == 0);
+  light.area->columns = light.area->rows = 22;
+  CHECK(Sampling(light, random).run_tinted_in_pairs(0xFFFF, glass));
+  light.area->rows = 80;
+  CHECK_FALSE(AreaPairs<DirectSpu, true>::can_sample(make_record(light)));
 }
 
 TEST_CASE("A shaft touches every node that is between surfaces and a place of the light") {

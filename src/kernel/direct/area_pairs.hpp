@@ -11,7 +11,8 @@
 
 namespace celltrace::kernel {
 
-/// Where the places of a light are on its grid, in rows. Each is found when it is first asked for.
+/// Where the places of a light are on its grid, in rows. The first ones are found when they are first asked
+/// for.
 class LightGrid {
 public:
   struct Place {
@@ -19,7 +20,7 @@ public:
   };
 
   static bool has_room_for(const LightRecord& light) { return light.columns * light.rows <= kMostPlaces; }
-  static constexpr uint32_t kMostPlaces = 17 * 17;
+  static constexpr uint32_t kMostPlaces = 41 * 41;
 
   /// The places are those of this light from now on.
   void set(const LightRecord& light) {
@@ -28,25 +29,69 @@ public:
     for (Place& place : places_)
       place.column = kUnknown;
   }
-  /// Stays where it is.
-  const Place& at(uint32_t number) {
+  Place at(uint32_t number) {
+    if (number >= kKept) return made(number);
     Place& place = places_[number];
-    if (place.column == kUnknown) {
-      const LightPlace on_grid = {number % columns_, number / columns_};
-      const module_areas::PlaceJitter jitter(on_grid);
-      place = {static_cast<float>(on_grid.column), static_cast<float>(on_grid.row), jitter.x, jitter.y};
-    }
+    if (place.column == kUnknown) place = made(number);
     return place;
   }
 
 private:
+  static constexpr uint32_t kKept = 17 * 17;
   static constexpr float kUnknown = -1.0f;
 
+  Place made(uint32_t number) const {
+    const LightPlace on_grid = {number % columns_, number / columns_};
+    const module_areas::PlaceJitter jitter(on_grid);
+    return {static_cast<float>(on_grid.column), static_cast<float>(on_grid.row), jitter.x, jitter.y};
+  }
+
   uint32_t columns_ = 0;
-  Place places_[kMostPlaces];
+  Place places_[kKept];
 };
 
-template <class Spu> class AreaPairs {
+/// What share of the light comes tinted from places, by place and lane.
+template <class S> class AreaTints {
+public:
+  /// Nothing is known of the places from now on.
+  void begin(uint32_t places) {
+    for (uint32_t i = 0; i < places; ++i)
+      lanes_[i] = 0;
+    count_ = 0;
+  }
+  /// That of a lane, which has none yet. False: there is no room for it.
+  bool set(uint32_t place, uint32_t lane, const VectorLanes& from, uint32_t from_lane) {
+    if (lanes_[place] == 0) {
+      if (count_ == kMost) return false;
+      numbers_[place] = static_cast<uint16_t>(count_++);
+    }
+    lanes_[place] |= static_cast<uint16_t>(1u << lane);
+    VectorLanes& to = tints_[numbers_[place]];
+    to.x.lane[lane] = from.x.lane[from_lane];
+    to.y.lane[lane] = from.y.lane[from_lane];
+    to.z.lane[lane] = from.z.lane[from_lane];
+    return true;
+  }
+  uint32_t lanes(uint32_t place) const { return lanes_[place]; }
+  /// The tint in lanes that have one, or else white where they are lit, and black where not.
+  [[gnu::always_inline]] V3<S> of(uint32_t place, uint32_t lit) const {
+    using F = typename S::F;
+    const F white = S::select(S::M::from_bits(lit), F(1.0f), F(0.0f));
+    if (lanes_[place] == 0) return {white, white, white};
+    return select<S>(S::M::from_bits(lanes_[place]), tints_[numbers_[place]].template load<S>(),
+                     {white, white, white});
+  }
+
+private:
+  static constexpr uint32_t kMost = 512;
+
+  uint32_t count_ = 0;
+  uint16_t lanes_[LightGrid::kMostPlaces], numbers_[LightGrid::kMostPlaces];
+  VectorLanes tints_[kMost];
+};
+
+/// `kTinted`: light may come tinted.
+template <class Spu, bool kTinted> class AreaPairs {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -61,6 +106,7 @@ public:
       : light_(light), area_(area), grid_(grid), columns_(light.columns) {
     grid_.set(light);
     const uint32_t places = light.columns * light.rows;
+    if constexpr (kTinted) tints_.begin(places);
     for (uint32_t i = 0; i < places; ++i)
       lit_[i] = 0;
     for (uint32_t first = 0; first < places; first += S::kLanes) {
@@ -70,13 +116,10 @@ public:
   }
 
   /// Finds the share of a light of which the sampling has begun. `test(queries, count)` leaves those of the
-  /// queries' lanes to which all light comes; to the others none does. There are kMostPackets at most.
-  template <class Test> void sample(const Test& test) {
-    sample(test, [] { return false; });
-  }
-  /// The same as long as no light comes tinted, of which `is_tinted()` says whether it did in a test. False:
-  /// it did, and the share is not found.
-  template <class Test, class Tinted> bool sample(const Test& test, const Tinted& is_tinted) {
+  /// queries' lanes to which light comes: all of it, or where it may come tinted, what it makes of the
+  /// queries' lights, which are white. To the others none does. There are kMostPackets at most. False: light
+  /// comes tinted from more places than there is room for, and the share is not found.
+  template <class Test> bool sample(const Test& test) {
     F share[kCorners] = {F(0.0f), F(0.0f), F(0.0f), F(0.0f)}; // of each corner; the sums are exact
     uint32_t count = 1;
     quads_[0][0] = area_.quad;
@@ -88,7 +131,10 @@ public:
         want_between(blocks_[i]);
       ask_wanted(test);
       if (packet_count() != 0) test_packets(test);
-      if (is_tinted()) return false;
+      if (is_full_) {
+        area_.is_tinted = 0;
+        return false;
+      }
       for (uint32_t i = 0; i < block_count_; ++i)
         add_block(blocks_[i], share);
       block_count_ = 0;
@@ -101,6 +147,8 @@ public:
     ((share[0] + share[1]) + (share[2] + share[3])).store(area_.share.lane);
     return true;
   }
+  /// The lanes of the surfaces that a packet of pairs is of, for tests.
+  const int32_t* surface_lanes(uint32_t packet) const { return lane_ + packet * S::kLanes; }
 
 private:
   static constexpr uint32_t kCorners = AreaShadow<S>::kCorners;
@@ -151,7 +199,7 @@ private:
     const auto count = static_cast<uint32_t>(__builtin_popcount(lanes));
     area_.rays_asked += count;
     if (pair_count_ + count > kMostPairs) test_packets(test);
-    const LightGrid::Place& on_grid = grid_.at(place);
+    const LightGrid::Place on_grid = grid_.at(place);
     S::lane_numbers(lanes).store_unaligned(lane_ + pair_count_);
     F(on_grid.column).store_unaligned(column_ + pair_count_);
     F(on_grid.row).store_unaligned(row_ + pair_count_);
@@ -186,6 +234,7 @@ private:
   template <class Test> [[gnu::noinline]] void test_packets(const Test& test) {
     aim_pairs();
     test(queries_, packet_count());
+    if constexpr (kTinted) take_tints();
     take_pairs();
     run_count_ = pair_count_ = 0;
   }
@@ -214,7 +263,36 @@ private:
     }
   }
   void ask_packet(uint32_t i, uint32_t lanes) {
-    queries_[i] = {&rays_[i].rays, nullptr, &rays_[i].distance, &area_.light(), lanes};
+    VectorLanes* light = &area_.light();
+    if constexpr (kTinted) {
+      light = &came_[i];
+      light->template store<S>({F(1.0f), F(1.0f), F(1.0f)});
+    }
+    queries_[i] = {&rays_[i].rays, nullptr, &rays_[i].distance, light, lanes};
+  }
+  /// Gives places what comes tinted, and leaves the queries only those lanes to which all light comes.
+  void take_tints() {
+    uint32_t tinted[kMostPackets], any = 0; // lanes
+    for (uint32_t i = 0; i < packet_count(); ++i) {
+      const V3<S> came = came_[i].template load<S>();
+      const F zero(0.0f), one(1.0f);
+      const uint32_t lit = ((came.x == one) & (came.y == one) & (came.z == one)).bits();
+      const uint32_t dark = ((came.x == zero) & (came.y == zero) & (came.z == zero)).bits();
+      tinted[i] = queries_[i].lanes & ~(lit | dark);
+      queries_[i].lanes &= lit;
+      any |= tinted[i];
+    }
+    if (any == 0) return;
+    for (uint32_t i = 0; i < run_count_; ++i) {
+      const Run& run = runs_[i];
+      const auto end = run.first + static_cast<uint32_t>(__builtin_popcount(run.lanes));
+      for (uint32_t pair = run.first; pair < end; ++pair) {
+        const uint32_t packet = pair / S::kLanes, lane = pair % S::kLanes;
+        if ((tinted[packet] >> lane & 1) == 0) continue;
+        const auto surface = static_cast<uint32_t>(lane_[pair]);
+        is_full_ = !tints_.set(run.place, surface, came_[packet], lane) || is_full_;
+      }
+    }
   }
   /// Gives places the lanes of the pairs that are lit.
   void take_pairs() {
@@ -236,12 +314,25 @@ private:
       any |= lit[i];
       all &= lit[i];
     }
+    const uint32_t tinted = lanes_tinted_at(corners.place) & q.lanes;
     uint32_t divided = 0;
-    if (q.has_places_between())
+    if (q.has_places_between()) {
       divided = q.level < light_.adaptive ? q.lanes : q.lanes & any & ~all & area_.is_visible;
+      if constexpr (kTinted)
+        if (tinted != 0 && q.level >= light_.adaptive)
+          divided = (divided & ~tinted) | (disagreement(corners, lit) & tinted);
+    }
     const uint32_t agreed = q.lanes & ~divided;
     for (uint32_t i = 0; i < kCorners; ++i)
-      share[i] = S::select(S::M::from_bits(lit[i] & agreed), share[i] + F(0.25f * q.weight), share[i]);
+      share[i] =
+          S::select(S::M::from_bits(lit[i] & agreed & ~tinted), share[i] + F(0.25f * q.weight), share[i]);
+    if constexpr (kTinted)
+      if ((agreed & tinted) != 0) {
+        V3<S> sum = tints_.of(corners.place[0], lit[0]);
+        for (uint32_t i = 1; i < kCorners; ++i)
+          sum = sum + tints_.of(corners.place[i], lit[i]);
+        add_tinted(sum * F(0.25f * q.weight), agreed & tinted);
+      }
     if (divided == 0) return;
     if (q.right == q.left + 2 && q.bottom == q.top + 2)
       blocks_[block_count_++] = {q.left,  q.top,   q.right, q.bottom, static_cast<uint16_t>(divided),
@@ -249,24 +340,67 @@ private:
     else
       q.divide(divided, push);
   }
+  /// Those to which light comes tinted from some of the places.
+  template <uint32_t kCount> uint32_t lanes_tinted_at(const uint32_t (&places)[kCount]) const {
+    uint32_t tinted = 0;
+    if constexpr (kTinted)
+      for (const uint32_t place : places)
+        tinted |= tints_.lanes(place);
+    return tinted;
+  }
+  /// Lanes in which neighbouring corners differ so much that the quad is looked at closer.
+  uint32_t disagreement(const Corners& corners, const uint32_t (&lit)[kCorners]) const {
+    constexpr uint32_t kRound[] = {0, 1, 3, 2};
+    const V3<S> whole = area_.whole.template load<S>();
+    uint32_t differ = 0;
+    V3<S> before = tints_.of(corners.place[2], lit[2]);
+    for (const uint32_t corner : kRound) {
+      const V3<S> next = tints_.of(corners.place[corner], lit[corner]);
+      const F difference = absolute_sum<S>((before - next) * whole);
+      differ |= (difference > F(AreaShadow<S>::kTolerance)).bits();
+      before = next;
+    }
+    return differ;
+  }
+  /// Adds a part of the whole light to what comes tinted.
+  void add_tinted(const V3<S>& part, uint32_t lanes) {
+    const F zero(0.0f);
+    const V3<S> none = {zero, zero, zero};
+    const V3<S> before = select<S>(S::M::from_bits(area_.is_tinted), area_.more.template load<S>(), none);
+    const V3<S> added = part * area_.whole.template load<S>();
+    area_.more.template store<S>(before + select<S>(S::M::from_bits(lanes), added, none));
+    area_.is_tinted |= lanes;
+  }
   /// Adds the means of the quarters of a quad of 3 x 3 places.
-  void add_block(const LightQuad& q, F (&share)[kCorners]) const {
-    const uint16_t* const first = lit_ + q.top * columns_ + q.left;
+  void add_block(const LightQuad& q, F (&share)[kCorners]) {
+    constexpr uint32_t kPlaces = 9;
+    constexpr float kTimes[kPlaces] = {1.0f, 2.0f, 1.0f, 2.0f, 4.0f, 2.0f, 1.0f, 2.0f, 1.0f};
+    constexpr uint32_t kShares[kPlaces] = {0, 1, 2, 3, 0,
+                                           1, 2, 3, 2}; // so that no sum waits for the last one
+    const uint32_t begin = q.top * columns_ + q.left;
+    const uint32_t places[kPlaces] = {begin,
+                                      begin + 1,
+                                      begin + 2,
+                                      begin + columns_,
+                                      begin + columns_ + 1,
+                                      begin + columns_ + 2,
+                                      begin + 2 * columns_,
+                                      begin + 2 * columns_ + 1,
+                                      begin + 2 * columns_ + 2};
     const float weight = 0.0625f * q.weight;
-    const auto add = [&](uint32_t to, uint32_t place, float times) {
-      const auto lit = S::M::from_bits(first[place] & q.lanes);
-      share[to] = S::select(lit, share[to] + F(times * weight), share[to]);
-    };
-    const uint32_t second = columns_, third = 2 * columns_;
-    add(0, 0, 1.0f);
-    add(1, 1, 2.0f);
-    add(2, 2, 1.0f);
-    add(3, second, 2.0f);
-    add(0, second + 1, 4.0f);
-    add(1, second + 2, 2.0f);
-    add(2, third, 1.0f);
-    add(3, third + 1, 2.0f);
-    add(2, third + 2, 1.0f);
+    const uint32_t tinted = lanes_tinted_at(places) & q.lanes;
+    for (uint32_t i = 0; i < kPlaces; ++i) {
+      const auto lit = S::M::from_bits(lit_[places[i]] & q.lanes & ~tinted);
+      F& sum = share[kShares[i]];
+      sum = S::select(lit, sum + F(kTimes[i] * weight), sum);
+    }
+    if constexpr (kTinted)
+      if (tinted != 0) {
+        V3<S> sum = tints_.of(places[0], lit_[places[0]]);
+        for (uint32_t i = 1; i < kPlaces; ++i)
+          sum = sum + tints_.of(places[i], lit_[places[i]]) * F(kTimes[i]);
+        add_tinted(sum * F(weight), tinted);
+      }
   }
 
   bool is_jittered() const { return (light_.kind_and_flags & light_flag::jitter) != 0; }
@@ -274,11 +408,13 @@ private:
   const LightRecord& light_;
   AreaShadow<S>& area_;
   LightGrid& grid_;
+  [[no_unique_address]] Present<AreaTints<S>, kTinted> tints_;
   const uint32_t columns_;
+  bool is_full_ = false; ///< there was no room for all tints
   // Lanes, by place: those that want to know of it, have asked, and are lit. A few more places are none.
   alignas(64) int32_t wanted_[kMostPlaces + kSlack], asked_[kMostPlaces + kSlack];
   uint16_t lit_[kMostPlaces];
-  LightQuad quads_[2][kMostPlaces];   ///< of a size each by turns: never more than 256
+  LightQuad quads_[2][kMostPlaces];   ///< of a size each by turns
   LightQuad blocks_[kMostPlaces / 4]; ///< of 3 x 3 places that are to be divided
   uint32_t block_count_ = 0;
   // What is to be tested: many lanes with a place each; pairs of which places, and by pair its lane and where
@@ -289,22 +425,8 @@ private:
   alignas(64) float column_[kMostPairs + kSlack], row_[kMostPairs + kSlack];
   alignas(64) float jitter_x_[kMostPairs + kSlack], jitter_y_[kMostPairs + kSlack];
   ShadowRays rays_[kMostPackets];
+  VectorLanes came_[kMostPackets]; ///< by packet, of white light; with tints
   RayQuery queries_[kMostPackets];
-};
-
-/// Says where it is tried to sample an area in pairs, which is in vain if light comes tinted: not for some
-/// packets after one to which it did.
-class AreaTints {
-public:
-  bool are_unlikely() { return left_ == 0 || --left_ == 0; }
-  void count(bool tinted) {
-    if (tinted) left_ = kPackets;
-  }
-
-private:
-  static constexpr uint32_t kPackets = 16;
-
-  uint32_t left_ = 0;
 };
 
 } // namespace celltrace::kernel

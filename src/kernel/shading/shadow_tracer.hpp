@@ -250,8 +250,8 @@ private:
         const auto test = [&](RayQuery* queries, uint32_t count) {
           traversal_.test_occluders(queries, count, occluders);
         };
-        if (AreaPairs<Spu>::can_sample(light)) {
-          AreaPairs<Spu>(light, grid_, area).sample(test);
+        if (AreaPairs<Spu, false>::can_sample(light)) {
+          AreaPairs<Spu, false>(light, grid_, area).sample(test);
         } else {
           while (next_place(scene_.spu(), light, area)) {
             RayQuery query = {&area.to_place->rays, nullptr, &area.to_place->distance, &area.light(),
@@ -262,8 +262,10 @@ private:
         }
         return take_area_light(colour);
       }
-      if (walk_ == nullptr && !is_projected(light))
+      if (!is_projected(light) && !walks_all(light)) {
+        if (walk_ != nullptr) return look_at_crossed_area(light, colour);
         return look_at_occluded_area(light, known == Known::nodes ? &occluders : nullptr, colour);
+      }
     }
     while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
@@ -288,36 +290,47 @@ private:
         traversal_.transmittance(rays, lanes, distance, of_place);
       return true;
     };
-    if (!find_untinted_share(light, trace))
+    if (!sample_pairs(light, [&](const RayQuery& query, const int32_t*, VectorLanes& of_place) {
+          return trace(*query.rays, query.lanes, *query.distance, of_place);
+        }))
       while (next_place(scene_.spu(), light, area))
         if (!trace(area.to_place->rays, area.lanes, area.to_place->distance, area.light())) answer(area, 0);
     traversal_.remember_occluders(false);
     take_area_light(colour);
   }
-  /// Finds the share of an area's light that comes to surfaces, unless some comes tinted.
-  template <class Trace> bool find_untinted_share(const LightRecord& light, const Trace& trace) {
+  /// The same where what rays cross is kept.
+  CELLTRACE_ONE_COPY void look_at_crossed_area(const LightRecord& light, VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
-    if (!AreaPairs<Spu>::can_sample(light) || !tints_.are_unlikely()) return false;
-    const F one(1.0f), zero(0.0f);
-    uint32_t tinted = 0;
-    const auto test = [&](RayQuery* queries, uint32_t count) {
-      for (uint32_t i = 0; i < count; ++i) {
-        RayQuery& query = queries[i];
-        const uint32_t lanes = query.lanes;
-        area.light().template store<S>({one, one, one});
-        query.lanes = 0;
-        if (!trace(*query.rays, lanes, *query.distance, area.light())) continue;
-        const V3<S> came = area.light().template load<S>();
-        const uint32_t lit = ((came.x == one) & (came.y == one) & (came.z == one)).bits();
-        const uint32_t dark = ((came.x == zero) & (came.y == zero) & (came.z == zero)).bits();
-        tinted |= lanes & ~(lit | dark);
-        query.lanes = lanes & lit;
+    const RayInteriors* const of_surfaces = interiors_;
+    const auto trace = [&](const RayQuery& query, const int32_t* surfaces, VectorLanes& of_place) {
+      RayInteriors of_pairs;
+      if (of_surfaces != nullptr) {
+        for_each_lane(query.lanes, [&](uint32_t lane) {
+          copy_lane(*of_surfaces, static_cast<uint32_t>(surfaces[lane]), of_pairs, lane);
+        });
+        interiors_ = &of_pairs;
       }
+      look_at_crossings(light, *query.rays, query.lanes, *query.distance, of_place);
+      interiors_ = of_surfaces;
+      return true;
     };
+    if (!sample_pairs(light, trace))
+      while (next_place(scene_.spu(), light, area))
+        look_at_crossings(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light());
+    take_area_light(colour);
+  }
+  /// Samples an area in pairs of a surface and a place, if there is room for them. `trace(query, the surface
+  /// of each lane, light)` takes white light to what comes; false: none does.
+  template <class Trace> bool sample_pairs(const LightRecord& light, const Trace& trace) {
+    AreaShadow<S>& area = *area_;
+    if (!AreaPairs<Spu, true>::can_sample(light)) return false;
     const uint32_t asked = area.rays_asked;
-    const bool found = AreaPairs<Spu>(light, grid_, area).sample(test, [&] { return tinted != 0; });
-    tints_.count(!found);
-    if (found) return true;
+    AreaPairs<Spu, true> pairs(light, grid_, area);
+    const auto test = [&](RayQuery* queries, uint32_t count) {
+      for (uint32_t i = 0; i < count; ++i)
+        if (!trace(queries[i], pairs.surface_lanes(i), *queries[i].light)) queries[i].lanes = 0;
+    };
+    if (pairs.sample(test)) return true;
     area.rays_asked = asked;
     return false;
   }
@@ -333,7 +346,6 @@ private:
   RayCounters& counters_;
   AreaShadow<S>* area_; ///< null if no light has an area
   ShadowWalk<S>* walk_; ///< null if shadow rays need none
-  [[no_unique_address]] Present<AreaTints, kGathersOccluders<Spu>> tints_;
   [[no_unique_address]] Present<LightGrid, kGathersOccluders<Spu>> grid_;
   const RayInteriors* interiors_ = nullptr;
 };
