@@ -39,9 +39,10 @@ struct Face {
   Extent extent;
   std::size_t object;
   std::size_t solid; ///< kPlane: the object is a plane
-  int side;      ///< of a box: axis * 2, and 1 for the one of larger coordinates; of others: 1 for the cap
-  bool is_round; ///< an end of a cylinder or a cone
-  bool looks_up; ///< its outside is where the normal points
+  int side;        ///< of a box: axis * 2, and 1 for the one of larger coordinates; of others: 1 for the cap
+  bool is_round;   ///< an end of a cylinder or a cone
+  bool is_inverse; ///< of a box that is cut out of something
+  bool looks_up;   ///< its outside is where the normal points
   Index material;
   std::uint32_t path = 0; ///< its number
   int steps = 0;          ///< to move it, toward the camera
@@ -49,24 +50,26 @@ struct Face {
   static constexpr std::size_t kPlane = ~std::size_t{0};
 };
 
-/// Calls `visit(solid, transform, material, path)` for the boxes, cylinders and cones of an object, which may
-/// be changed: those in its CSG, too, that are not cut out of it. CSGs are copied if they may be.
+/// Calls `visit(solid, transform, material, path, inversions)` for the boxes, cylinders and cones of an
+/// object, which may be changed: those in its CSG, too. `inversions`: how often it is turned inside out, or
+/// cut out of something. CSGs are copied if they may be.
 template <class AnyObject, class Visit>
-void visit_solids(AnyObject& object, const Transform& around, CsgPath& path, Visit& visit) {
-  if (object.inverse) return;
+void visit_solids(AnyObject& object, const Transform& around, int inversions, CsgPath& path, Visit& visit) {
   const Transform transform = object.transform.then(around);
-  if (auto* const box = std::get_if<Box>(&object.shape)) return visit(*box, transform, object.material, path);
+  inversions += object.inverse ? 1 : 0;
+  if (auto* const box = std::get_if<Box>(&object.shape))
+    return visit(*box, transform, object.material, path, inversions);
   if (auto* const cylinder = std::get_if<Cylinder>(&object.shape))
-    return visit(*cylinder, transform, object.material, path);
+    return visit(*cylinder, transform, object.material, path, inversions);
   if (auto* const cone = std::get_if<Cone>(&object.shape))
-    return visit(*cone, transform, object.material, path);
+    return visit(*cone, transform, object.material, path, inversions);
   auto* const shared = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
   if (shared == nullptr || (*shared)->parts.empty()) return;
   const auto visit_parts = [&](auto& csg) {
-    const bool is_difference = csg.operation == Csg::Operation::difference;
-    for (std::size_t i = 0; i < (is_difference ? 1 : csg.parts.size()); ++i) {
+    for (std::size_t i = 0; i < csg.parts.size(); ++i) {
+      const bool is_cut = csg.operation == Csg::Operation::difference && i > 0;
       path.push_back({&csg, i});
-      visit_solids(csg.parts[i], transform, path, visit);
+      visit_solids(csg.parts[i], transform, inversions + (is_cut ? 1 : 0), path, visit);
       path.pop_back();
     }
   };
@@ -81,7 +84,7 @@ void visit_solids(AnyObject& object, const Transform& around, CsgPath& path, Vis
 
 template <class AnyObject, class Visit> void visit_solids(AnyObject& object, Visit& visit) {
   CsgPath path;
-  visit_solids(object, Transform(), path, visit);
+  visit_solids(object, Transform(), 0, path, visit);
 }
 
 /// Turns the normal, which points out, the way that Face says.
@@ -105,8 +108,9 @@ public:
       const Object& object = scene.objects[i];
       if (const auto* const plane = std::get_if<Plane>(&object.shape)) add_plane(i, *plane);
       const auto visit = [&](const auto& solid, const Transform& transform, Index material,
-                             const CsgPath& path) {
-        if (!object.is_hidden) add(i, solids, solid, transform, material, path);
+                             const CsgPath& path, int inversions) {
+        if (!object.is_hidden && inversions < 2)
+          add(i, solids, solid, transform, material, path, inversions == 1);
         ++solids;
       };
       visit_solids(object, visit);
@@ -142,7 +146,7 @@ public:
             scene.objects[face.object].transform.then(Transform::translate(way(face)));
     }
     std::size_t number = 0;
-    const auto move = [&](auto& solid, const Transform& transform, Index, const CsgPath&) {
+    const auto move = [&](auto& solid, const Transform& transform, Index, const CsgPath&, int) {
       for (int side = 0; side < 6; ++side)
         if (const Face* const face = sides[number].face[side]) move_side(solid, side, transform, *face);
       ++number;
@@ -151,7 +155,7 @@ public:
       if (has_moves[i]) {
         visit_solids(scene.objects[i], move);
       } else {
-        const auto pass = [&](const auto&, const Transform&, Index, const CsgPath&) { ++number; };
+        const auto pass = [&](const auto&, const Transform&, Index, const CsgPath&, int) { ++number; };
         visit_solids(std::as_const(scene.objects[i]), pass);
       }
     }
@@ -206,9 +210,11 @@ private:
     if (is_usable(face)) faces_.push_back(face);
   }
 
+  /// Of an inverse box the inside is seen, as that of a room which is cut out of something.
   void add(std::size_t object, std::size_t number, const Box& box, const Transform& transform, Index material,
-           const CsgPath& path) {
-    if (!path.empty()) paths_.push_back(path);
+           const CsgPath& path, bool is_inverse) {
+    const bool has_order = !path.empty() && !is_inverse; // among its CSG's faces
+    if (has_order) paths_.push_back(path);
     const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
     for (int side = 0; side < 6; ++side) {
       const int axis = side / 2;
@@ -223,20 +229,22 @@ private:
       }
       Face face = face_of(corners, unit * (side % 2 != 0 ? 1.0 : -1.0), transform);
       face.material = material;
+      face.is_inverse = is_inverse;
+      face.looks_up = face.looks_up != is_inverse;
       // Those that look away are seen through something, or in mirrors: where many are, time is worth more.
       if (is_opaque(face) && !looks_at_camera(face)) continue;
       face.object = object;
       face.solid = number;
       face.side = side;
-      face.path = path.empty() ? 0 : static_cast<std::uint32_t>(paths_.size());
+      face.path = has_order ? static_cast<std::uint32_t>(paths_.size()) : 0;
       if (is_usable(face)) faces_.push_back(face);
     }
   }
   /// Of cylinders and cones the ends that are seen through them.
   template <class Round>
   void add(std::size_t object, std::size_t number, const Round& solid, const Transform& transform,
-           Index material, const CsgPath&) {
-    if (solid.open) return;
+           Index material, const CsgPath&, bool is_inverse) {
+    if (solid.open || is_inverse) return;
     const Vec3 axis = solid.cap - solid.base;
     int least = 0;
     for (int i = 1; i < 3; ++i)
@@ -345,6 +353,12 @@ private:
   /// cylinders and cones are rounded otherwise than faces, by POV-Ray, too: it is settled only where
   /// something transparent stands on what is opaque.
   bool can_differ(const Face& a, const Face& b) const {
+    // What is cut out often has faces with what it is cut out of: they stay, but as the ground of a room.
+    if (a.is_inverse && b.is_inverse) return false;
+    if (a.is_inverse || b.is_inverse) {
+      const Face &ground = a.is_inverse ? a : b, &other = a.is_inverse ? b : a;
+      if (!is_ground(ground) || is_opaque(other) || looks_at_camera(other)) return false;
+    }
     if (a.is_round || b.is_round) return a.is_round != b.is_round && is_ground(a.is_round ? b : a);
     const bool are_opaque = is_opaque(a) && is_opaque(b);
     return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);

@@ -12,10 +12,10 @@ namespace celltrace {
 /// A scene in which faces of boxes and planes that lie in one plane, and overlap, are moved apart, by a few
 /// millionths of their distance from the camera, so that the one is in front that POV-Ray shows. There
 /// rounding is the same for all of them and the first one counts that is tested (BoundingTree); single
-/// precision would show now the one and now the other. Boxes may be parts of a CSG, but not cut out of it: of
-/// faces of one intersection that of the last part is seen. Where a transparent cylinder or cone stands on
-/// such a face of something opaque, that is in front of its end. Scenes of very many objects stay as they
-/// are.
+/// precision would show now the one and now the other. Boxes may be parts of a CSG: of faces of one
+/// intersection that of the last part is seen. Of boxes that are cut out, as rooms are, only what transparent
+/// things stand on is moved. Where such a thing is a cylinder or cone, it stands behind what is opaque.
+/// Scenes of very many objects stay as they are.
 class SceneWithFacesApart {
 public:
   /// `scene` stays as it is as long as this lives. `material_flags`: those of objects that consist of a

@@ -82,6 +82,12 @@ TEST_CASE("Of CSGs that have a surface in common the one comes first whose box r
     scene.objects.push_back(cut(half));
   CHECK(order_of(scene) == std::vector<std::size_t>{1, 2, 0, 3});
 
+  SECTION("but of fewer than three objects, with lights, the one that is first in the scene") {
+    scene.objects.resize(2);
+    CHECK(order_of(scene) == std::vector<std::size_t>{1, 0});
+    scene.lights.clear();
+    CHECK(order_of(scene) == std::vector<std::size_t>{0, 1});
+  }
   SECTION("and others stay where they are: shapes, and CSGs behind them") {
     scene.objects.insert(scene.objects.begin() + 1, ball(0));
     scene.objects.push_back(csg(Operation::merge, {ball(1, 2), ball(2, 3)}));

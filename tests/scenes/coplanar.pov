@@ -41,3 +41,12 @@ union {
   rotate 20 * y
   translate <2.2, 0, 3>
 }
+
+// Glass that stands in a niche, which is cut out.
+difference {
+  box { <-1.4, 0, 2.2>, <0.6, 1.2, 3.2> }
+  box { <-1.2, 0.2, 2>, <0.4, 1, 3> }
+  pigment { rgb <0.5, 0.45, 0.4> }
+}
+cone { <-0.7, 0.2, 2.5>, 0.3, <-0.7, 0.8, 2.5>, 0.1 pigment { rgbf <0.9, 0.9, 1, 0.9> } interior { ior 1.2 } }
+box { <-0.2, 0.2, 2.3>, <0.2, 0.6, 2.7> pigment { rgbf <1, 0.8, 0.8, 0.8> } }
