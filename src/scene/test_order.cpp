@@ -21,18 +21,18 @@ namespace {
 constexpr std::size_t kMostPairs = 1 << 16;
 
 /// A surface of an object, and where that may show it.
-struct Surface {
+struct PlacedSurface {
   std::uint32_t kind;
   std::array<float, 14> numbers; ///< geometry and parameters
   std::size_t object;
   kernel::Aabb bounds;
 
-  bool is_same_as(const Surface& other) const { return kind == other.kind && numbers == other.numbers; }
+  bool is_same_as(const PlacedSurface& other) const { return kind == other.kind && numbers == other.numbers; }
 };
 
-class Surfaces {
+class PlacedSurfaces {
 public:
-  Surfaces(const Scene& scene, std::size_t count, const CsgParts& parts) {
+  PlacedSurfaces(const Scene& scene, std::size_t count, const CsgParts& parts) {
     for (const CsgPart& part : parts.parts)
       if (part.whole < count && !is_mesh(part.object)) add(part.shape, part.whole, part.bounds);
     for (std::size_t i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ public:
       const PlacedShape shape = place_shape(object);
       if (!shape.is_empty) add(shape, i, shape.bounds());
     }
-    std::stable_sort(surfaces_.begin(), surfaces_.end(), [](const Surface& a, const Surface& b) {
+    std::stable_sort(surfaces_.begin(), surfaces_.end(), [](const PlacedSurface& a, const PlacedSurface& b) {
       return a.kind != b.kind ? a.kind < b.kind : a.numbers < b.numbers;
     });
   }
@@ -66,7 +66,7 @@ private:
     return std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape);
   }
   void add(const PlacedShape& shape, std::size_t object, const kernel::Aabb& bounds) {
-    Surface& surface = surfaces_.emplace_back();
+    PlacedSurface& surface = surfaces_.emplace_back();
     surface.kind = shape.kind_and_flags;
     std::copy(shape.geometry, shape.geometry + 12, surface.numbers.begin());
     std::copy(shape.parameters, shape.parameters + 2, surface.numbers.begin() + 12);
@@ -74,7 +74,7 @@ private:
     surface.bounds = bounds;
   }
 
-  std::vector<Surface> surfaces_;
+  std::vector<PlacedSurface> surfaces_;
 };
 
 /// The objects of `order`, but each behind those of `before`, by object; where these go in circles, one of
@@ -115,7 +115,7 @@ std::vector<std::size_t> order_of_tests(const Scene& scene, std::size_t count, c
   std::vector<std::vector<std::size_t>> before(count);
   if (!parts.parts.empty() && count + parts.parts.size() < kMinObjectsToOrder) {
     std::optional<BoundingTree> tree;
-    Surfaces(scene, count, parts).for_each_pair([&](const Surface& a, const Surface& b) {
+    PlacedSurfaces(scene, count, parts).for_each_pair([&](const PlacedSurface& a, const PlacedSurface& b) {
       const kernel::Aabb both = intersected(a.bounds, b.bounds);
       Vec3 middle;
       for (int i = 0; i < 3; ++i) {
