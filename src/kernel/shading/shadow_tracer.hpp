@@ -301,22 +301,27 @@ private:
   /// The same where what rays cross is kept.
   CELLTRACE_ONE_COPY void look_at_crossed_area(const LightRecord& light, VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
+    traversal_.remember_occluders(true);
     const RayInteriors* const of_surfaces = interiors_;
     const auto trace = [&](const RayQuery& query, const int32_t* surfaces, VectorLanes& of_place) {
+      const uint32_t lanes =
+          traversal_.unoccluded_by_recent(*query.rays, query.lanes, *query.distance, of_place);
+      if (lanes == 0) return false;
       RayInteriors of_pairs;
       if (of_surfaces != nullptr) {
-        for_each_lane(query.lanes, [&](uint32_t lane) {
+        for_each_lane(lanes, [&](uint32_t lane) {
           copy_lane(*of_surfaces, static_cast<uint32_t>(surfaces[lane]), of_pairs, lane);
         });
         interiors_ = &of_pairs;
       }
-      look_at_crossings(light, *query.rays, query.lanes, *query.distance, of_place);
+      look_at_crossings(light, *query.rays, lanes, *query.distance, of_place);
       interiors_ = of_surfaces;
       return true;
     };
     if (!sample_pairs(light, trace))
       while (next_place(scene_.spu(), light, area))
         look_at_crossings(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light());
+    traversal_.remember_occluders(false);
     take_area_light(colour);
   }
   /// Samples an area in pairs of a surface and a place, if there is room for them. `trace(query, the surface
