@@ -214,6 +214,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   origin.placed = loose.objects;
   origin.groups = std::move(groups);
   origin.forms = forms_of(instanced, instances, given.objects.size());
+  origin.order = objects.order();
   origin.material_flags = std::move(textures.object_flags);
   origin.surfaces_are_apart = textures.objects.empty() && !has_projectors(given);
 }
@@ -247,7 +248,7 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   if (forms_of(instanced, instances, given.objects.size()) != origin_->forms) return false;
   const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,
                              instanced, instances, threads);
-  if (objects.count() != origin_->places.size()) return false;
+  if (objects.count() != origin_->places.size() || objects.order() != origin_->order) return false;
   threads = threads_for(objects, instances, threads, objects_a_thread);
   // Plain triangles are written as they are counted: should there turn out to be others than before, they all
   // are written again. Of the rest an error may be found, which has to leave the image as it was.

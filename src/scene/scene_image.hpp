@@ -104,6 +104,7 @@ private:
     std::uint32_t placed = 0;          ///< of these, those that can be hit
     std::vector<std::uint32_t> groups; ///< of them
     std::vector<ObjectForm> forms;     ///< by object of the scene
+    std::vector<std::size_t> order;    ///< SceneObjects::order()
     std::vector<std::uint32_t> material_flags;
     bool surfaces_are_apart = false; ///< no pattern and no light refers to objects
   };

@@ -96,7 +96,8 @@ SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
                            const MeshInstances& instances, unsigned threads)
     : scene_(scene), material_flags_(material_flags), instanced_(instanced), csg_(scene, patterns),
       polygons_(scene) {
-  for (const std::size_t i : order_of_tests(scene, projectors, csg_)) {
+  order_ = order_of_tests(scene, projectors, csg_);
+  for (const std::size_t i : order_) {
     BuildWatch::look_at(i);
     const Object& object = scene.objects[i];
     if (CsgParts::contains(object)) {
@@ -111,6 +112,7 @@ SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
     else
       add_shape(object);
   }
+  if (!has_order_of_tests(projectors, csg_)) order_.clear();
   add_projectors(scene, projectors);
 }
 

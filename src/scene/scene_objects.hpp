@@ -45,6 +45,8 @@ public:
   std::uint32_t unbounded_extras() const;
   /// Whether primary rays see all of them.
   bool are_all_seen() const { return are_all_seen_; }
+  /// The order in which objects of the scene are numbered, if it depends on what is where.
+  const std::vector<std::size_t>& order() const { return order_; }
   const CsgParts& csg() const { return csg_; }
   const PolygonTable& polygons() const { return polygons_; }
 
@@ -129,6 +131,7 @@ private:
   const InstancedMeshes& instanced_;
   CsgParts csg_;
   PolygonTable polygons_;
+  std::vector<std::size_t> order_;
   std::vector<Piece> pieces_;
   std::vector<Placed> unbounded_, projectors_;
   std::vector<std::uint32_t> projector_sizes_;

@@ -113,7 +113,7 @@ std::vector<std::size_t> order_of_tests(const Scene& scene, std::size_t count, c
     for (std::size_t i = 0; i < count; ++i)
       if (CsgParts::contains(scene.objects[i]) == are_csgs) order.push_back(i);
   std::vector<std::vector<std::size_t>> before(count);
-  if (!parts.parts.empty() && count + parts.parts.size() < kMinObjectsToOrder) {
+  if (has_order_of_tests(count, parts)) {
     std::optional<BoundingTree> tree;
     PlacedSurfaces(scene, count, parts).for_each_pair([&](const PlacedSurface& a, const PlacedSurface& b) {
       const kernel::Aabb both = intersected(a.bounds, b.bounds);
@@ -134,6 +134,10 @@ std::vector<std::size_t> order_of_tests(const Scene& scene, std::size_t count, c
     });
   }
   return sorted(order, std::move(before));
+}
+
+bool has_order_of_tests(std::size_t count, const CsgParts& parts) {
+  return !parts.parts.empty() && count + parts.parts.size() < kMinObjectsToOrder;
 }
 
 } // namespace celltrace

@@ -15,4 +15,7 @@ namespace celltrace {
 /// are very many: then their order does not matter.
 std::vector<std::size_t> order_of_tests(const Scene& scene, std::size_t count, const CsgParts& parts);
 
+/// Whether any may have to come before others: there are CSGs, and not very many objects.
+bool has_order_of_tests(std::size_t count, const CsgParts& parts);
+
 } // namespace celltrace

@@ -1,5 +1,7 @@
 // Which of several surfaces at one place is seen: the first object, and what order objects are in.
+#include "memory/aligned_block.hpp"
 #include "scene/csg_parts.hpp"
+#include "scene/scene_image.hpp"
 #include "scene/test_order.hpp"
 
 #include <catch2/catch.hpp>
@@ -92,6 +94,15 @@ TEST_CASE("Of CSGs that have a surface in common the one comes first whose box r
     scene.objects.insert(scene.objects.begin() + 1, ball(0));
     scene.objects.push_back(csg(Operation::merge, {ball(1, 2), ball(2, 3)}));
     CHECK(order_of(scene) == std::vector<std::size_t>{1, 2, 3, 0, 4, 5});
+  }
+  SECTION("which an image keeps: it is not updated to another order") {
+    scene.materials.resize(10);
+    AlignedBlock work;
+    SceneImage image;
+    image.assign(scene, work, 1, SceneImage::kObjectsAThread, {true, true});
+    CHECK(image.update(scene, work, 1));
+    std::swap(scene.objects[0], scene.objects[1]);
+    CHECK_FALSE(image.update(scene, work, 1));
   }
   SECTION("unless their parts of it are in different places") {
     for (std::size_t i = 0; i < 4; ++i)
