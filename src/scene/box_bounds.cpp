@@ -1,10 +1,10 @@
 #include "scene/box_bounds.hpp"
 
 #include "kernel/primitives/list.hpp"
+#include "scene/csg_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace celltrace {
 
@@ -12,11 +12,6 @@ using namespace kernel;
 
 namespace {
 
-/// As half-spaces of CSG have: more than single precision is wrong by, for what is not too far away.
-float slack_at(float coordinate) {
-  constexpr float kSlack = 1e-4f;
-  return kSlack * (1.0f + std::abs(coordinate));
-}
 /// Faces that are nearer to each other may be at one place, but for rounding.
 float rounding_at(float coordinate) {
   constexpr float kRounding = 2e-5f; // bounds are as much as a third of this too large
@@ -58,8 +53,7 @@ Aabb left_by_box(const Aabb& box, const Aabb& within) {
 }
 
 Aabb bounds_of_faces(const Aabb& box, const Aabb& within) {
-  constexpr float kInfinite = std::numeric_limits<float>::max();
-  Aabb all = {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
+  Aabb all = kNowhere;
   Aabb padded = box;
   for (int axis = 0; axis < 3; ++axis) {
     padded.min[axis] -= slack_at(box.min[axis]);
@@ -71,8 +65,7 @@ Aabb bounds_of_faces(const Aabb& box, const Aabb& within) {
       face.min[axis] = at - slack_at(at);
       face.max[axis] = at + slack_at(at);
       face = intersected(face, within);
-      if (face.min[0] <= face.max[0] && face.min[1] <= face.max[1] && face.min[2] <= face.max[2])
-        all = united(all, face);
+      if (!is_empty(face)) all = united(all, face);
     }
   return all;
 }

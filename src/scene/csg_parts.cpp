@@ -4,6 +4,7 @@
 #include "kernel/accel/object_bounds.hpp"
 #include "scene/box_bounds.hpp"
 #include "scene/build_watch.hpp"
+#include "scene/csg_bounds.hpp"
 #include "scene/extent.hpp"
 #include "scene/polytope.hpp"
 #include "scene/quadric_bounds.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -24,13 +24,6 @@ using namespace kernel;
 
 namespace {
 
-constexpr float kInfinite = std::numeric_limits<float>::max();
-constexpr Aabb kEverywhere = {{-kInfinite, -kInfinite, -kInfinite}, {kInfinite, kInfinite, kInfinite}};
-constexpr Aabb kNowhere = {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
-
-bool is_empty(const Aabb& box) {
-  return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
-}
 bool is_bounded(const Aabb& box) {
   constexpr float kMost = 1e18f;
   for (int i = 0; i < 3; ++i)
@@ -46,11 +39,10 @@ Aabb half_space(const PlacedShape& plane, bool inverse) {
     if (std::abs(n[(i + 1) % 3]) > 1e-6f || std::abs(n[(i + 2) % 3]) > 1e-6f) continue;
     // n x + d < 0.
     const float at = -n[3] / n[i];
-    const float slack = 1e-4f * (1.0f + std::abs(at));
     if ((n[i] > 0) != inverse)
-      box.max[i] = at + slack;
+      box.max[i] = at + slack_at(at);
     else
-      box.min[i] = at - slack;
+      box.min[i] = at - slack_at(at);
   }
   return box;
 }

@@ -4,8 +4,8 @@
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
 #include "scene/build_watch.hpp"
+#include "scene/coincident_surfaces.hpp"
 #include "scene/parallel.hpp"
-#include "scene/test_order.hpp"
 #include "scene/triangles.hpp"
 
 #include <algorithm>

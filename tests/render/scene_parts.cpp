@@ -78,6 +78,15 @@ Object mesh_object(Mesh mesh, Index material, Index interior) {
   return object;
 }
 
+Object csg_object(Csg::Operation operation, std::vector<Object> parts) {
+  auto made = std::make_shared<Csg>();
+  made->operation = operation;
+  made->parts = std::move(parts);
+  Object object;
+  object.shape = std::shared_ptr<const Csg>(made);
+  return object;
+}
+
 Camera camera_at(const Vec3& from, const Vec3& to) {
   Camera camera;
   camera.location = from;

@@ -45,6 +45,8 @@ Mesh floor_mesh(float height, float half);
 /// A unit sphere of `rings` x 2 `rings` quadrangles with the sphere's own normals.
 Mesh ball_mesh(int rings);
 Object mesh_object(Mesh mesh, Index material, Index interior);
+/// Of the material and interior 0.
+Object csg_object(Csg::Operation operation, std::vector<Object> parts);
 
 /// Looks from `from` to `to` with a horizontal angle of 60 degrees and the aspect 4:3.
 Camera camera_at(const Vec3& from, const Vec3& to);

@@ -1,8 +1,9 @@
 // Which of several surfaces at one place is seen: the first object, and what order objects are in.
 #include "memory/aligned_block.hpp"
+#include "render/scenes.hpp"
+#include "scene/coincident_surfaces.hpp"
 #include "scene/csg_parts.hpp"
 #include "scene/scene_image.hpp"
-#include "scene/test_order.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,6 +14,7 @@
 #include <vector>
 
 using namespace celltrace;
+using test::csg_object;
 
 namespace {
 
@@ -28,14 +30,6 @@ Object box(double half) {
   Object object;
   object.shape = Box{{Vec3(-half), Vec3(half)}};
   object.material = 9;
-  return object;
-}
-Object csg(Operation operation, std::vector<Object> parts) {
-  auto made = std::make_shared<Csg>();
-  made->operation = operation;
-  made->parts = std::move(parts);
-  Object object;
-  object.shape = std::shared_ptr<const Csg>(made);
   return object;
 }
 
@@ -56,17 +50,18 @@ std::vector<std::size_t> order_of(const Scene& scene) {
 } // namespace
 
 TEST_CASE("Parts of a CSG are in the order in which POV-Ray shows them where they coincide") {
-  const Object both = csg(Operation::union_, {ball(1), ball(2)});
-  const Object three = csg(Operation::union_, {both, ball(3)});
+  const Object both = csg_object(Operation::union_, {ball(1), ball(2)});
+  const Object three = csg_object(Operation::union_, {both, ball(3)});
   CHECK(order_in(three) == std::vector<Index>{1, 2, 3});
-  CHECK(order_in(csg(Operation::merge, {ball(1), ball(2)})) == std::vector<Index>{2, 1});
-  CHECK(order_in(csg(Operation::intersection, {ball(1), ball(2), box(2)})) == std::vector<Index>{2, 1});
-  CHECK(order_in(csg(Operation::intersection, {box(2), three})) == std::vector<Index>{1, 2, 3});
-  CHECK(order_in(csg(Operation::difference, {three, ball(9, 0.5)})) == std::vector<Index>{1, 2, 3});
-  CHECK(order_in(csg(Operation::intersection, {csg(Operation::intersection, {three, box(3)}), box(2)})) ==
-        std::vector<Index>{3, 2, 1});
-  CHECK(order_in(csg(Operation::union_, {csg(Operation::intersection, {both, box(2)}), ball(3)})) ==
-        std::vector<Index>{1, 2, 3});
+  CHECK(order_in(csg_object(Operation::merge, {ball(1), ball(2)})) == std::vector<Index>{2, 1});
+  CHECK(order_in(csg_object(Operation::intersection, {ball(1), ball(2), box(2)})) ==
+        std::vector<Index>{2, 1});
+  CHECK(order_in(csg_object(Operation::intersection, {box(2), three})) == std::vector<Index>{1, 2, 3});
+  CHECK(order_in(csg_object(Operation::difference, {three, ball(9, 0.5)})) == std::vector<Index>{1, 2, 3});
+  CHECK(order_in(csg_object(Operation::intersection, {csg_object(Operation::intersection, {three, box(3)}),
+                                                      box(2)})) == std::vector<Index>{3, 2, 1});
+  CHECK(order_in(csg_object(Operation::union_, {csg_object(Operation::intersection, {both, box(2)}),
+                                                ball(3)})) == std::vector<Index>{1, 2, 3});
   Object clipped = three;
   clipped.clipped_by = std::make_shared<const std::vector<Object>>(std::vector<Object>{box(2)});
   CHECK(order_in(clipped) == std::vector<Index>{3, 1, 2});
@@ -79,7 +74,7 @@ TEST_CASE("Of CSGs that have a surface in common the one comes first whose box r
   Object plane;
   plane.shape = Plane{{0, 0, -1}, 0.2};
   plane.transform = Transform::rotate({0, 10, 0});
-  const auto cut = [&](double half) { return csg(Operation::intersection, {plane, box(half)}); };
+  const auto cut = [&](double half) { return csg_object(Operation::intersection, {plane, box(half)}); };
   for (const double half : {1.0, 1.1, 1.05, 0.9})
     scene.objects.push_back(cut(half));
   CHECK(order_of(scene) == std::vector<std::size_t>{1, 2, 0, 3});
@@ -92,7 +87,7 @@ TEST_CASE("Of CSGs that have a surface in common the one comes first whose box r
   }
   SECTION("and others stay where they are: shapes, and CSGs behind them") {
     scene.objects.insert(scene.objects.begin() + 1, ball(0));
-    scene.objects.push_back(csg(Operation::merge, {ball(1, 2), ball(2, 3)}));
+    scene.objects.push_back(csg_object(Operation::merge, {ball(1, 2), ball(2, 3)}));
     CHECK(order_of(scene) == std::vector<std::size_t>{1, 2, 3, 0, 4, 5});
   }
   SECTION("which an image keeps: it is not updated to another order") {
@@ -116,7 +111,7 @@ TEST_CASE("Of CSGs that have a surface in common the one comes first whose box r
 TEST_CASE("A CSG comes before a shape that has the same surface if it does in the scene") {
   Scene scene;
   scene.camera.location = {0, 0, -9};
-  scene.objects = {ball(1, 0.5), csg(Operation::intersection, {ball(2), box(2)}), ball(3)};
+  scene.objects = {ball(1, 0.5), csg_object(Operation::intersection, {ball(2), box(2)}), ball(3)};
   CHECK(order_of(scene) == std::vector<std::size_t>{0, 1, 2});
   std::swap(scene.objects[1], scene.objects[2]);
   CHECK(order_of(scene) == std::vector<std::size_t>{0, 1, 2});
@@ -126,8 +121,8 @@ TEST_CASE("Every object has a place in the order, however many share a surface")
   Scene scene;
   scene.camera.location = {3, 4, -9};
   for (int i = 0; i < 300; ++i) {
-    Object one = csg(i % 3 == 0 ? Operation::merge : Operation::intersection,
-                     {ball(1), box(0.7 + 0.3 * (i * 7 % 10) / 10.0)});
+    Object one = csg_object(i % 3 == 0 ? Operation::merge : Operation::intersection,
+                            {ball(1), box(0.7 + 0.3 * (i * 7 % 10) / 10.0)});
     one.transform = Transform::rotate({0, 90.0 * (i % 4), 0});
     scene.objects.push_back(std::move(one));
   }

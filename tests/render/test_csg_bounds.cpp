@@ -1,4 +1,5 @@
 // Bounds of what CSG shows: tight enough for a BVH, and around all that can be seen.
+#include "render/scenes.hpp"
 #include "scene/csg_parts.hpp"
 #include "scene/polytope.hpp"
 #include "scene/quadric_bounds.hpp"
@@ -14,6 +15,7 @@
 #include <variant>
 
 using namespace celltrace;
+using test::csg_object;
 
 namespace {
 
@@ -21,15 +23,6 @@ Object plane(const Vec3& normal, double distance, bool inverse = false) {
   Object object;
   object.shape = Plane{normal, distance};
   object.inverse = inverse;
-  return object;
-}
-
-Object csg(Csg::Operation operation, std::vector<Object> parts) {
-  auto made = std::make_shared<Csg>();
-  made->operation = operation;
-  made->parts = std::move(parts);
-  Object object;
-  object.shape = std::shared_ptr<const Csg>(made);
   return object;
 }
 
@@ -77,7 +70,7 @@ Object box(const Vec3& from, const Vec3& to) {
 } // namespace
 
 TEST_CASE("Slanted planes bound their intersection, and each its own face") {
-  const CsgParts parts = parts_of(csg(Csg::Operation::intersection, octahedron()));
+  const CsgParts parts = parts_of(csg_object(Csg::Operation::intersection, octahedron()));
   REQUIRE(parts.parts.size() == 8);
   for (std::size_t i = 0; i < 8; ++i) {
     CHECK(parts.parts[i].is_bounded);
@@ -87,13 +80,13 @@ TEST_CASE("Slanted planes bound their intersection, and each its own face") {
 }
 
 TEST_CASE("Planes bound what they cut, through differences, transformations and nested intersections") {
-  Object inner = csg(Csg::Operation::intersection, octahedron());
+  Object inner = csg_object(Csg::Operation::intersection, octahedron());
   inner.transform = Transform::scale({2, 2, 2}).then(Transform::translate({10, 0, 0}));
   Object cone = plane({0, 1, 0}, 0);
   cone.shape = Quadric{{1, -1, 1}, {}, {}, 0};
   cone.transform = Transform::translate({10, 0, 0});
   const CsgParts parts =
-      parts_of(csg(Csg::Operation::difference, {inner, plane({1, 1, 0}, std::sqrt(50.0)), cone}));
+      parts_of(csg_object(Csg::Operation::difference, {inner, plane({1, 1, 0}, std::sqrt(50.0)), cone}));
   REQUIRE(parts.parts.size() == 10);
   for (const CsgPart& part : parts.parts)
     CHECK(part.is_bounded);
@@ -106,7 +99,7 @@ TEST_CASE("Planes that leave space open are without bounds") {
   for (const int count : {1, 2, 3, 4}) {
     std::vector<Object> some = octahedron();
     some.resize(static_cast<std::size_t>(count));
-    const CsgParts parts = parts_of(csg(Csg::Operation::intersection, some));
+    const CsgParts parts = parts_of(csg_object(Csg::Operation::intersection, some));
     bool all = true;
     for (const CsgPart& part : parts.parts)
       all = all && part.is_bounded;
@@ -117,7 +110,7 @@ TEST_CASE("Planes that leave space open are without bounds") {
 TEST_CASE("Planes that leave nothing show nothing") {
   std::vector<Object> planes = octahedron();
   planes.push_back(plane({1, 2, 3}, -2));
-  CHECK(parts_of(csg(Csg::Operation::intersection, planes)).parts.empty());
+  CHECK(parts_of(csg_object(Csg::Operation::intersection, planes)).parts.empty());
 }
 
 TEST_CASE("Every point that is seen of planes is in the bounds of its plane") {
@@ -133,7 +126,7 @@ TEST_CASE("Every point that is seen of planes is in the bounds of its plane") {
       normals.push_back(i % 7 == 6 ? normals.back() : direction());
       planes.push_back(plane(normals.back(), 1 + glm::dot(centre, normals.back())));
     }
-    const CsgParts parts = parts_of(csg(Csg::Operation::intersection, planes));
+    const CsgParts parts = parts_of(csg_object(Csg::Operation::intersection, planes));
     REQUIRE(parts.parts.size() == planes.size());
     int seen = 0;
     for (int ray = 0; ray < 400; ++ray) {
@@ -161,7 +154,7 @@ TEST_CASE("An intersection of very many planes is soon taken apart") {
   std::vector<Object> planes;
   for (int i = 0; i < 3000; ++i)
     planes.push_back(plane({normal(random), normal(random), normal(random)}, 1));
-  CHECK(parts_of(csg(Csg::Operation::intersection, planes)).parts.size() == 3000);
+  CHECK(parts_of(csg_object(Csg::Operation::intersection, planes)).parts.size() == 3000);
 }
 
 TEST_CASE("Quadrics between planes are bounded, and bound the planes") {
@@ -172,9 +165,10 @@ TEST_CASE("Quadrics between planes are bounded, and bound the planes") {
   inner.inverse = true;
   Object paraboloid = cone;
   paraboloid.shape = Quadric{{1, 0, 1}, {}, {0, -1, 0}, 0};
-  Object cup = csg(Csg::Operation::intersection,
-                   {csg(Csg::Operation::intersection, {plane({0, 1, 0}, 2), cone, inner, paraboloid}),
-                    plane({0, 1, 0}, 0, true)});
+  Object cup =
+      csg_object(Csg::Operation::intersection,
+                 {csg_object(Csg::Operation::intersection, {plane({0, 1, 0}, 2), cone, inner, paraboloid}),
+                  plane({0, 1, 0}, 0, true)});
 
   SECTION("along the axes") {
     cup.transform = Transform::scale({3, 1, 3}).then(Transform::translate({10, 0, 0}));
@@ -206,7 +200,7 @@ TEST_CASE("Quadrics that nothing limits stay without bounds") {
   cone.shape = Quadric{{1, -1, 1}, {}, {}, 0};
   for (const Vec3& turn : {Vec3(0), Vec3(90, 0, 0), Vec3(30, 40, 50)}) {
     cone.transform = Transform::rotate(turn);
-    const CsgParts parts = parts_of(csg(Csg::Operation::intersection, {plane({0, 1, 0}, 2), cone}));
+    const CsgParts parts = parts_of(csg_object(Csg::Operation::intersection, {plane({0, 1, 0}, 2), cone}));
     REQUIRE(parts.parts.size() == 2);
     CHECK_FALSE(parts.parts[0].is_bounded);
     CHECK_FALSE(parts.parts[1].is_bounded);
@@ -272,8 +266,8 @@ TEST_CASE("All that a box has of a quadric is in the quadric's bounds") {
 TEST_CASE("Boxes that are cut away bound what they leave, and show the faces of the cut alone") {
   Object cylinder;
   cylinder.shape = Cylinder{{0, 0, 0}, {0, 0, 1}, 2, false};
-  Object quarter =
-      csg(Csg::Operation::difference, {cylinder, box({-3, 0, -1}, {3, 3, 2}), box({-3, -3, -1}, {0, 3, 2})});
+  Object quarter = csg_object(Csg::Operation::difference,
+                              {cylinder, box({-3, 0, -1}, {3, 3, 2}), box({-3, -3, -1}, {0, 3, 2})});
 
   SECTION("along the axes") {
     const CsgParts parts = parts_of(quarter);
@@ -290,20 +284,21 @@ TEST_CASE("Boxes that are cut away bound what they leave, and show the faces of 
   }
   SECTION("but not where faces coincide: there those of what is cut away may be seen") {
     const CsgParts parts = parts_of(
-        csg(Csg::Operation::difference, {box({-1, -1, -1}, {1, 1, 1}), box({-1, 0, -1}, {1, 1, 1})}));
+        csg_object(Csg::Operation::difference, {box({-1, -1, -1}, {1, 1, 1}), box({-1, 0, -1}, {1, 1, 1})}));
     REQUIRE(parts.parts.size() == 2);
     check_bounds(parts.parts[0].bounds, {-1, -1, -1}, {1, 1, 1});
     check_bounds(parts.parts[1].bounds, {-1, 0, -1}, {1, 1, 1});
   }
   SECTION("unless they leave something on several sides") {
     const CsgParts parts = parts_of(
-        csg(Csg::Operation::difference, {cylinder, box({-3, -1, -1}, {3, 1, 2}), box({1, 0, -1}, {3, 3, 2}),
-                                         box({0, 0, 0.5}, {1, 1, 0.75})}));
+        csg_object(Csg::Operation::difference, {cylinder, box({-3, -1, -1}, {3, 1, 2}),
+                                                box({1, 0, -1}, {3, 3, 2}), box({0, 0, 0.5}, {1, 1, 0.75})}));
     REQUIRE(parts.parts.size() == 4);
     check_bounds(parts.parts[0].bounds, {-2, -2, 0}, {2, 2, 1});
   }
   SECTION("to nothing") {
-    CHECK(parts_of(csg(Csg::Operation::difference, {cylinder, box({-3, -3, -1}, {3, 3, 2})})).parts.empty());
+    CHECK(parts_of(csg_object(Csg::Operation::difference, {cylinder, box({-3, -3, -1}, {3, 3, 2})}))
+              .parts.empty());
   }
 }
 
@@ -327,7 +322,7 @@ TEST_CASE("Every point that is seen of boxes is in the bounds of its box") {
     }
     const bool difference = random() % 2 == 0;
     const CsgParts parts =
-        parts_of(csg(difference ? Csg::Operation::difference : Csg::Operation::intersection, boxes));
+        parts_of(csg_object(difference ? Csg::Operation::difference : Csg::Operation::intersection, boxes));
     for (int sample = 0; sample < 300; ++sample) {
       const std::size_t own = random() % boxes.size();
       Vec3 at = corners[own].first + Vec3(within(random), within(random), within(random)) *

@@ -20,6 +20,7 @@ public:
   };
 
   static bool has_room_for(const LightRecord& light) { return light.columns * light.rows <= kMostPlaces; }
+  /// Larger: AreaPairs takes more of the stack; smaller: places of more lights are asked one by one.
   static constexpr uint32_t kMostPlaces = 41 * 41;
 
   /// The places are those of this light from now on.
@@ -37,6 +38,8 @@ public:
   }
 
 private:
+  /// Larger: less of local store is left for others; smaller: places of more lights are found again for each
+  /// packet.
   static constexpr uint32_t kKept = 17 * 17;
   static constexpr float kUnknown = -1.0f;
 
@@ -83,6 +86,7 @@ public:
   }
 
 private:
+  /// Places that there is room for, 192 bytes each. With more the packet's places are asked one by one.
   static constexpr uint32_t kMost = 512;
 
   uint32_t count_ = 0;

@@ -1,4 +1,4 @@
-#include "scene/test_order.hpp"
+#include "scene/coincident_surfaces.hpp"
 
 #include "scene/bounding_tree.hpp"
 #include "scene/build_watch.hpp"
@@ -18,7 +18,7 @@ namespace celltrace {
 namespace {
 
 /// Pairs of objects to look at: beyond them nobody waits for more.
-constexpr std::size_t kMostPairs = 1 << 16;
+constexpr std::size_t kMostSurfacePairs = 1 << 16;
 
 /// A surface of an object, and where that may show it.
 struct PlacedSurface {
@@ -55,7 +55,7 @@ public:
       for (std::size_t a = first; a < last; ++a)
         for (std::size_t b = a + 1; b < last; ++b) {
           BuildWatch::look_at(pairs);
-          if (++pairs > kMostPairs) return;
+          if (++pairs > kMostSurfacePairs) return;
           if (surfaces_[a].object != surfaces_[b].object) visit(surfaces_[a], surfaces_[b]);
         }
     }

@@ -1,0 +1,29 @@
+// What bounds of parts of CSG have in common.
+#pragma once
+
+#include "kernel/aabb.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace celltrace {
+
+/// Coordinates of bounds that reach to infinity.
+inline constexpr float kInfinite = std::numeric_limits<float>::max();
+inline constexpr kernel::Aabb kEverywhere = {{-kInfinite, -kInfinite, -kInfinite},
+                                             {kInfinite, kInfinite, kInfinite}};
+inline constexpr kernel::Aabb kNowhere = {{kInfinite, kInfinite, kInfinite},
+                                          {-kInfinite, -kInfinite, -kInfinite}};
+
+inline bool is_empty(const kernel::Aabb& box) {
+  return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
+}
+
+/// How much wider bounds are than a face at a coordinate: more than single precision is wrong by, for what is
+/// not too far away.
+inline float slack_at(float coordinate) {
+  constexpr float kSlack = 1e-4f;
+  return kSlack * (1.0f + std::abs(coordinate));
+}
+
+} // namespace celltrace
