@@ -224,7 +224,15 @@ bool TokenStream::is_inside_value() const {
 
 Token TokenStream::read() {
   if (++tokens_read_ + work_ > next_pause_) pause();
-  return session_.input.read();
+  Token token = session_.input.read();
+  if (token.kind == Token::Kind::directive && is_plain_word(token)) token.kind = Token::Kind::word;
+  return token;
+}
+
+/// Whether a word behind a # has a meaning, but not as a directive: people write #object{...}.
+bool TokenStream::is_plain_word(const Token& directive) const {
+  const Names::Entry& name = session_.names[directive.name];
+  return name.directive == Directive::none && (name.token != 0 || session_.symbols.find(directive.name));
 }
 
 /// Where what is read now stands, for faults of no single token.

@@ -125,6 +125,7 @@ private:
   void leave_finished_macros(std::size_t depth);
   bool is_inside_value() const;
   Token read();
+  bool is_plain_word(const Token& directive) const;
   void pause();
   static void make_room(std::vector<ListEntry>& list, const Scanner& scanner);
   const Location& here() const;

@@ -101,6 +101,14 @@ TEST_CASE("directives work anywhere between tokens") {
   CHECK(std::get<celltrace::Sphere>(scene.objects[3].shape).radius == 2);
 }
 
+TEST_CASE("a # before a word that is no directive has no meaning") {
+  CHECK(output("#declare S = #sphere { 0, 1 }; #union { #object { #S } sphere { #y, 1 } } #debug \"on\"") ==
+        "on");
+  CHECK(output("#macro M() #debug \"m\" #end #M() # M() #declare A = #pi; #debug str(#A, 0, 1)") == "mm3.1");
+  CHECK(output("#if (0) #object { #nothing } #else #debug \"else\" #end") == "else");
+  CHECK(error_line("#declar A = 1;") == "scene.pov:1:1: error: there is no directive '#declar'");
+}
+
 TEST_CASE("macros") {
   SECTION("give tokens, not only whole constructs") {
     const auto scene =
