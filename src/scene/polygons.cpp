@@ -74,9 +74,38 @@ std::optional<Transform> frame_of(const Polygon& polygon) {
   return frame;
 }
 
-PolygonTable::PolygonTable(const Scene& scene) {
-  for (const Object& object : scene.objects)
-    add(object);
+Mesh triangles_of(const Polygon& polygon, const Transform& to_world) {
+  // Thin triangles around one corner of many are tested in vain more often than a polygon is.
+  constexpr std::size_t kMostCorners = 8;
+  constexpr double kFlat = 1e-6; // of the extent
+  if (polygon.loops.size() != 1 || polygon.loops[0].size() < 3 || polygon.loops[0].size() > kMostCorners)
+    return {};
+  const std::optional<Transform> frame = frame_of(polygon);
+  if (!frame) return {};
+  const Transform to_frame = frame->inverse();
+  std::vector<Vec3> corners;
+  for (const Vec3& point : polygon.loops[0]) {
+    corners.push_back(to_frame.point(point));
+    if (!(std::fabs(corners.back().z) < kFlat)) return {};
+  }
+  const auto turn = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const Vec3 ab = corners[b] - corners[a], ac = corners[c] - corners[a];
+    return ab.x * ac.y - ab.y * ac.x;
+  };
+  // Of a star with five points all corners turn to one side, but not all triangles.
+  const std::size_t count = corners.size();
+  const double side = turn(0, 1, 2);
+  for (std::size_t i = 0; i < count; ++i)
+    if (!(turn(i, (i + 1) % count, (i + 2) % count) * side > 0)) return {};
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    if (!(turn(0, i, i + 1) * side > 0)) return {};
+
+  Mesh mesh;
+  for (const Vec3& point : polygon.loops[0])
+    mesh.vertices.push_back(Vec3f(to_world.point(point)));
+  for (Index i = 1; i + 1 < count; ++i)
+    mesh.triangles.push_back({{0, i, i + 1}});
+  return mesh;
 }
 
 void PolygonTable::add(const Object& object) {

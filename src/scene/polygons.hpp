@@ -1,4 +1,4 @@
-// Polygons in the planes that they lie in, and the table of their edges.
+// Polygons in the planes that they lie in, as triangles, and the table of their edges.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -15,17 +15,21 @@ namespace celltrace {
 /// Nothing if the polygon has no area.
 std::optional<Transform> frame_of(const Polygon& polygon);
 
-/// The edges of all polygons of a scene, in the frames of these; polygons that objects share have them once.
+/// The same as triangles, transformed to the world; without any if the polygon is not convex, has many
+/// corners or its points lie beside the plane.
+Mesh triangles_of(const Polygon& polygon, const Transform& to_world);
+
+/// The edges of polygons, in the frames of these; polygons that objects share have them once.
 class PolygonTable {
 public:
-  explicit PolygonTable(const Scene& scene);
+  /// Those of an object, or of all parts of a CSG.
+  void add(const Object& object);
 
   const std::vector<kernel::PolygonEdgeRecord>& edges() const { return edges_; }
-  /// Those of a polygon of the scene: `first` is an index.
+  /// Those of a polygon that has been added: `first` is an index.
   kernel::PolygonEdges of(const Polygon& polygon) const { return known_.at(&polygon); }
 
 private:
-  void add(const Object& object);
   void add(const Polygon& polygon);
 
   std::vector<kernel::PolygonEdgeRecord> edges_;

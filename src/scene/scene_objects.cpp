@@ -94,8 +94,7 @@ SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
                            const std::vector<std::shared_ptr<const Object>>& patterns,
                            const std::vector<std::uint32_t>& material_flags, const InstancedMeshes& instanced,
                            const MeshInstances& instances, unsigned threads)
-    : scene_(scene), material_flags_(material_flags), instanced_(instanced), csg_(scene, patterns),
-      polygons_(scene) {
+    : scene_(scene), material_flags_(material_flags), instanced_(instanced), csg_(scene, patterns) {
   order_ = order_of_tests(scene, projectors, csg_);
   for (const std::size_t i : order_) {
     BuildWatch::look_at(i);
@@ -109,7 +108,7 @@ SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
     if (mesh != nullptr && !instanced.contains(i))
       add_mesh(object, **mesh, nullptr, threads);
-    else
+    else if (!add_as_triangles(object))
       add_shape(object);
   }
   if (!has_order_of_tests(projectors, csg_)) order_.clear();
@@ -123,7 +122,22 @@ void SceneObjects::grow(std::size_t objects) {
   count_ += static_cast<std::uint32_t>(objects);
 }
 
+/// A test of a polygon takes several times as long as one of a triangle, and triangles of a leaf are tested
+/// together. But whether it lets light through and how it looks from either side is asked of it as a whole.
+bool SceneObjects::add_as_triangles(const Object& object) {
+  constexpr std::uint32_t kAsked = object_flag::opaque | object_flag::two_sided | object_flag::by_surface;
+  const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
+  if (polygon == nullptr || (material_flags_[object.material] & kAsked) != object_flag::opaque) return false;
+  Mesh mesh = triangles_of(**polygon, object.transform);
+  if (mesh.triangles.empty()) return false;
+  const Mesh& kept = triangulated_.emplace_back(std::move(mesh));
+  pieces_.push_back({count_, &object, &kept, kept.vertices, {}});
+  grow(kept.triangles.size());
+  return true;
+}
+
 void SceneObjects::add_shape(const Object& object) {
+  polygons_.add(object);
   if (!has_bounds(object)) {
     unbounded_.push_back({&object, nullptr});
     return;
@@ -138,6 +152,7 @@ void SceneObjects::add_shape(const Object& object) {
 void SceneObjects::add_projectors(const Scene& scene, std::size_t first) {
   for (std::size_t i = first; i < scene.objects.size(); ++i) {
     const std::size_t before = projectors_.size();
+    polygons_.add(scene.objects[i]);
     if (!CsgParts::contains(scene.objects[i])) {
       if (!place_shape(scene.objects[i]).is_empty) projectors_.push_back({&scene.objects[i], nullptr});
     } else {
@@ -149,6 +164,7 @@ void SceneObjects::add_projectors(const Scene& scene, std::size_t first) {
 }
 
 void SceneObjects::add_parts(std::size_t whole, unsigned threads) {
+  polygons_.add(scene_.objects[whole]);
   const auto parts = std::equal_range(csg_.parts.begin(), csg_.parts.end(), whole, ComparesWholes());
   for (auto part = parts.first; part != parts.second; ++part) {
     are_all_seen_ = are_all_seen_ && !part->object.no_image;

@@ -1,5 +1,6 @@
-// The objects of a Scene that are no instances, one by one, and their records: meshes taken apart into
-// triangles and CSGs into their parts, everything transformed to the world, in single precision.
+// The objects of a Scene that are no instances, one by one, and their records: meshes and plain polygons
+// taken apart into triangles and CSGs into their parts, everything transformed to the world, in single
+// precision.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,6 +12,7 @@
 #include "scene/object_records.hpp"
 #include "scene/polygons.hpp"
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -112,6 +114,8 @@ private:
   void visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
                        Visit visit) const;
   void add_shape(const Object& object);
+  /// False: it stays a polygon, or is none.
+  bool add_as_triangles(const Object& object);
   /// Those of one object of the scene.
   void add_parts(std::size_t whole, unsigned threads);
   void add_projectors(const Scene& scene, std::size_t first);
@@ -136,6 +140,7 @@ private:
   std::vector<Placed> unbounded_, projectors_;
   std::vector<std::uint32_t> projector_sizes_;
   std::vector<std::vector<Vec3f>> transformed_;
+  std::deque<Mesh> triangulated_; ///< polygons; a deque, so that pieces can refer to them
   std::uint32_t count_ = 0;
   bool are_all_seen_ = true;
 };

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -249,6 +250,39 @@ TEST_CASE("Polygons that are not sound are refused") {
   polygon->loops = {{{0, 0, 0}, {1, 0, 0}, {0, HUGE_VAL, 0}}};
   scene.objects[1].shape = std::shared_ptr<const Polygon>(polygon);
   CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("not finite"));
+}
+
+TEST_CASE("Plain polygons are triangles") {
+  using Points = std::vector<Vec3>;
+  const Points square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const auto triangles = [](const std::vector<Points>& loops, const std::function<void(Material&)>& change) {
+    Scene scene = ground(false);
+    change(scene.materials[scene.objects[0].material]);
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects[1].shape = std::make_shared<const Polygon>(Polygon{loops});
+    scene.objects[1].transform = Transform::translate({0, 2, 0});
+    const ImageHeader image = SceneImage(scene).header();
+    return image.polygon_edge_count == 0 ? image.object_count : 0;
+  };
+  const auto as_it_is = [](Material&) {};
+  CHECK(triangles({{square[0], square[1], square[2]}}, as_it_is) == 1);
+  CHECK(triangles({square}, as_it_is) == 2);
+  CHECK(triangles({{square.rbegin(), square.rend()}}, as_it_is) == 2);
+  Points ring;
+  for (int i = 0; i < 9; ++i)
+    ring.push_back({std::cos(i * 0.698), std::sin(i * 0.698), 5});
+  CHECK(triangles({{ring.begin(), ring.end() - 1}}, as_it_is) == 6);
+
+  CHECK(triangles({ring}, as_it_is) == 0);
+  CHECK(triangles({{ring[0], ring[4], ring[8], ring[3], ring[7], ring[2], ring[6]}}, as_it_is) ==
+        0); // a star
+  CHECK(triangles({{square[0], square[1], square[2], {0.9, 0.1, 0}}}, as_it_is) == 0);
+  CHECK(triangles({{square[0], square[1], square[2], {0, 1, 0.01}}}, as_it_is) == 0);
+  CHECK(triangles({square, {{0.2, 0.2, 0}, {0.2, 0.4, 0}, {0.4, 0.2, 0}}}, as_it_is) == 0);
+  CHECK(triangles({square}, [](Material& material) { material.pigment.transmit = 0.5; }) == 0);
+  CHECK(triangles({square}, [](Material& material) {
+          material.inside = std::make_shared<const Material>(material);
+        }) == 0);
 }
 
 TEST_CASE("Light groups that are not sound are refused") {
