@@ -240,6 +240,9 @@ void set_texture(ObjectDefinition& object, const TexturePtr& texture);
 void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 /// Puts an object's textures on its surface coordinates. Fails if it has one already.
 void set_uv_mapping(Session& session, ObjectDefinition& object, const Location& where);
+/// Parts of an intersection or difference without a texture look like those that they cut
+/// (cutaway_textures.cpp).
+void set_cutaway_textures(Session& session, ObjectDefinition& object, const Location& where);
 /// Adds a layer to what the object looks like from inside.
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 /// What an object has to have when it ends.

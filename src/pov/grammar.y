@@ -1098,7 +1098,7 @@ object_body
   | object_body UV_MAPPING             { $$ = std::move($1); set_uv_mapping(session, *$$, @2); }
   | object_body CUTAWAY_TEXTURES flag {
       $$ = std::move($1);
-      mark($$->unsupported, unless_zero("'cutaway_textures'", $3, @2));
+      if ($3 != 0) set_cutaway_textures(session, *$$, @2);
     }
   | object_body CLIPPED_BY '{' limits '}' { $$ = std::move($1); limit(session, *$$, $$->clipped_by, $4, @2); }
   | object_body CLIPPED_BY '{' BOUNDED_BY '}' {

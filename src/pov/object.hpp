@@ -22,10 +22,16 @@ using ObjectPtr = std::shared_ptr<const ObjectDefinition>;
 /// A shape as the Scene has it. Never a mesh or CSG here: those become the Scene's when they are placed.
 using Shape = decltype(Object::shape);
 
+/// Whether it is where any of its parts is.
+inline bool joins(Csg::Operation operation) {
+  return operation == Csg::Operation::union_ || operation == Csg::Operation::merge;
+}
+
 /// CSG as written: a union and its like, over other objects.
 struct Compound {
   Csg::Operation operation = Csg::Operation::union_;
   std::vector<ObjectPtr> parts;
+  TexturePtr cut_texture;      ///< instead of the default one of parts, in its own space; null: the same
   bool is_light_group = false; ///< light sources among its parts shine on the others alone
   bool global_lights = false;  ///< of a light group: all others shine on them, too
 };

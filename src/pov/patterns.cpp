@@ -360,6 +360,13 @@ int number_of(const Kind& kind) {
   return static_cast<int>(entry - std::begin(kPatterns));
 }
 
+int average_number() {
+  const auto* entry = std::find_if(std::begin(kPatterns), std::end(kPatterns), [](const PatternEntry& one) {
+    return std::string(one.word) == "average";
+  });
+  return static_cast<int>(entry - std::begin(kPatterns));
+}
+
 void choose(PatternDefinition& pattern, const Kind& kind) {
   choose(pattern, number_of(kind));
   pattern.own().kind = kind;

@@ -84,6 +84,8 @@ void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, c
 void choose(PatternDefinition& pattern, const pattern::Kind& kind);
 /// The number of the pattern of such a kind.
 int number_of(const pattern::Kind& kind);
+/// The number of `average`, whose kind means nothing.
+int average_number();
 /// What a pattern makes of space as a warp; nothing if it makes none.
 std::optional<warp::Mapping::Shape> mapping_shape(int number);
 

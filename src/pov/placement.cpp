@@ -160,6 +160,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   own.is_copy = object.is_declared || around.is_copy;
   if (object.texture) {
     own.texture = object.texture;
+    own.has_cut_texture = false;
     own.texture_transform = object.texture_transform;
     if (!object.uv_mapping) own.texture_transform = own.texture_transform.then(around.transform);
   } else if (!own.texture) {
@@ -242,19 +243,33 @@ std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inhe
   if (own.csg_interior == kNoIndex && own.interior == kNoIndex && !own.clips)
     own.csg_interior = scene_.add(Interior{});
   own.is_part = true;
+  if (compound.cut_texture && own.texture == default_texture) {
+    own.texture = compound.cut_texture;
+    own.texture_transform = own.transform;
+    own.has_cut_texture = true;
+    own.is_taken_away = false;
+  }
   if (compound.is_light_group) enter_light_group(compound, own, where);
   auto csg = std::make_shared<Csg>();
   csg->operation = compound.operation;
-  for (const ObjectPtr& part : compound.parts)
+  const bool is_taken_away = own.is_taken_away;
+  // As POV-Ray has it, shapes in unions have the default texture, but not those that are taken away.
+  const TexturePtr cut = own.texture;
+  const bool has_default = own.has_cut_texture && joins(compound.operation) != is_taken_away;
+  for (const ObjectPtr& part : compound.parts) {
+    const bool is_less = compound.operation == Operation::difference && part != compound.parts.front();
+    own.is_taken_away = is_taken_away != is_less;
+    if (has_default) own.texture = pov::compound(*part) ? cut : default_texture;
     if (is_group_light(compound, *part))
       continue;
     else if (std::optional<Object> made = make(*part, own, where))
       csg->parts.push_back(std::move(*made));
-    else if (compound.operation == Operation::difference && part == compound.parts.front()) {
+    else if (compound.operation == Operation::difference && !is_less) {
       if (std::holds_alternative<LightDefinition>(part->shape))
         refuse("a light source that others are taken from", *part, where);
       return nullptr;
     }
+  }
   return csg;
 }
 

@@ -81,8 +81,10 @@ private:
   struct Inherited {
     Transform transform; ///< to the scene
     TexturePtr texture;
-    Transform texture_transform; ///< to the scene
-    bool uv_mapping = false;     ///< all textures are on surface coordinates
+    Transform texture_transform;  ///< to the scene
+    bool uv_mapping = false;      ///< all textures are on surface coordinates
+    bool has_cut_texture = false; ///< the texture is Compound::cut_texture
+    bool is_taken_away = false;   ///< from what has that
     Index interior = kNoIndex;
     Index csg_interior = kNoIndex; ///< of the parts that have or inherit none
     bool no_shadow = false;

@@ -278,10 +278,46 @@ TEST_CASE("the project's own scenes are sound") {
   }
 }
 
+TEST_CASE("parts without a texture look like what they cut") {
+  const std::string red = " texture { pigment { rgb x } } ", green = " texture { pigment { rgb y } } ";
+  // Of the part with this index; null: it depends on where.
+  const auto colour = [](const std::string& text, std::size_t part) {
+    const Scene scene = parse(text);
+    const Object& object = std::get<std::shared_ptr<const Csg>>(scene.objects[0].shape)->parts[part];
+    const Material& material = scene.materials[object.material];
+    return material.map ? std::nullopt : std::optional(material.pigment.rgb);
+  };
+  const auto box = [&](const std::string& first, const std::string& behind) {
+    return colour("difference { " + first + " box { 0, 2 } cutaway_textures " + behind + " }", 1);
+  };
+  const std::string ball = "sphere { 0, 1" + red + "}";
+  CHECK(box(ball, "") == Vec3(1, 0, 0));
+  CHECK(box(ball, green) == Vec3(0, 1, 0));
+  CHECK(box("sphere { 0, 1 }", "") == Vec3(0));
+  CHECK(box("intersection { " + ball + "plane { x, 0 } }", "") == Vec3(1, 0, 0));
+  CHECK(box("union { " + ball + "sphere { x, 1" + red + "} }", "") == std::nullopt); // two definitions
+  CHECK(box("union { sphere { 0, 1 } sphere { x, 1 }" + red + "}", "") == Vec3(1, 0, 0));
+  CHECK(box("merge { " + ball + "sphere { x, 1" + green + "} }", "") == std::nullopt);
+  CHECK(colour("intersection { " + ball + "plane { x, 0 } cutaway_textures }", 1) == Vec3(1, 0, 0));
+  CHECK(colour("difference { " + ball + "box { 0, 2 } cutaway_textures off }", 1) == Vec3(0));
+  const Scene black = parse("difference { sphere { 0, 1 } box { 0, 2" + red + "} cutaway_textures }");
+  const auto& parts = std::get<std::shared_ptr<const Csg>>(black.objects[0].shape)->parts;
+  CHECK(black.materials[parts[0].material].finish.diffuse == 0);
+
+  CHECK(error_line("union { sphere { 0, 1 } sphere { x, 1 } cutaway_textures }") ==
+        "scene.pov:1:41: error: 'cutaway_textures' is for intersections and differences alone");
+  const auto many = [](int count) {
+    std::string text = "difference { union { ";
+    for (int i = 0; i < count; ++i)
+      text += "sphere { " + std::to_string(i) + ", 1 pigment { rgb " + std::to_string(i) + " } }";
+    return text + "} plane { y, 0 } cutaway_textures }";
+  };
+  CHECK(error_line(many(64)).empty());
+  CHECK(error_line(many(65)).ends_with(
+      "error: 'cutaway_textures' of more than 64 textures is not supported yet"));
+}
+
 TEST_CASE("what CSG lacks is an error") {
-  CHECK(error_line("difference { sphere { 0, 1 } box { 0, 1 } cutaway_textures }") ==
-        "scene.pov:1:43: error: 'cutaway_textures' is not supported yet");
-  CHECK(error_line("difference { sphere { 0, 1 } box { 0, 1 } cutaway_textures off }").empty());
   CHECK(error_line("difference { sphere { 0, 1 } quartic { x, y, z, 1 } }") ==
         "scene.pov:1:30: error: 'quartic' is not supported yet");
   CHECK(error_line("merge { sphere { 0, 1 } box { 0, 1 scale 1e-200 } }") ==

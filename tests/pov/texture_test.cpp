@@ -409,23 +409,22 @@ TEST_CASE("what is not supported is an error where it is used") {
   CHECK(error_line("quartic { 0, x, 1 }") == "scene.pov:1:1: error: 'quartic' is not supported yet");
   CHECK(error_line("sphere { 0, 1 clipped_by { prism { 0, 1 } } }") ==
         "scene.pov:1:28: error: 'prism' is not supported yet");
-  CHECK(error_line("sphere { 0, 1 cutaway_textures }") ==
-        "scene.pov:1:15: error: 'cutaway_textures' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 autostop }") == "scene.pov:1:15: error: 'autostop' is not supported yet");
 }
 
 TEST_CASE("all that is not supported is reported at once, each feature once") {
-  const std::string scene = "sphere { 0, 1 pigment { density_file df3 \"d\" scale 2 } cutaway_textures }\n"
+  const std::string scene = "sphere { 0, 1 pigment { density_file df3 \"d\" scale 2 } autostop }\n"
                             "text { ttf \"x\" \"y\" 1, 0 }\n"
-                            "union { sphere { 0, 1 cutaway_textures finish { phong 0.5 subsurface { "
+                            "union { sphere { 0, 1 autostop finish { phong 0.5 subsurface { "
                             "translucency 1 } diffuse 0.2 } } blob { threshold 1 } }\n";
-  CHECK(test::error(scene) == "scene.pov:1:56: error: 'cutaway_textures' is not supported yet\n"
+  CHECK(test::error(scene) == "scene.pov:1:56: error: 'autostop' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
                               "scene.pov:1:25: error: 'density_file' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
                               "scene.pov:2:1: error: 'text' is not supported yet\n"
-                              "scene.pov:3:59: error: 'subsurface' is not supported yet\n"
+                              "scene.pov:3:51: error: 'subsurface' is not supported yet\n"
                               "    used at scene.pov:3:1\n"
-                              "scene.pov:3:105: error: 'blob' is not supported yet\n"
+                              "scene.pov:3:97: error: 'blob' is not supported yet\n"
                               "    used at scene.pov:3:1");
   CHECK(test::error(scene + "sphere { }")
             .ends_with("'blob' is not supported yet\n    used at scene.pov:3:1\n"
@@ -436,11 +435,11 @@ TEST_CASE("all that is not supported is reported at once, each feature once") {
   std::string said;
   lenient.message = [&said](std::string_view message) { said += message; };
   const Scene read = test::parse(scene, lenient);
-  CHECK(said == "scene.pov:1:56: warning: 'cutaway_textures' is not supported yet and left out\n"
+  CHECK(said == "scene.pov:1:56: warning: 'autostop' is not supported yet and left out\n"
                 "scene.pov:1:25: warning: 'density_file' is not supported yet and left out\n"
                 "scene.pov:2:1: warning: 'text' is not supported yet and left out\n"
-                "scene.pov:3:59: warning: 'subsurface' is not supported yet and left out\n"
-                "scene.pov:3:105: warning: 'blob' is not supported yet and left out\n");
+                "scene.pov:3:51: warning: 'subsurface' is not supported yet and left out\n"
+                "scene.pov:3:97: warning: 'blob' is not supported yet and left out\n");
   REQUIRE(read.objects.size() == 2);
   const Material& material = read.materials[read.objects[1].material];
   CHECK(material.finish.phong == 0.5);
