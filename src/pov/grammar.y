@@ -1168,7 +1168,7 @@ light_body // what comes later applies to what is there by then
   | light_body ADAPTIVE number                            { $$ = $1; set_adaptive(*$$, $3); }
   | light_body AREA_ILLUMINATION flag {
       $$ = $1;
-      mark($$->unsupported, unless_zero("'area_illumination'", $3, @2));
+      definition_of(*$$).shines_from_places = $3 != 0;
     }
   | light_body JITTER                                     { $$ = $1; area_of(*$$).jitter = true; }
   | light_body CIRCULAR                                   { $$ = $1; area_of(*$$).circular = true; }

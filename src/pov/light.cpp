@@ -1,6 +1,7 @@
 #include "pov/light.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,30 @@ Light moved(Light light, const Transform& next) {
   light.point_at = next.point(light.point_at);
   if (light.area) light.area = moved(*light.area, next);
   return light;
+}
+
+std::vector<Light> lights_at_places(const Light& light) {
+  constexpr int kMostPlaces = 16;
+  const LightArea& area = *light.area;
+  const int columns = std::min(area.columns, kMostPlaces), rows = std::min(area.rows, kMostPlaces);
+  const auto place = [](int i, int count) { return count > 1 ? i / (count - 1.0) - 0.5 : 0.0; };
+  std::vector<Light> lights;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      double u = place(column, columns), v = place(row, rows);
+      if (area.circular && (u != 0 || v != 0)) {
+        const double shrunk = std::max(std::fabs(u), std::fabs(v)) / std::hypot(u, v);
+        u *= shrunk;
+        v *= shrunk;
+      }
+      const Vec3 offset = area.across * u + area.along * v;
+      Light& one = lights.emplace_back(light);
+      one.area.reset();
+      one.colour /= columns * rows;
+      one.location += offset;
+      if (!one.parallel) one.point_at += offset;
+    }
+  return lights;
 }
 
 LightArea moved(LightArea area, const Transform& next) {

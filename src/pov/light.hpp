@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "pov/object.hpp"
 #include "pov/quantity.hpp"
@@ -18,6 +19,10 @@ std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition
                                         const Location& where);
 
 Light moved(Light light, const Transform& next);
+/// Instead of a light with an area, a point at each place of it, or at 16 along each side of a larger grid.
+/// POV-Ray's area_illumination has the mean light of these, too, but multiplies it with the mean shadow, in
+/// which corners count less.
+std::vector<Light> lights_at_places(const Light& light);
 LightArea moved(LightArea area, const Transform& next);
 
 // The modifiers of a light source.

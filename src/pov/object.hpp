@@ -72,6 +72,7 @@ struct LightDefinition {
   ObjectPtr looks_like; ///< placed where the light is; null: nothing
   LightArea area;       ///< what is said of it, before or after it is there
   bool has_area = false;
+  bool shines_from_places = false;       ///< area_illumination: from each place of the area
   ObjectPtr projected_through = nullptr; ///< placed where it is; null: nothing
   bool media_attenuation = false, media_interaction = true;
 };

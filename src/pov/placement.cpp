@@ -310,9 +310,10 @@ void SceneBuilder::enter_light_group(const Compound& group, Inherited& own, cons
     if (!is_group_light(group, *part)) continue;
     const auto* light = &std::get<LightDefinition>(part->shape);
     lights.emplace_back(light, inherit(*part, own, where));
-    const Index index = add_light(*light, lights.back().second, where);
-    scene_.lights[index].is_global = false;
-    entered.lights.push_back(index);
+    for (const Index index : add_light(*light, lights.back().second, where)) {
+      scene_.lights[index].is_global = false;
+      entered.lights.push_back(index);
+    }
   }
   const std::vector<Index> own_lights = entered.lights;
   if (outer && (own.is_copy || lights.empty()))
@@ -335,8 +336,8 @@ Index SceneBuilder::add_light_group(const LightGroup& group, const Location& whe
   return static_cast<Index>(scene_.light_groups.size() - 1);
 }
 
-Index SceneBuilder::add_light(const LightDefinition& definition, const Inherited& own,
-                              const Location& where) {
+std::vector<Index> SceneBuilder::add_light(const LightDefinition& definition, const Inherited& own,
+                                           const Location& where) {
   Light light = definition.light;
   if (definition.has_area) light.area = definition.area;
   light = moved(light, own.transform);
@@ -347,8 +348,21 @@ Index SceneBuilder::add_light(const LightDefinition& definition, const Inherited
   light.is_dimmed_by_fog = definition.media_attenuation && definition.media_interaction;
   if (definition.projected_through)
     light.projected_through = make_projector(*definition.projected_through, own, where);
-  scene_.lights.push_back(light);
-  return static_cast<Index>(scene_.lights.size() - 1);
+  std::vector<Light> lights = {light};
+  if (definition.shines_from_places && light.area) {
+    if (light.area->orient) {
+      const std::string what = "'area_illumination' of a light with 'orient'";
+      diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, where}), where);
+    } else {
+      lights = lights_at_places(light);
+    }
+  }
+  std::vector<Index> indices;
+  for (const Light& each : lights) {
+    indices.push_back(static_cast<Index>(scene_.lights.size()));
+    scene_.lights.push_back(each);
+  }
+  return indices;
 }
 
 std::shared_ptr<const Object> SceneBuilder::make_projector(const ObjectDefinition& projector,

@@ -406,8 +406,7 @@ const char* const kWordsReadApart[] = {"append", "prod", "sum"};
 
 /// Words with rules of their own by which what they stand for is not supported.
 constexpr int kRefused[] = {
-    tokens::T_APERTURE,   tokens::T_BLUR_SAMPLES, tokens::T_AREA_ILLUMINATION,
-    tokens::T_DISPERSION, tokens::T_PHOTONS,      tokens::T_RADIOSITY,
+    tokens::T_APERTURE, tokens::T_BLUR_SAMPLES, tokens::T_DISPERSION, tokens::T_PHOTONS, tokens::T_RADIOSITY,
 };
 
 int token_of(PatternForm form) {

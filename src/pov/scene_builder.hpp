@@ -116,7 +116,9 @@ private:
                                                const Location& where);
   void collect(const ObjectDefinition& object, const Inherited& around, const Location& where,
                std::vector<Object>& objects);
-  Index add_light(const LightDefinition& definition, const Inherited& own, const Location& where);
+  /// As one of the scene's, or several.
+  std::vector<Index> add_light(const LightDefinition& definition, const Inherited& own,
+                               const Location& where);
   void place_look(const LightDefinition& definition, Inherited own, const Location& where);
   void refuse(const std::string& what, const ObjectDefinition& object, const Location& where);
   Index interior_of(const Inherited& own);

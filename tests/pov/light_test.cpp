@@ -138,6 +138,33 @@ TEST_CASE("lights with an area") {
   CHECK(scene.lights[0].area->across == Vec3(12, 0, 0));
 }
 
+TEST_CASE("lights that shine from all places of their area") {
+  const auto lights = [](const std::string& text) {
+    return parse("light_source { y rgb 12 spotlight point_at 0 " + text + " }").lights;
+  };
+  const std::vector<Light> grid = lights("area_light 4*x, 2*z, 3, 2 area_illumination adaptive 1");
+  REQUIRE(grid.size() == 6);
+  for (const Light& light : grid) {
+    CHECK_FALSE(light.area);
+    CHECK(light.colour == Vec3(2));
+    CHECK(light.location - light.point_at == Vec3(0, 1, 0));
+  }
+  CHECK(grid[0].location == Vec3(-2, 1, -1));
+  CHECK(grid[4].location == Vec3(0, 1, 1));
+  CHECK(lights("parallel area_light 4*x, 2*z, 3, 2 area_illumination")[0].point_at == Vec3(0));
+  const std::vector<Light> circle = lights("area_light 4*x, 4*z, 5, 5 circular area_illumination on");
+  REQUIRE(circle.size() == 25);
+  CHECK(glm::length(circle[0].location - Vec3(0, 1, 0)) == Approx(2));
+  CHECK(circle[12].location == Vec3(0, 1, 0));
+  CHECK(lights("area_light x, z, 200, 3 area_illumination").size() == 48);
+  CHECK(lights("area_illumination area_light x, z, 1, 1").size() == 1);
+
+  const Scene group = parse("light_group { light_source { y rgb 1 area_light x, z, 2, 2 area_illumination }"
+                            " sphere { 0, 1 } }");
+  CHECK(group.light_groups.at(0).lights.size() == 4);
+  CHECK_FALSE(group.lights.at(3).is_global);
+}
+
 TEST_CASE("a shadowless light has no other kind") {
   CHECK(light("spotlight shadowless").kind == Light::Kind::point);
   CHECK(light("spotlight shadowless").shadowless);
@@ -234,7 +261,8 @@ TEST_CASE("what light sources cannot have") {
   CHECK(refusal("area_light x, y, 2, 257") == "an area light has 1 to 256 places along each side");
   CHECK(refusal("area_light x, y, 1, 3 circular") ==
         "a circular area light has more than one place along each side");
-  CHECK(refusal("area_light x, y, 2, 3 area_illumination") == "'area_illumination' is not supported yet");
+  CHECK(refusal("area_illumination on area_light x, y, 2, 3 orient") ==
+        "'area_illumination' of a light with 'orient' is not supported yet");
   CHECK(error_line("light_source { 0 rgb 1 spotlight radius x }") ==
         "scene.pov:1:41: error: expected a float, found a vector");
   CHECK(error_line("light_source { 0 rgb 1 looks_like { blob { threshold 1 } } }") ==
