@@ -116,6 +116,21 @@ TEST_CASE("A light of a point is what it was without other kinds") {
   }
 }
 
+TEST_CASE("Light along a surface does not come to it") {
+  Random random(5);
+  Places places(random);
+  Light light;
+  light.location = {0, 0, -40};
+  for (unsigned l = 0; l < kSimdLanes; ++l) {
+    const float rounded = (l % 2 == 0 ? -1.0f : 1.0f) * static_cast<float>(l) * 1e-8f;
+    set(places.point, l, {rounded, random.uniform(0, 1), random.uniform(0, 1)});
+    set(places.normal, l, {1, 0, 0});
+  }
+  CHECK(Incident(light, places, 0xFFFF).facing == 0);
+  light.location.x = 0.01;
+  CHECK(Incident(light, places, 0xFFFF).facing == 0xFFFF);
+}
+
 TEST_CASE("Behind parallel light distances are negative, and odd powers of them") {
   Light light;
   light.location = {0, -20, 0};

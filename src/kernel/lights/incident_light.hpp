@@ -23,10 +23,13 @@ template <class S> struct IncidentLight {
     distance = S::sqrt(dot<S>(to_light, to_light));
     direction = to_light * (F(1.0f) / S::max(distance, F(1e-30f)));
   }
-  /// After the direction has been set.
+  /// After the direction has been set. Light along a surface does not come to it, as its cosine is less than
+  /// 1e-10 in POV-Ray: but here it is as much as points and directions have been rounded by. It would speckle
+  /// highlights, which do not fade toward that angle.
   void face(const Surfaces<S>& s, uint32_t lanes) {
+    constexpr float kLeastCosine = 1e-6f;
     cosine = dot<S>(direction, s.normal);
-    facing = ((cosine >= typename S::F(1e-10f)).bits() | s.any_side) & lanes;
+    facing = ((cosine >= typename S::F(kLeastCosine)).bits() | s.any_side) & lanes;
   }
 };
 
