@@ -755,6 +755,7 @@ finish_parts
   | finish_parts AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.light($3, @3).rgb; }
   | finish_parts EMISSION colour_value      { $$ = $1; $$->value.emission = session.light($3, @3).rgb; }
   | finish_parts DIFFUSE albedo number      { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
+  | finish_parts DIFFUSE albedo number ','  { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
   | finish_parts DIFFUSE albedo number optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
   | finish_parts BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
   | finish_parts PHONG albedo number        { $$ = $1; $$->value.phong = $4; $$->phong_is_albedo |= $3; }

@@ -100,6 +100,7 @@ TEST_CASE("every item of a finish") {
 TEST_CASE("light that falls on the other side, and albedos") {
   CHECK(finish("diffuse 0.5").diffuse_behind == 0);
   CHECK(finish("diffuse 0.5, 0.3").diffuse_behind == 0.3);
+  CHECK(finish("diffuse 0.5, reflection 0.3").diffuse_behind == 0);
   CHECK(finish("diffuse 0.5 0.3 brilliance 2").diffuse_behind == 0.3);
   CHECK(finish("diffuse 0.5, 0.3 diffuse 0.4").diffuse_behind == 0);
   // In whatever order they are said.
