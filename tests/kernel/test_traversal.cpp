@@ -221,7 +221,7 @@ TEST_CASE("Through soups of spheres, ellipsoids, triangles and all of them") {
 }
 
 TEST_CASE("Through more objects than are at hand, so that leaves wait") {
-  constexpr unsigned kTriangles = 21000;
+  constexpr unsigned kTriangles = tuning::kObjectsInCoreCache + 1000;
   PreparedScene prepared(soup(9, {0, 0, kTriangles}, 10, 0.3));
   REQUIRE(prepared.object_count() > tuning::kObjectsInCoreCache);
   const std::vector<TraversalQuery> all = queries_for(prepared, 98, 32);
