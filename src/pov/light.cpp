@@ -29,6 +29,7 @@ Light moved(Light light, const Transform& next) {
 }
 
 std::vector<Light> lights_at_places(const Light& light) {
+  // Larger: each surface is lit so many times; smaller: half shadows have steps.
   constexpr int kMostPlaces = 16;
   const LightArea& area = *light.area;
   const int columns = std::min(area.columns, kMostPlaces), rows = std::min(area.rows, kMostPlaces);

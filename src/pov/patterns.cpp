@@ -266,7 +266,7 @@ Pattern& PatternDefinition::own() {
 }
 
 bool PatternDefinition::is_average() const {
-  return exists() && std::string(entry_of(*this).word) == "average";
+  return number == average_number();
 }
 
 bool PatternDefinition::is_for_normals_alone() const {
@@ -361,10 +361,10 @@ int number_of(const Kind& kind) {
 }
 
 int average_number() {
-  const auto* entry = std::find_if(std::begin(kPatterns), std::end(kPatterns), [](const PatternEntry& one) {
-    return std::string(one.word) == "average";
-  });
-  return static_cast<int>(entry - std::begin(kPatterns));
+  static const auto* const kEntry =
+      std::find_if(std::begin(kPatterns), std::end(kPatterns),
+                   [](const PatternEntry& one) { return std::string(one.word) == "average"; });
+  return static_cast<int>(kEntry - std::begin(kPatterns));
 }
 
 void choose(PatternDefinition& pattern, const Kind& kind) {

@@ -4,6 +4,7 @@
 #include "scene/build_watch.hpp"
 #include "scene/csg_parts.hpp"
 #include "scene/mesh_bvh.hpp"
+#include "scene/object_records.hpp"
 #include "scene/shapes.hpp"
 #include "scene/triangles.hpp"
 #include "scene/world_box.hpp"
@@ -41,12 +42,6 @@ const Mesh* plain_mesh_of(const Object& object) {
     return nullptr;
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
   return mesh != nullptr && (*mesh)->triangles.size() >= kFewestTrianglesToShare ? mesh->get() : nullptr;
-}
-
-/// Whether a material with these flags lets no light through and asks nothing of surfaces but points.
-bool is_plain(std::uint32_t flags) {
-  return (flags & (object_flag::opaque | object_flag::two_sided | object_flag::by_surface)) ==
-         object_flag::opaque;
 }
 
 /// Whether rays can be taken to the mesh's space: the determinants of its triangles neither vanish nor

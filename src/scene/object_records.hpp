@@ -22,6 +22,14 @@ struct ObjectCensus {
   void add(const ObjectCensus& other);
 };
 
+/// Whether a material with these flags lets no light through, looks the same from both sides, and asks
+/// nothing of surfaces but points.
+inline bool is_plain(std::uint32_t material_flags) {
+  using namespace kernel;
+  return (material_flags & (object_flag::opaque | object_flag::two_sided | object_flag::by_surface)) ==
+         object_flag::opaque;
+}
+
 /// In a table of `count`, of which the last one is that of objects without an interior.
 inline std::uint32_t offset_of_interior(std::uint32_t table_offset, std::uint32_t count, Index interior) {
   return table_offset +

@@ -125,9 +125,8 @@ void SceneObjects::grow(std::size_t objects) {
 /// A test of a polygon takes several times as long as one of a triangle, and triangles of a leaf are tested
 /// together. But whether it lets light through and how it looks from either side is asked of it as a whole.
 bool SceneObjects::add_as_triangles(const Object& object) {
-  constexpr std::uint32_t kAsked = object_flag::opaque | object_flag::two_sided | object_flag::by_surface;
   const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
-  if (polygon == nullptr || (material_flags_[object.material] & kAsked) != object_flag::opaque) return false;
+  if (polygon == nullptr || !is_plain(material_flags_[object.material])) return false;
   Mesh mesh = triangles_of(**polygon, object.transform);
   if (mesh.triangles.empty()) return false;
   const Mesh& kept = triangulated_.emplace_back(std::move(mesh));

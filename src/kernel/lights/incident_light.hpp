@@ -23,8 +23,8 @@ template <class S> struct IncidentLight {
     distance = S::sqrt(dot<S>(to_light, to_light));
     direction = to_light * (F(1.0f) / S::max(distance, F(1e-30f)));
   }
-  /// After the direction has been set. Light along a surface does not come to it, as its cosine is less than
-  /// 1e-10 in POV-Ray: but here it is as much as points and directions have been rounded by. It would speckle
+  /// After the direction has been set. Light along a surface counts as light from behind it. POV-Ray's least
+  /// cosine is 1e-10; in single precision rounding alone makes one of 1e-7, whose sign would speckle
   /// highlights, which do not fade toward that angle.
   void face(const Surfaces<S>& s, uint32_t lanes) {
     constexpr float kLeastCosine = 1e-6f;
