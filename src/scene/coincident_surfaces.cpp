@@ -35,6 +35,8 @@ public:
   PlacedSurfaces(const Scene& scene, std::size_t count, const CsgParts& parts) {
     for (const CsgPart& part : parts.parts)
       if (part.whole < count && !is_mesh(part.object)) add(part.shape, part.whole, part.bounds);
+    for (const CsgSurface& surface : parts.replaced)
+      add(surface.shape, surface.whole, surface.bounds);
     for (std::size_t i = 0; i < count; ++i) {
       const Object& object = scene.objects[i];
       if (CsgParts::contains(object) || is_mesh(object) || !has_bounds(object)) continue;

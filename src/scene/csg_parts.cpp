@@ -4,8 +4,10 @@
 #include "kernel/accel/object_bounds.hpp"
 #include "scene/box_bounds.hpp"
 #include "scene/build_watch.hpp"
+#include "scene/convex_solid.hpp"
 #include "scene/csg_bounds.hpp"
 #include "scene/extent.hpp"
+#include "scene/object_records.hpp"
 #include "scene/polytope.hpp"
 #include "scene/quadric_bounds.hpp"
 #include "scene/shape_geometry.hpp"
@@ -397,10 +399,24 @@ Aabb bounds_in_own_space(const Node& node, const std::vector<Limit>& limits) {
   return is_bounded(box) && !is_empty(box) ? moved(box, node.object.transform) : kEverywhere;
 }
 
+/// Cuts a solid by all that a node consists of. False: that is not convex, or its materials ask for more than
+/// triangles tell.
+bool cut(ConvexSolid& solid, const Node& node, const std::vector<std::uint32_t>& material_flags) {
+  if (!node.shows || node.is_clipped) return false;
+  if (node.kind == Node::Kind::solid)
+    return !node.shape.is_empty && is_of_points(material_flags[node.object.material]) &&
+           solid.cut(node.object);
+  return node.kind == Node::Kind::intersection &&
+         std::all_of(node.children.begin(), node.children.end(),
+                     [&](const Node& child) { return cut(solid, child, material_flags); });
+}
+
 /// Appends what a tree shows to the tables.
 class Flattener {
 public:
-  explicit Flattener(CsgParts& to) : to_(to) {}
+  /// Makes boxes or meshes of solids between planes if `material_flags` is not null.
+  Flattener(CsgParts& to, const std::vector<std::uint32_t>* material_flags)
+      : to_(to), material_flags_(material_flags) {}
 
   /// A condition that holds inside of a tree.
   void add_inside(const Node& tree) {
@@ -416,6 +432,7 @@ public:
   void show(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     if (!node.shows || is_empty(bounds)) return;
     if (node.kind == Node::Kind::solid) return show_solid(node, condition, bounds);
+    if (condition == kNoCondition && show_convex(node)) return;
     if (node.kind == Node::Kind::union_ || node.children.size() < 2) {
       for (const Node& child : node.children)
         show(child, condition, bounds);
@@ -516,6 +533,38 @@ private:
     }
   }
 
+  /// Where it is a solid between planes. False: it is not, and nothing is shown.
+  bool show_convex(const Node& node) {
+    constexpr std::uint32_t kMostSolids = 300; // the time grows with the square
+    if (material_flags_ == nullptr || node.kind != Node::Kind::intersection || node.leaves > kMostSolids)
+      return false;
+    ConvexSolid solid;
+    if (!cut(solid, node, *material_flags_)) return false;
+    std::optional<Object> object = solid.as_object(solid_bounds(node, kEverywhere));
+    if (!object) return false;
+    BuildWatch::look_at(to_.parts.size());
+    CsgPart part;
+    part.object = *std::move(object);
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&part.object.shape)) {
+      part.bounds = bounds_of(**mesh, part.object.transform);
+    } else {
+      part.shape = place_shape(part.object);
+      part.bounds = part.shape.bounds();
+    }
+    part.condition = kNoCondition;
+    part.is_bounded = true;
+    add_replaced(node, part.bounds);
+    to_.parts.push_back(std::move(part));
+    return true;
+  }
+  void add_replaced(const Node& node, const Aabb& bounds) {
+    if (node.kind == Node::Kind::solid)
+      to_.replaced.push_back(
+          {node.shape, node.shape.is_bounded ? intersected(bounds, node.shape.bounds()) : bounds});
+    for (const Node& child : node.children)
+      add_replaced(child, bounds);
+  }
+
   void show_solid(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     if (node.shape.is_empty) return;
     BuildWatch::look_at(to_.parts.size());
@@ -542,7 +591,8 @@ private:
   }
 
   CsgParts& to_;
-  std::vector<Limit> limits_; ///< of what is being shown
+  const std::vector<std::uint32_t>* material_flags_; ///< null: solids stay as they are
+  std::vector<Limit> limits_;                        ///< of what is being shown
 };
 
 } // namespace
@@ -552,21 +602,27 @@ bool CsgParts::contains(const Object& object) {
          (object.clipped_by && !object.clipped_by->empty());
 }
 
-CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns) {
+CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns,
+                   std::size_t convex, const std::vector<std::uint32_t>& material_flags) {
   TreeBuilder builder(scene.camera.location, solids, meshes);
-  Flattener flattener(*this);
+  Flattener patterns_flattener(*this, nullptr);
   for (const auto& object : patterns)
-    flattener.add_inside(builder.build(*object, {}));
+    patterns_flattener.add_inside(builder.build(*object, {}));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     BuildWatch::look_at(i);
     if (!contains(scene.objects[i])) continue;
+    const std::size_t first_part = parts.size(), first_replaced = replaced.size();
+    const std::size_t first_solid = solids.size(), first_step = steps.size();
     const Node tree = builder.build(scene.objects[i], {});
-    const std::size_t first = parts.size();
-    flattener.show(tree, kNoCondition, kEverywhere);
-    for (std::size_t part = first; part < parts.size(); ++part) {
+    Flattener(*this, i < convex ? &material_flags : nullptr).show(tree, kNoCondition, kEverywhere);
+    // Nothing asks what is inside of solids that no program names.
+    if (steps.size() == first_step) solids.resize(first_solid);
+    for (std::size_t part = first_part; part < parts.size(); ++part) {
       parts[part].whole = i;
       parts[part].object.is_hidden = scene.objects[i].is_hidden;
     }
+    for (std::size_t surface = first_replaced; surface < replaced.size(); ++surface)
+      replaced[surface].whole = i;
   }
 }
 

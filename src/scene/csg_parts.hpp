@@ -31,9 +31,17 @@ inline bool CsgPart::is_limited() const {
   return condition != kNoCondition;
 }
 
+/// A shape whose faces are shown as those of a part of another shape.
+struct CsgSurface {
+  PlacedShape shape;
+  kernel::Aabb bounds;   ///< around those faces
+  std::size_t whole = 0; ///< as of a part
+};
+
 /// Of all CSGs of a scene. Indices become offsets in the scene image.
 struct CsgParts {
   std::vector<CsgPart> parts;
+  std::vector<CsgSurface> replaced;
   /// `next` and `steps` are indices.
   std::vector<kernel::CsgRecord> conditions;
   /// `solid` is an index.
@@ -44,9 +52,11 @@ struct CsgParts {
 
   CsgParts() = default;
   /// Takes every object of the scene apart that is a CSG or clipped. The first conditions say what is inside
-  /// of `patterns`, objects without meshes, one each. Throws InputError if one nests too deeply or a
-  /// transformation is singular.
-  explicit CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns = {});
+  /// of `patterns`, objects without meshes, one each. Of the first `convex` objects, solids between planes
+  /// become boxes or meshes, where the flags of their materials allow it. Throws InputError if one nests too
+  /// deeply or a transformation is singular.
+  explicit CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns = {},
+                    std::size_t convex = 0, const std::vector<std::uint32_t>& material_flags = {});
 
   /// Whether an object is among them.
   static bool contains(const Object& object);

@@ -22,12 +22,15 @@ struct ObjectCensus {
   void add(const ObjectCensus& other);
 };
 
-/// Whether a material with these flags lets no light through, looks the same from both sides, and asks
-/// nothing of surfaces but points.
-inline bool is_plain(std::uint32_t material_flags) {
+/// Whether a material with these flags looks the same from both sides and asks nothing of surfaces but
+/// points.
+inline bool is_of_points(std::uint32_t material_flags) {
   using namespace kernel;
-  return (material_flags & (object_flag::opaque | object_flag::two_sided | object_flag::by_surface)) ==
-         object_flag::opaque;
+  return (material_flags & (object_flag::two_sided | object_flag::by_surface)) == 0;
+}
+/// Whether it lets no light through either.
+inline bool is_plain(std::uint32_t material_flags) {
+  return (material_flags & kernel::object_flag::opaque) != 0 && is_of_points(material_flags);
 }
 
 /// In a table of `count`, of which the last one is that of objects without an interior.

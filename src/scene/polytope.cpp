@@ -53,11 +53,11 @@ void order_around(std::vector<Vec3>& corners, const Vec3& normal) {
   for (const Vec3& corner : corners)
     if (glm::dot(corner - centre, corner - centre) > glm::dot(across, across)) across = corner - centre;
   const Vec3 up = glm::cross(normal, across);
-  const auto angle = [&](const Vec3& p) {
-    return std::atan2(glm::dot(p - centre, up), glm::dot(p - centre, across));
-  };
-  std::sort(corners.begin(), corners.end(),
-            [&](const Vec3& a, const Vec3& b) { return angle(a) < angle(b); });
+  std::vector<std::pair<double, Vec3>> by_angle;
+  for (const Vec3& p : corners)
+    by_angle.push_back({std::atan2(glm::dot(p - centre, up), glm::dot(p - centre, across)), p});
+  std::sort(by_angle.begin(), by_angle.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::transform(by_angle.begin(), by_angle.end(), corners.begin(), [](const auto& a) { return a.second; });
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
 }
 
@@ -87,18 +87,29 @@ Polytope::Polytope(const Aabb& box) {
 
 void Polytope::cut(const Vec3& normal, double offset, std::size_t source) {
   const double length = glm::length(normal);
-  const Vec3 unit = normal / length;
   // Far less than the slack, and far more than rounding: a plane that comes twice cuts once.
   const double slack = slack_at(offset / length), tolerance = 1e-3 * slack;
-  const double limit = offset / length + slack;
+  cut_exactly(normal / length, offset / length + slack, tolerance, source);
+}
+
+void Polytope::cut_exactly(const Vec3& normal, double offset, double tolerance, std::size_t source) {
+  const double length = glm::length(normal);
+  const Vec3 unit = normal / length;
+  const double limit = offset / length;
+  const auto height = [&](const Vec3& p) { return glm::dot(unit, p) - limit; };
+  const auto is_beyond = [&](const Vec3& p) { return height(p) > tolerance; };
   std::vector<Vec3> on_plane;
   std::vector<Face> left;
-  for (const Face& face : faces_) {
+  for (Face& face : faces_) {
+    if (std::none_of(face.corners.begin(), face.corners.end(), is_beyond)) {
+      left.push_back(std::move(face));
+      continue;
+    }
     Face kept{{}, face.source};
     Vec3 from = face.corners.back();
-    double from_height = glm::dot(unit, from) - limit;
+    double from_height = height(from);
     for (const Vec3& to : face.corners) {
-      const double to_height = glm::dot(unit, to) - limit;
+      const double to_height = height(to);
       if ((from_height > tolerance) != (to_height > tolerance)) {
         const double way = std::clamp(from_height / (from_height - to_height), 0.0, 1.0);
         const Vec3 between = from + (to - from) * way;
