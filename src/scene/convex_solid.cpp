@@ -3,6 +3,7 @@
 #include "scene/polytope.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <variant>
 
@@ -89,12 +90,13 @@ bool ConvexSolid::cut(const Object& object) {
   if (!are_alike(first_, object)) return false;
   const auto add = [&](const Vec3& normal, const Vec3& at) {
     const Vec3 outward = glm::normalize(object.transform.normal(normal)) * (object.inverse ? -1.0 : 1.0);
-    half_spaces_.push_back({outward, glm::dot(outward, object.transform.point(at)), object.material});
+    const double offset = glm::dot(outward, object.transform.point(at));
+    half_spaces_.push_back({outward, offset, object.material});
+    return std::isfinite(offset);
   };
   if (const auto* plane = std::get_if<Plane>(&object.shape)) {
     const Vec3 normal = glm::normalize(plane->normal);
-    add(normal, normal * plane->distance);
-    return true;
+    return add(normal, normal * plane->distance);
   }
   const auto* box = std::get_if<Box>(&object.shape);
   if (box == nullptr || object.inverse) return false;
@@ -104,8 +106,7 @@ bool ConvexSolid::cut(const Object& object) {
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 normal(0);
     normal[axis] = 1;
-    add(normal, high);
-    add(-normal, low);
+    if (!add(normal, high) || !add(-normal, low)) return false;
   }
   return true;
 }
@@ -131,7 +132,15 @@ std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
     if (face.source == Polytope::kBox) return {};
     shown.push_back(half_spaces_[face.source]);
   }
-  if (shown.size() < 4) return {};
+  // Of what is flat, both sides are seen at one place.
+  const auto is_flat_below = [&](const HalfSpace& face) {
+    return std::none_of(polytope.faces().begin(), polytope.faces().end(), [&](const Polytope::Face& other) {
+      return std::any_of(other.corners.begin(), other.corners.end(), [&](const Vec3& corner) {
+        return face.offset - glm::dot(face.normal, corner) > kFlat * size;
+      });
+    });
+  };
+  if (shown.size() < 4 || std::any_of(shown.begin(), shown.end(), is_flat_below)) return {};
   Object object = first_;
   object.inverse = false;
   if (const std::optional<Transform> box = box_between(shown)) {

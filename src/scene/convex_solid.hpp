@@ -13,8 +13,8 @@ namespace celltrace {
 /// An intersection of half-spaces, each of the material that its face shows.
 class ConvexSolid {
 public:
-  /// Takes away what is outside of an object, placed in the world. False: it is no plane, and no box that is
-  /// not inverse, or of another kind to rays than those before; the solid is of no use then.
+  /// Takes away what is outside of an object, placed in the world. False: it is no plane with a normal, and
+  /// no box that is not inverse, or of another kind to rays than those before; the solid is of no use then.
   bool cut(const Object& object);
 
   /// The object that rays see in its place: a box of one material, or a mesh in the world with the materials

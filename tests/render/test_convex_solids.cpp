@@ -138,8 +138,12 @@ TEST_CASE("What is not convex, not closed, or asks for more than points stays as
   CHECK(
       are_shapes(parts_of(csg_object(kIntersection, {slanted, plane({-1, 0, 0}, 1), plane({0, -1, 0}, 1)}))));
   CHECK(are_shapes(parts_of(csg_object(kIntersection, {cube, test::sphere_at({0, 0, 0}, 1, 0, kNoIndex)}))));
+  CHECK(parts_of(csg_object(kIntersection, {cube, plane({0, 1, 0}, 0.5), plane({0, -1, 0}, -0.5)})).size() >
+        1);
   CHECK(are_shapes(parts_of(csg_object(kIntersection, {box({-1, 0, -1}, {1, 0, 1}), slanted}))));
   CHECK(are_shapes(parts_of(csg_object(kIntersection, {cube, plane({0, 1, 0}, -2)}))));
+
+  CHECK(are_shapes(parts_of(csg_object(kIntersection, {cube, plane({0, 0, 0}, 1)}))));
 
   CHECK(!are_shapes(parts_of(csg_object(kIntersection, {cube, slanted}))));
   CHECK(are_shapes(parts_of(csg_object(kIntersection, {cube, slanted}), {kernel::object_flag::two_sided})));
