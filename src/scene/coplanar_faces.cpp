@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace celltrace {
 
@@ -210,12 +211,14 @@ private:
     if (is_usable(face)) faces_.push_back(face);
   }
 
-  /// Of an inverse box the inside is seen, as that of a room which is cut out of something.
+  /// Of an inverse box the inside is seen, as that of a room which is cut out of something; and of one that
+  /// the camera is in.
   void add(std::size_t object, std::size_t number, const Box& box, const Transform& transform, Index material,
            const CsgPath& path, bool is_inverse) {
     const bool has_order = !path.empty() && !is_inverse; // among its CSG's faces
     if (has_order) paths_.push_back(path);
     const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
+    const bool is_seen_inside = is_inverse || (path.empty() && holds_camera(low, high, transform));
     for (int side = 0; side < 6; ++side) {
       const int axis = side / 2;
       const double at = (side % 2 != 0 ? high : low)[axis];
@@ -230,7 +233,7 @@ private:
       Face face = face_of(corners, unit * (side % 2 != 0 ? 1.0 : -1.0), transform);
       face.material = material;
       face.is_inverse = is_inverse;
-      face.looks_up = face.looks_up != is_inverse;
+      face.looks_up = face.looks_up != is_seen_inside;
       // Those that look away are seen through something, or in mirrors: where many are, time is worth more.
       if (is_opaque(face) && !looks_at_camera(face)) continue;
       face.object = object;
@@ -240,6 +243,11 @@ private:
       if (is_usable(face)) faces_.push_back(face);
     }
   }
+  bool holds_camera(const Vec3& low, const Vec3& high, const Transform& transform) const {
+    const Vec3 eye = transform.inverse().point(scene_.camera.location);
+    return glm::all(glm::lessThanEqual(low, eye)) && glm::all(glm::lessThanEqual(eye, high));
+  }
+
   /// Of cylinders and cones the ends that are seen through them.
   template <class Round>
   void add(std::size_t object, std::size_t number, const Round& solid, const Transform& transform,
