@@ -208,12 +208,20 @@ bool TokenStream::is_lone_element() {
   return is_lone;
 }
 
+/// Obeys directives on the way: an #if can choose what an argument is.
+Token TokenStream::read_past_directives() {
+  Token token = read();
+  for (; token.kind == Token::Kind::directive; token = read())
+    obey(token);
+  return token;
+}
+
 /// A lone identifier or element of an array is passed by reference; anything else is evaluated once.
 std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call,
                                                  std::vector<ElementReference>& references) {
-  const Token first = read();
+  const Token first = read_past_directives();
   if (first.kind == Token::Kind::word && session_.names[first.name].token == 0) {
-    const Token second = read();
+    const Token second = read_past_directives();
     if (second.kind != Token::Kind::end) session_.input.unread(second);
     const std::shared_ptr<Slot> slot = session_.symbols.find(first.name);
     if ((second.is(',') || second.is(')')) && !slot)
@@ -234,7 +242,7 @@ std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call,
   }
   // Most arguments need no grammar.
   if (first.kind == Token::Kind::number || first.kind == Token::Kind::vector) {
-    const Token second = read();
+    const Token second = read_past_directives();
     if (second.kind != Token::Kind::end) session_.input.unread(second);
     if (second.is(',') || second.is(')')) return std::make_shared<Slot>(Slot{literal_of(first)});
   }

@@ -183,6 +183,7 @@ private:
   void define_macro(const Token& directive);
   void call(const Token& name, const std::shared_ptr<const Macro>& macro);
   std::shared_ptr<Slot> read_argument(const std::string& call, std::vector<ElementReference>& references);
+  Token read_past_directives();
   bool is_lone_element();
   void start_while(const Token& directive);
   void start_for(const Token& directive);

@@ -126,6 +126,13 @@ TEST_CASE("macros") {
     CHECK(output("#macro M(A, B) #declare A = A + B; #declare B = 0; #end #declare Q = 1; #declare R = 2;"
                  "M(Q, R + 0) #debug str(Q, 0, 0) #debug str(R, 0, 0)") == "32");
   }
+  SECTION("take what an #if chooses, arrays too") {
+    const std::string show = "#macro M(A, B) #debug str(A[0], 0, 0) #debug str(B, 0, 0) #declare B = 9; #end "
+                             "#declare P = array[1] {1} #declare Q = array[1] {2} #declare R = 3; ";
+    CHECK(output(show + "M(#if (1) P #else Q #end, R) #debug str(R, 0, 0)") == "139");
+    CHECK(output(show + "M(#if (0) P #else Q #end, #if (0) R #else 4 #end) #debug str(R, 0, 0)") == "243");
+    CHECK(error_line(show + "M(#if (1) P #else Q, R)") != "");
+  }
   SECTION("see their callers' locals and keep their own") {
     CHECK(output("#macro N() #debug str(L, 0, 0) #end #macro M() #local L = 3; N() #end M()"
                  "#ifdef (L) #debug \"leaked\" #end") == "3");
