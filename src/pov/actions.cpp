@@ -16,9 +16,6 @@ namespace {
 /// Of objects inside one another, as loops make them that add to a union. A level takes 1.3 KB of the stack.
 constexpr int kDeepestObject = 1000;
 
-/// What `.grey` counts as, past the components.
-constexpr int kGrey = 5;
-
 constexpr std::size_t kMostKnots = 20000; // of a spline
 
 void require_finite(Session& session, const ListEntry& entry, const Location& where) {
@@ -48,11 +45,11 @@ double positive(Session& session, double value, const char* what, const Location
 }
 
 bool has_component(const Quantity& quantity, int which) {
-  return which == kGrey ? quantity.count >= 3 : which < quantity.count;
+  return which == kGreyComponent ? quantity.count >= 3 : which < quantity.count;
 }
 
 double component(Session& session, const Quantity& quantity, int which, const Location& where) {
-  if (which == kGrey) {
+  if (which == kGreyComponent) {
     if (!has_component(quantity, which)) session.fail(where, "only a colour has a grey value");
     return quantity.grey();
   }

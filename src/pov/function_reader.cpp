@@ -344,7 +344,6 @@ private:
     if (callee->gives_vector) {
       if (!is(tokens::T_COMPONENT)) fail_unexpected("one of the vector's components");
       which = static_cast<std::uint32_t>(terminal_.detail);
-      if (which > 4) session_.fail(terminal_.where, "a function's result has no such component");
       advance();
     }
     program_.callees.push_back(callee);

@@ -11,6 +11,9 @@ namespace celltrace::pov {
 /// Relational operators count values closer than this as equal.
 inline constexpr double kComparisonTolerance = 1e-10;
 
+/// What `.gray` counts as, past the components.
+inline constexpr int kGreyComponent = 5;
+
 /// Components of a colour: red, green, blue, filter, transmit. Those past `count` are zero.
 struct Quantity {
   int count = 1;

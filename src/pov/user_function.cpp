@@ -58,7 +58,7 @@ void Machine::call(const FunctionProgram& program, const FunctionStep& step) {
   const std::vector<double> arguments(stack_.end() - step.c, stack_.end());
   stack_.resize(stack_.size() - step.c);
   const Quantity result = value(*program.callees[step.a], arguments.data(), step.where);
-  stack_.push_back(result.v[step.b]);
+  stack_.push_back(step.b == kGreyComponent ? result.grey() : result.v[step.b]);
 }
 
 double Machine::run(const FunctionProgram& program, std::size_t parameters, const double* arguments) {

@@ -53,6 +53,9 @@ TEST_CASE("functions of transformations and splines, and POV-Ray's own") {
   CHECK(vector("#declare F = function { transform { rotate y*30 translate z } } ", 3, "F(1, 2, 0)") ==
         "0.866025 2.000000 0.500000");
   CHECK(vector("#declare F = function { spline { 0, x 1, y } } ", 2, "F(0.25)") == "0.750000 0.250000");
+  CHECK(
+      number("#declare F = function { transform { scale 10 } } #declare G = function(a) { F(a, 1, 3).gray } ",
+             "G(2)") == "15.250000");
   CHECK(number("#declare F = function { transform { scale 3 } } #declare G = function(a) { F(a, 1, 1).x } ",
                "G(2)") == "6.000000");
   CHECK(number("#declare F = function { internal(61) } ", "F(1, 2, 3, 1)") == "2.741657");
