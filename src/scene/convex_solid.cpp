@@ -19,10 +19,10 @@ constexpr double kFlat = 1e-6;
 /// Unit normals that differ by less are one.
 constexpr double kParallel = 1e-9;
 
-/// Whether rays take two objects that let no light through for the same, but for materials.
+/// Whether rays take two objects for the same, but for materials.
 bool are_alike(const Object& a, const Object& b) {
   return a.no_shadow == b.no_shadow && a.no_image == b.no_image && a.no_reflection == b.no_reflection &&
-         a.light_group == b.light_group && a.is_lit_through == b.is_lit_through;
+         a.light_group == b.light_group && a.is_lit_through == b.is_lit_through && a.interior == b.interior;
 }
 
 /// The triangles of convex faces, in which each corner is the same vertex.

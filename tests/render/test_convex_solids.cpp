@@ -130,6 +130,9 @@ TEST_CASE("What is not convex, not closed, or asks for more than points stays as
   Object other = slanted;
   other.no_shadow = true; // of no effect in an intersection
   CHECK(!are_shapes(parts_of(csg_object(kIntersection, {cube, other}))));
+  other.interior = 0;
+  CHECK(are_shapes(parts_of(csg_object(kIntersection, {cube, other}))));
+  other.interior = cube.interior;
   other.light_group = 0;
   CHECK(are_shapes(parts_of(csg_object(kIntersection, {cube, other}))));
 
