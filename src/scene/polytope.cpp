@@ -92,11 +92,8 @@ void Polytope::cut(const Vec3& normal, double offset, std::size_t source) {
   cut_exactly(normal / length, offset / length + slack, tolerance, source);
 }
 
-void Polytope::cut_exactly(const Vec3& normal, double offset, double tolerance, std::size_t source) {
-  const double length = glm::length(normal);
-  const Vec3 unit = normal / length;
-  const double limit = offset / length;
-  const auto height = [&](const Vec3& p) { return glm::dot(unit, p) - limit; };
+void Polytope::cut_exactly(const Vec3& unit, double offset, double tolerance, std::size_t source) {
+  const auto height = [&](const Vec3& p) { return glm::dot(unit, p) - offset; };
   const auto is_beyond = [&](const Vec3& p) { return height(p) > tolerance; };
   std::vector<Vec3> on_plane;
   std::vector<Face> left;

@@ -26,8 +26,9 @@ public:
   /// Leaves the points p with dot(normal, p) <= offset, and a little more. `normal` has any length but 0.
   /// The face that lies in the plane, if there is one, is from then on that of `source`.
   void cut(const Vec3& normal, double offset, std::size_t source);
-  /// Likewise, but no more than these points. Corners less than `tolerance` beyond the plane are in it.
-  void cut_exactly(const Vec3& normal, double offset, double tolerance, std::size_t source);
+  /// Likewise, but no more than these points, of a normal of length 1. Corners less than `tolerance` beyond
+  /// the plane are in it.
+  void cut_exactly(const Vec3& unit, double offset, double tolerance, std::size_t source);
 
   bool is_empty() const { return faces_.empty(); }
   const std::vector<Face>& faces() const { return faces_; }
