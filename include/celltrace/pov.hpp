@@ -69,6 +69,8 @@ struct AnimationFrame {
   double clock_delta = 0; ///< from frame to frame
 };
 
+enum class FileUse { read, write };
+
 struct ParseOptions {
   /// Searched for include files after the including file's folder and the scene's; POV-Ray's installed
   /// include folder comes last by itself.
@@ -79,6 +81,12 @@ struct ParseOptions {
   /// It writes files (#fopen) only in these and below. Names that are not absolute begin in the first one,
   /// which is also the first place where files are looked for. None: it writes nothing.
   std::vector<std::filesystem::path> writable_folders;
+  /// Folder where names of files that are not absolute begin: the first place where files are looked for,
+  /// and where they are written. Empty: the first of writable_folders.
+  std::filesystem::path working_folder;
+  /// Asked, from the parsing thread, whether the scene may read or write a file that the folders above do not
+  /// let it. `file` is absolute and has no links, but need not exist if it is to be written. None: no.
+  std::function<bool(const std::filesystem::path& file, FileUse use)> permits;
   int width = 640;  ///< image_width
   int height = 480; ///< image_height
   double clock = 0;

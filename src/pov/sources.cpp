@@ -104,8 +104,10 @@ fs::path portable_path(std::string_view name) {
 }
 
 Sources::Sources(const ParseOptions& options)
-    : library_paths_(options.library_paths), readable_(canonical_folders(options.readable_folders)),
-      writable_(canonical_folders(options.writable_folders)) {
+    : library_paths_(options.library_paths), working_folder_(options.working_folder),
+      readable_(canonical_folders(options.readable_folders)),
+      writable_(canonical_folders(options.writable_folders)), permits_(options.permits) {
+  if (working_folder_.empty() && !writable_.empty()) working_folder_ = writable_.front();
   readable_.insert(readable_.end(), writable_.begin(), writable_.end());
   for (const char* folder : kInstalledIncludes) {
     std::error_code ignored;
@@ -127,7 +129,7 @@ std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::pat
   if (name.find('\0') != name.npos) return std::nullopt;
   const fs::path wanted = portable_path(name);
   std::vector<fs::path> folders;
-  if (!writable_.empty()) folders.push_back(writable_.front());
+  if (!working_folder_.empty()) folders.push_back(working_folder_);
   folders.insert(folders.end(), {naming_folder, scene_folder_});
   folders.insert(folders.end(), library_paths_.begin(), library_paths_.end());
 
@@ -135,9 +137,10 @@ std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::pat
     std::error_code error;
     const fs::path file = fs::canonical(path, error);
     const auto has_it = [&](const fs::path& folder) { return lies_in(file, folder); };
-    const bool may_be_read = !error && (has_it(scene_folder_) ||
-                                        std::any_of(library_paths_.begin(), library_paths_.end(), has_it) ||
-                                        std::any_of(readable_.begin(), readable_.end(), has_it));
+    const bool may_be_read =
+        !error &&
+        (has_it(scene_folder_) || std::any_of(library_paths_.begin(), library_paths_.end(), has_it) ||
+         std::any_of(readable_.begin(), readable_.end(), has_it) || permits(file, FileUse::read));
     return FoundFile{path, may_be_read};
   };
   const auto find = [&](const fs::path& file) -> std::optional<FoundFile> {
@@ -154,15 +157,15 @@ std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::pat
 }
 
 fs::path Sources::writable_file(std::string_view name) const {
-  if (writable_.empty())
+  if (writable_.empty() && !permits_)
     throw InputError("scenes write no files unless --allow-write DIR says in which folder they may");
   const fs::path wanted = portable_path(name);
   if (name.find('\0') != name.npos || !wanted.has_filename() || wanted.filename() == "." ||
       wanted.filename() == "..")
     throw InputError("this is no name of a file");
   std::error_code error;
-  const fs::path named = wanted.is_absolute() ? wanted : writable_.front() / wanted;
-  fs::path file = fs::canonical(named.parent_path(), error);
+  const fs::path named = wanted.is_absolute() ? wanted : working_folder_ / wanted;
+  fs::path file = fs::canonical(named.has_parent_path() ? named.parent_path() : ".", error);
   if (error) throw InputError("its folder is not there: " + error.message());
   file /= wanted.filename();
   if (fs::is_symlink(fs::symlink_status(file, error))) {
@@ -170,8 +173,10 @@ fs::path Sources::writable_file(std::string_view name) const {
     if (error) throw InputError("it is a link that leads to no file");
   }
   if (std::none_of(writable_.begin(), writable_.end(),
-                   [&](const fs::path& folder) { return is_below(file, folder); }))
-    throw InputError("it lies outside of the folders that --allow-write lets scenes write in");
+                   [&](const fs::path& folder) { return is_below(file, folder); }) &&
+      !permits(file, FileUse::write))
+    throw InputError("it lies outside of the folders that " + std::string(permits_ ? "povray.conf or " : "") +
+                     "--allow-write lets scenes write in");
   return file;
 }
 

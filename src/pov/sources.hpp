@@ -23,9 +23,10 @@ struct FoundFile {
 
 class Sources {
 public:
-  /// Files are looked for in the first writable folder, in the folder of the file that names them, in the
-  /// scene's, in the library paths and in POV-Ray's installed include folder, in this order; a name that
-  /// differs in case only is taken last. Throws InputError if a folder to read or write in is none.
+  /// Files are looked for in the working folder (by default the first writable one), in the folder of the
+  /// file that names them, in the scene's, in the library paths and in POV-Ray's installed include folder, in
+  /// this order; a name that differs in case only is taken last. Throws InputError if a folder to read or
+  /// write in is none.
   explicit Sources(const ParseOptions& options);
 
   /// The number of a name; the same name gives the same number.
@@ -42,9 +43,14 @@ public:
   std::filesystem::path writable_file(std::string_view name) const;
 
 private:
+  bool permits(const std::filesystem::path& file, FileUse use) const {
+    return permits_ && permits_(file, use);
+  }
+
   std::vector<std::filesystem::path> library_paths_;
-  std::filesystem::path scene_folder_;
+  std::filesystem::path scene_folder_, working_folder_;    ///< the latter empty: none
   std::vector<std::filesystem::path> readable_, writable_; ///< canonical, apart from library and scene
+  std::function<bool(const std::filesystem::path& file, FileUse use)> permits_;
   std::vector<std::string> names_;
   std::unordered_map<std::string, std::uint32_t> numbers_;
 };

@@ -109,6 +109,37 @@ TEST_CASE("what a file cannot be used for") {
   CHECK(error("#fclose F sphere { 0, 1 }") == "");
 }
 
+TEST_CASE("an application permits single files, by their names without links") {
+  const TemporaryFolder folder, elsewhere;
+  std::vector<std::pair<fs::path, FileUse>> asked;
+  bool answer = true;
+  ParseOptions options;
+  options.working_folder = folder.path();
+  options.permits = [&](const fs::path& file, FileUse use) {
+    asked.emplace_back(file, use);
+    return answer;
+  };
+  fs::create_directory_symlink(elsewhere.path(), folder / "linked");
+  const std::string write = "#fopen F \"linked/out.txt\" write #write (F, 1) #fclose F ";
+  test::parse(write + "sphere { 0, 1 }", options);
+  CHECK(test::read_bytes(elsewhere / "out.txt") == "1");
+  CHECK(test::output("#fopen F \"linked/out.txt\" read #read (F, A) #debug str(A, 0, 0) sphere { 0, 1 }",
+                     options) == "1");
+  REQUIRE(asked.size() == 2);
+  CHECK(asked[0] == std::pair(elsewhere / "out.txt", FileUse::write));
+  CHECK(asked[1] == std::pair(elsewhere / "out.txt", FileUse::read));
+  answer = false;
+  CHECK(error_line(write, options) ==
+        "scene.pov:1:10: error: file 'linked/out.txt': it lies outside of the folders that povray.conf or "
+        "--allow-write lets scenes write in");
+  CHECK(error_line("#include \"linked/out.txt\"", options).find("lies outside") != std::string::npos);
+  // What its folders allow is not asked about.
+  asked.clear();
+  options.writable_folders = {elsewhere.path()};
+  test::parse(write + "sphere { 0, 1 }", options);
+  CHECK(asked.empty());
+}
+
 TEST_CASE("a scene writes only where it may") {
   const TemporaryFolder folder, elsewhere;
   const auto error = [&](const std::string& name) {
