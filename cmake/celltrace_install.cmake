@@ -133,6 +133,11 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md D
   COMPONENT read)
 if("program" IN_LIST CELLTRACE_COMPONENTS)
   install(TARGETS celltrace_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+  option(CELLTRACE_POVRAY_LINK "Install the program under the name povray, too: a symbolic link beside it" OFF)
+  if(CELLTRACE_POVRAY_LINK)
+    file(CREATE_LINK celltrace ${PROJECT_BINARY_DIR}/povray SYMBOLIC)
+    install(FILES ${PROJECT_BINARY_DIR}/povray DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT povray) # in no package
+  endif()
   include(celltrace_manual)
   if(CELLTRACE_MANUAL)
     install(FILES ${CELLTRACE_MANUAL}/celltrace.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT read)

@@ -48,6 +48,8 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "libsdl2-2.0-0, libsdl2-ttf-2.0-0, fon
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS ffmpeg)
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "ray tracer for POV-Ray scenes - program
 ${about}.\nThis is the program, which also runs programs for the SPU.")
+set(scripts ${PROJECT_SOURCE_DIR}/cmake/debian/tools) # make /usr/bin/povray an alternative
+set(CPACK_DEBIAN_TOOLS_PACKAGE_CONTROL_EXTRA ${scripts}/postinst ${scripts}/prerm ${scripts}/triggers)
 set(package_groups runtime dev tools)
 if(CELLTRACE_HAS_PYTHON)
   list(APPEND package_groups python)
@@ -108,6 +110,9 @@ if(CELLTRACE_MANUAL AND CELLTRACE_GZIP)
   install(FILES ${CELLTRACE_MANUAL}/celltrace.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
     COMPONENT debian_tools EXCLUDE_FROM_ALL)
 endif()
+# What /usr/bin/povray leads to, and a folder for a PATH that has it first.
+file(CREATE_LINK ../../bin/celltrace ${debian}/povray SYMBOLIC)
+install(FILES ${debian}/povray DESTINATION lib/celltrace COMPONENT debian_tools EXCLUDE_FROM_ALL)
 # CPack has maintainer scripts of its own call ldconfig.
 file(WRITE ${debian}/runtime/${packages_runtime} "${packages_runtime}: maintscript-calls-ldconfig *\n")
 install(FILES ${debian}/runtime/${packages_runtime} DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides

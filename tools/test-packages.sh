@@ -54,6 +54,22 @@ use_packages() {
     celltrace render --backend "$backend" -W 80 -H 60 -o "$backend.png" examples/scenes/first.pov
   done
   cmp native.png cell_emu.png
+  say "in place of povray, with Debian's package and without it"
+  whose_povray() { # WORD in what its --version says
+    povray --version 2>&1 | grep -q "$1"
+    PATH=/usr/lib/celltrace:$PATH povray --version 2>&1 | grep -q celltrace
+  }
+  whose_povray celltrace
+  povray +Iexamples/scenes/first.pov +W80 +H60 +Opovray.png
+  cmp native.png povray.png
+  add povray
+  whose_povray Persistence
+  apt-get purge -y -q celltrace
+  povray --version 2>&1 | grep -q Persistence
+  add ./celltrace_*.deb
+  whose_povray Persistence
+  apt-get purge -y -q povray
+  whose_povray celltrace
   say "a window without SDL2, which is recommended only"
   if DISPLAY=:0 celltrace view examples/scenes/first.pov 2> view.log; then false; fi
   grep "a window needs SDL2" view.log
