@@ -8,6 +8,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/output_files.hpp"
 #include "cli/picture_job.hpp"
+#include "cli/pov_report.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/scene_reading.hpp"
 #include "image/file.hpp"
@@ -31,7 +32,8 @@ public:
       : request_(request),
         frames_(request.animation.is_on() ? frames_to_render(request.animation) : std::vector<int>{0}),
         state_(is_film() ? std::filesystem::path() : request.output, settings_of(request)),
-        line_(std::cerr, !request.quiet && stderr_is_terminal()) {}
+        line_(std::cerr, !request.quiet && stderr_is_terminal()),
+        report_(std::cerr, report_parts(request, stderr_is_terminal())) {}
 
   int run() {
     catch_interrupts();
@@ -108,6 +110,8 @@ private:
   }
 
   bool render(FrameSource& source, RunReports& reports) {
+    report_.begin_frame(done_, frames_.size());
+    report_.begin_parsing();
     FrameSource::Frame frame = source.take(last_.accelerator_bytes);
     print_messages(frame.messages);
     if (!frame.is_prepared || interrupted()) return false;
@@ -116,13 +120,16 @@ private:
     if (request_.resume) state_.load_rows(frame.number, frame.read.files, image);
     RowKeeper keeper(state_, frame.number, frame.read.files, image);
     line_.set_job("frame " + std::to_string(frame.number) + ", ");
+    report_.begin_rendering(request_.options);
     RenderResult result = render_remaining(
         *frame.renderer, request_.options, image,
         [&](double fraction) {
+          report_.update(fraction);
           line_.update((static_cast<double>(done_) + fraction) / static_cast<double>(frames_.size()));
           return !interrupted();
         },
         [&] { keeper.save(interrupted()); });
+    report_.finish(result.statistics.render_seconds);
     reports.print_diagnostics();
     if (film_ && result.complete) add_to_film(image.image());
     const std::filesystem::path file = is_film() ? std::filesystem::path() : picture(frame.number);
@@ -186,6 +193,7 @@ private:
   std::vector<int> frames_; ///< to be rendered
   ResumeState state_;
   ProgressLine line_;
+  PovReport report_;
   std::unique_ptr<Film> film_;
   std::size_t done_ = 0;  ///< frames
   int missing_rows_ = -1; ///< of the frame that was broken off

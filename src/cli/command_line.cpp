@@ -72,6 +72,7 @@ struct RenderTexts {
   int antialias_method = 1;
   Antialiasing antialiasing; ///< all but method and threshold
   double start_column = 0, end_column = 1, start_row = 0, end_row = 1;
+  std::string verbose, povray = "off";
   OutputTexts output;
   AnimationTexts animation;
 };
@@ -158,6 +159,22 @@ void add_antialiasing_options(CLI::App& command, RenderTexts& texts) {
 void add_report_options(CLI::App& command, RenderRequest& request) {
   command.add_option("--stats", request.stats, "Write statistics as JSON; - is stdout")->type_name("FILE|-");
   command.add_flag("--quiet", request.quiet, "No progress, notes or summary");
+}
+
+void add_client_options(CLI::App& command, RenderTexts& texts) {
+  add_choice(command, "--povray", texts.povray, {{"on", "off"}, {}},
+             "Stand in for povray: its INI file and povray.conf count; default if started under that name");
+  add_choice(command, "--verbose", texts.verbose, {{"on", "off"}, {}},
+             "Write progress as POV-Ray does where stderr is no terminal");
+}
+
+/// Lets the last of options that are repeated count, but for those that collect values.
+void let_the_last_count(CLI::App& command) {
+  for (CLI::Option* option : command.get_options())
+    if (!option->get_positional() && option->get_items_expected_max() == 1)
+      option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  for (CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
+    let_the_last_count(*group);
 }
 
 void add_quality_option(CLI::App& command, RenderRequest& request) {
@@ -307,6 +324,8 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   request.trace = texts.machine.emulation.trace;
   request.cache_trace = texts.machine.emulation.cache_trace;
   request.options.region = region_of(texts, request.options);
+  if (!texts.verbose.empty()) request.verbose = texts.verbose == "on";
+  request.stands_in_for_povray = texts.povray == "on";
   finish_output(request, texts.output);
   finish_animation(request, texts.animation);
 }
@@ -377,6 +396,8 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_antialiasing_options(render_command, texts);
   add_machine_options(render_command, render.options, texts.machine);
   add_report_options(render_command, render);
+  add_client_options(render_command, texts);
+  let_the_last_count(render_command);
 
   ViewRequest view;
   RenderTexts view_texts;

@@ -44,6 +44,8 @@ struct RenderRequest {
   std::filesystem::path trace;       ///< empty: none
   std::filesystem::path cache_trace; ///< empty: none
   bool quiet = false;
+  std::optional<bool> verbose;       ///< progress for a program that reads stderr; none: not said
+  bool stands_in_for_povray = false; ///< another program takes this one for povray
 };
 
 struct CompareRequest {
@@ -92,9 +94,10 @@ struct ViewRequest {
   std::vector<std::string> keys;
 };
 
-/// A text for stdout: --help or --version.
+/// A text such as that of --help or --version.
 struct InformationRequest {
   std::string text;
+  bool is_for_stderr = false; ///< for stdout otherwise
 };
 
 using Request = std::variant<RenderRequest, ViewRequest, CompareRequest, SpuRequest, ReplayRequest,

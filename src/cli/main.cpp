@@ -1,14 +1,15 @@
 #include "celltrace/error.hpp"
 #include "cli/command_line.hpp"
 #include "cli/compare_command.hpp"
+#include "cli/invocation.hpp"
 #include "cli/output_files.hpp"
-#include "cli/pov_switches.hpp"
 #include "cli/render_command.hpp"
 #include "cli/replay_command.hpp"
 #include "cli/spu_command.hpp"
 #include "cli/study_command.hpp"
 #include "cli/view_command.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -21,8 +22,8 @@ namespace {
 
 using namespace celltrace::cli;
 
-void print_notes(const Translation& translation) {
-  for (const std::string& note : translation.notes)
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes)
     std::cerr << "note: " << note << '\n';
 }
 
@@ -36,11 +37,10 @@ void keep_freed_memory() {
 #endif
 }
 
-int run(const std::vector<std::string>& arguments) {
-  const Translation translation = translate_pov_switches(arguments);
-  const Request request = parse_command_line(translation.arguments);
+int run(const char* program, const std::vector<std::string>& arguments) {
+  const auto [request, notes] = read_invocation(program, arguments);
   if (const auto* information = std::get_if<InformationRequest>(&request)) {
-    std::cout << information->text << std::flush;
+    (information->is_for_stderr ? std::cerr : std::cout) << information->text << std::flush;
     return 0;
   }
   if (const auto* compare = std::get_if<CompareRequest>(&request)) return run_compare(*compare);
@@ -49,7 +49,7 @@ int run(const std::vector<std::string>& arguments) {
   if (const auto* replay = std::get_if<ReplayRequest>(&request)) return run_replay(*replay);
   if (const auto* study = std::get_if<StudyRequest>(&request)) return run_study_command(*study);
   const auto& render = std::get<RenderRequest>(request);
-  if (!render.quiet) print_notes(translation);
+  if (!render.quiet) print_notes(notes);
   return run_render(render);
 }
 
@@ -62,10 +62,10 @@ int error_code(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   keep_freed_memory();
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   occupy_standard_streams();
   try {
-    const int code = run(arguments);
+    const int code = run(argc > 0 ? argv[0] : "", arguments);
     check_standard_output();
     return code;
   } catch (const celltrace::SceneError& error) {

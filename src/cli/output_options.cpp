@@ -27,6 +27,8 @@ std::filesystem::path output_of(const RenderRequest& request, const OutputTexts&
   const std::string extension = extension_of(texts);
   std::filesystem::path output = request.output;
   if (output == kStandardOutput) return output;
+  // The scene's folder is POV-Ray's choice.
+  if (output.empty() && request.stands_in_for_povray) output = request.scene.parent_path() / "";
   if (!output.has_filename()) return output / (request.scene.stem().string() + extension);
   if (!output.has_extension()) return output += extension;
   if (!texts.file_type.empty() && lower_extension(output) != extension)

@@ -100,7 +100,7 @@ constexpr Switch kSwitches[] = {
     {"UL", Meaning::ignored},
     {"UR", Meaning::ignored},
     {"UV", Meaning::ignored},
-    {"V", Meaning::ignored},
+    {"V", Meaning::on_or_off, "--verbose"},
     {"WL", Meaning::ignored},
     {"X", Meaning::ignored},
 };
@@ -254,13 +254,6 @@ bool is_own_option(std::string_view argument) {
   return argument.substr(0, 2) == "--";
 }
 
-bool takes_the_next_argument(std::string_view argument) {
-  for (const std::string_view alone :
-       {"-h", "--help", "--version", "--quiet", "--faults", "--lenient", "--list-keywords", "--resume"})
-    if (argument == alone) return false;
-  return is_own_option(argument) && argument.find('=') == std::string_view::npos;
-}
-
 double number_of(const std::string& text) {
   // What is_number() has passed begins with a number, or is dots.
   return std::strtod(text.c_str(), nullptr);
@@ -341,6 +334,7 @@ private:
 
   /// The scene, or one of celltrace's own options. A scene that a switch has named is replaced.
   void file(const std::string& text) {
+    if (is_own_option(text)) values_.clear(); // the order counts between such options and switches
     if (scene_ && !is_own_option(text))
       result_.arguments[*scene_] = text;
     else
@@ -518,6 +512,15 @@ private:
   std::string method_, depth_, gamma_; ///< empty: not said
 };
 
+} // namespace
+
+bool takes_the_next_argument(std::string_view argument) {
+  for (const std::string_view alone :
+       {"-h", "--help", "--version", "--quiet", "--faults", "--lenient", "--list-keywords", "--resume"})
+    if (argument == alone) return false;
+  return is_own_option(argument) && argument.find('=') == std::string_view::npos;
+}
+
 bool is_for_render(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return false;
   const std::string& first = arguments[0];
@@ -525,8 +528,6 @@ bool is_for_render(const std::vector<std::string>& arguments) {
          first != "--version" && first != "--list-keywords" && first != "--man-page" &&
          first != "--completions" && first != "--help" && first != "-h";
 }
-
-} // namespace
 
 Translation translate_pov_switches(const std::vector<std::string>& arguments, const TextReader& read) {
   if (!is_for_render(arguments)) return {arguments, {}};

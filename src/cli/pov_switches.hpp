@@ -5,6 +5,7 @@
 #include "cli/ini_file.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace celltrace::cli {
@@ -24,5 +25,11 @@ struct Translation {
 /// value, or would change the picture in a way that is not supported yet; in an INI file with its line.
 Translation translate_pov_switches(const std::vector<std::string>& arguments,
                                    const TextReader& read = read_ini_text);
+
+/// Whether the arguments are those of `render`, which its name need not precede.
+bool is_for_render(const std::vector<std::string>& arguments);
+
+/// Whether the argument is one of celltrace's own options, and the next one its value.
+bool takes_the_next_argument(std::string_view argument);
 
 } // namespace celltrace::cli

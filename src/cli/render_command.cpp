@@ -6,6 +6,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/output_files.hpp"
 #include "cli/picture_job.hpp"
+#include "cli/pov_report.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/scene_reading.hpp"
 #include "image/file.hpp"
@@ -39,7 +40,7 @@ ReadScene read_with_progress(const RenderRequest& request) {
 
 /// What of `picture` is missing.
 RenderResult render_with_progress(const ReadScene& read, const RenderRequest& request, RunReports& reports,
-                                  ResumeState& state, PartialPicture& picture) {
+                                  PovReport& report, ResumeState& state, PartialPicture& picture) {
   const bool visible = !request.quiet && stderr_is_terminal();
   ProgressLine building(std::cerr, visible, "building ", std::chrono::milliseconds(500));
   RenderOptions options = request.options;
@@ -53,10 +54,12 @@ RenderResult render_with_progress(const ReadScene& read, const RenderRequest& re
   if (!renderer.prepare(*read.scene)) return renderer.render(*read.scene); // which is broken off, too
   ProgressLine line(std::cerr, visible);
   RowKeeper keeper(state, kStill, read.files, picture);
+  report.begin_rendering(options);
   return render_remaining(
       renderer, options, picture,
-      [&line](double fraction) {
+      [&](double fraction) {
         line.update(fraction);
+        report.update(fraction);
         return !interrupted();
       },
       [&] { keeper.save(interrupted()); });
@@ -93,6 +96,8 @@ int run_render(const RenderRequest& request) {
       return 0;
     }
   }
+  PovReport report(std::cerr, report_parts(request, stderr_is_terminal()));
+  report.begin_parsing();
   const ReadScene read = read_with_progress(request);
   if (!read.scene || interrupted()) {
     std::cerr << "interrupted before the first pixel\n";
@@ -107,11 +112,12 @@ int run_render(const RenderRequest& request) {
   RunReports reports(request);
   RenderResult result;
   try {
-    result = render_with_progress(read, request, reports, state, picture);
+    result = render_with_progress(read, request, reports, report, state, picture);
   } catch (const std::exception& error) {
     reports.print_diagnostics(error.what());
     throw;
   }
+  report.finish(result.statistics.render_seconds);
   reports.print_diagnostics();
   if (!request.output.empty()) save_picture(request, request.output, picture, result.statistics);
   if (result.complete && request.resume)

@@ -3,10 +3,14 @@
 #include "celltrace/error.hpp"
 #include "celltrace/version.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/povray_client.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <set>
+#include <system_error>
+#include <utility>
 
 namespace celltrace::cli {
 
@@ -42,6 +46,20 @@ ParseOptions parse_options(const RenderRequest& request, int frame) {
 
 namespace {
 
+/// Permits what POV-Ray does. Adds the files that the scene then may write to `written`.
+void permit(ParseOptions& options, std::set<std::filesystem::path>& written) {
+  std::vector<std::string> warnings;
+  permit_as_povray(options, povray_places(), warnings);
+  for (const std::string& warning : warnings)
+    options.message("warning: " + warning + '\n');
+  options.permits = [permits = std::move(options.permits), &written](const std::filesystem::path& file,
+                                                                     FileUse use) {
+    const bool yes = permits(file, use);
+    if (yes && use == FileUse::write) written.insert(file);
+    return yes;
+  };
+}
+
 std::string text_of(double number) {
   char text[32];
   const auto end = std::to_chars(std::begin(text), std::end(text), number).ptr;
@@ -61,9 +79,13 @@ ReadScene read_scene(const RenderRequest& request, int frame,
     if (total > 0) progress(static_cast<double>(bytes) / static_cast<double>(total));
     return !interrupted();
   };
+  std::set<std::filesystem::path> written;
+  if (request.stands_in_for_povray) permit(options, written);
   options.reads_file = [&](const std::filesystem::path& path) {
     // What a scene writes itself, it writes anew.
     if (!request.writable_folders.empty() && !read.files.empty()) return;
+    std::error_code error;
+    if (!written.empty() && written.count(std::filesystem::canonical(path, error)) != 0) return;
     const auto known = [&](const auto& file) { return file.first == path.string(); };
     if (std::none_of(read.files.begin(), read.files.end(), known))
       read.files.emplace_back(path.string(), file_stamp(path));

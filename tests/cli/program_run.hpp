@@ -4,6 +4,7 @@
 #include "files.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -25,12 +26,29 @@ struct Outcome {
   std::string err;
 };
 
+/// The name that the program is started by, and variables of the environment ("NAME=VALUE") besides the
+/// test's own, which they replace.
+struct Start {
+  std::string name = "celltrace";
+  std::vector<std::string> variables;
+};
+
 /// One run of celltrace in a folder of its own, with its output in files there. What it reads is in
 /// stdin.txt, if that is there.
 class Run {
 public:
-  Run(const TemporaryFolder& folder, std::vector<std::string> arguments) : folder_(folder) {
-    arguments.insert(arguments.begin(), "celltrace");
+  Run(const TemporaryFolder& folder, std::vector<std::string> arguments, Start start = {}) : folder_(folder) {
+    arguments.insert(arguments.begin(), start.name);
+    std::vector<char*> variables;
+    for (std::string& variable : start.variables)
+      variables.push_back(variable.data());
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+      const std::string name(*variable, std::strcspn(*variable, "=") + 1);
+      if (std::none_of(start.variables.begin(), start.variables.end(),
+                       [&](const std::string& own) { return own.rfind(name, 0) == 0; }))
+        variables.push_back(*variable);
+    }
+    variables.push_back(nullptr);
     std::vector<char*> argv;
     for (std::string& argument : arguments)
       argv.push_back(argument.data());
@@ -44,7 +62,7 @@ public:
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, input, O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "stdout.txt", kFlags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "stderr.txt", kFlags, 0600);
-    const int error = posix_spawn(&pid_, CELLTRACE_PROGRAM, &actions, nullptr, argv.data(), environ);
+    const int error = posix_spawn(&pid_, CELLTRACE_PROGRAM, &actions, nullptr, argv.data(), variables.data());
     posix_spawn_file_actions_destroy(&actions);
     REQUIRE(error == 0);
   }
@@ -83,8 +101,9 @@ private:
   pid_t pid_ = -1;
 };
 
-inline Outcome celltrace_run(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
-  return Run(folder, arguments).finish();
+inline Outcome celltrace_run(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                             const Start& start = {}) {
+  return Run(folder, arguments, start).finish();
 }
 
 inline long lines(const std::string& text) {

@@ -66,9 +66,9 @@ TEST_CASE("extensions are added as POV-Ray adds them") {
 
 TEST_CASE("harmless switches are ignored with a note") {
   const Arguments harmless = {"+D",    "-D",    "+DGT",   "+P",          "-P",
-                              "+V",    "+X10",  "+B64",   "+BP",         "Bounding_Threshold=3",
+                              "+BM1",  "+X10",  "+B64",   "+BP",         "Bounding_Threshold=3",
                               "+MB10", "+WL5",  "+UV",    "-UL",         "+GFa.txt",
-                              "+BS16", "+SP64", "+HR",    "Display=off", "Verbose=on",
+                              "+BS16", "+SP64", "+HR",    "Display=off", "Test_Abort=on",
                               "+GIa",  "+RP2",  "+MI128", "+BM2",        "Warning_Console=off"};
   for (const std::string& text : harmless) {
     CAPTURE(text);
@@ -136,6 +136,8 @@ TEST_CASE("regions, quality, clock, file types") {
   CHECK(translated({"+FP", "Output_to_File=off"}) == Arguments{"--picture", "off", "--file-type", "ppm"});
   CHECK(translated({"+FE", "+O-"}) == Arguments{"--picture", "on", "--file-type", "exr", "-o", "-"});
   CHECK(translated({"Output_File_Type=H"}) == Arguments{"--file-type", "hdr"});
+  CHECK(translated({"+V"}) == Arguments{"--verbose", "on"});
+  CHECK(translated({"Verbose=false"}) == Arguments{"--verbose", "off"});
   CHECK(translated({"+UA"}) == Arguments{"--alpha", "on"});
   CHECK(translated({"Output_Alpha=on", "-UA"}) == Arguments{"--alpha", "off"});
   CHECK_THROWS_WITH(translate_pov_switches({"+UA1", "a.pov"}), Contains("'+UA1'"));
@@ -152,6 +154,8 @@ TEST_CASE("of what is repeated the last counts") {
   CHECK(translated({"+Ia.pov", "+W10", "+Ib"}) == Arguments{"b.pov", "-W", "10"});
   CHECK(translated({"+Ia.pov", "c.pov"}) == Arguments{"c.pov"});
   CHECK(translated({"+Ia.pov", "--quiet", "-W", "8"}) == Arguments{"a.pov", "--quiet", "-W", "8"});
+  // Among celltrace's own options the order stays.
+  CHECK(translated({"+W10", "-W", "20", "+W30"}) == Arguments{"-W", "10", "-W", "20", "-W", "30"});
   CHECK(translated({"+La", "+Lb", "Declare=x=1", "Declare=y=2"}) ==
         Arguments{"-L", "a", "-L", "b", "--declare", "x=1", "--declare", "y=2"});
 }
