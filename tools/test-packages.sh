@@ -56,8 +56,8 @@ use_packages() {
   cmp native.png cell_emu.png
   say "in place of povray, with Debian's package and without it"
   whose_povray() { # WORD in what its --version says
-    povray --version 2>&1 | grep -q "$1"
-    PATH=/usr/lib/celltrace:$PATH povray --version 2>&1 | grep -q celltrace
+    povray --version 2>&1 | grep "$1" >/dev/null
+    PATH=/usr/lib/celltrace:$PATH povray --version 2>&1 | grep celltrace >/dev/null
   }
   whose_povray celltrace
   povray +Iexamples/scenes/first.pov +W80 +H60 +Opovray.png
@@ -65,7 +65,7 @@ use_packages() {
   add povray
   whose_povray Persistence
   apt-get purge -y -q celltrace
-  povray --version 2>&1 | grep -q Persistence
+  povray --version 2>&1 | grep Persistence >/dev/null
   add ./celltrace_*.deb
   whose_povray Persistence
   apt-get purge -y -q povray

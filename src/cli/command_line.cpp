@@ -383,6 +383,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
       ->trigger_on_parse();
   app.footer(
       "`celltrace SCENE.pov` means render. POV-Ray's switches (+W640 +H480 +Iscene.pov ...) are understood.\n"
+      "CELLTRACE_OPTIONS in the environment has options of render that stand before the arguments.\n"
       "Exit codes: 0 done, 1 error or past a bar, 2 interrupted.");
 
   RenderRequest render;
