@@ -91,10 +91,20 @@ CELLTRACE_EXPORT Image to_image(const BlockImage& blocks);
 /// The formats that pictures are written in, by the extensions of their files.
 enum class ImageFormat {
   png, ///< Image and DeepImage: 8 or 16 bits a channel, without alpha if every pixel is opaque
-  ppm, ///< the same, binary, always without alpha
+  ppm, ///< the same, binary, always without alpha; of grey pictures PGM
   exr, ///< ColourImage: OpenEXR, linear, with alpha unless every pixel is opaque; if the build has OpenEXR
   hdr, ///< ColourImage: Radiance's RGBE, linear, without alpha
-  dds  ///< BlockImage: a DirectDraw surface of format DXT1
+  dds, ///< BlockImage: a DirectDraw surface of format DXT1
+  tga, ///< Image: Truevision's Targa, without alpha if every pixel is opaque
+  bmp, ///< the same, Windows' bitmap
+  jpeg ///< Image: JPEG (baseline), without alpha; if the build has libjpeg
+};
+
+/// The encoding of files of 8 and 16 bits a channel: sRGB's, or a power.
+struct FileGamma {
+  std::optional<double> power; ///< light is the value to this power; none: sRGB
+
+  bool operator==(const FileGamma&) const = default;
 };
 /// By the extension of `path`, in either case. Throws InputError if it is none of these, or if the build
 /// cannot write it.
