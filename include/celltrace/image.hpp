@@ -121,41 +121,69 @@ struct ExrOptions {
   const FirstHits* first_hits = nullptr;
 };
 
+/// How a picture is stored, where its format leaves a choice.
+struct FileOptions {
+  std::optional<ImageFormat> format; ///< none: by the extension of the path; only save_image() asks
+  /// Whether the file has alpha, if its format has; none: unless every pixel is opaque.
+  std::optional<bool> alpha;
+  /// Whether the file has the luminance of colours only: PNG, PPM (which is a PGM then), TGA and JPEG.
+  bool grey = false;
+  /// The encoding of an Image's and a DeepImage's values; colours as numbers are encoded so.
+  FileGamma gamma;
+  int bits = 8;             ///< a channel, of colours as numbers in a PNG or PPM: 8 or 16
+  int jpeg_quality = 85;    ///< 0 to 100; POV-Ray's default
+  bool run_lengths = false; ///< TGA is compressed
+};
+
 /// Writes a picture in the format that the extension of `path` says. The file appears whole or not at all: it
-/// is written under another name in the same folder and renamed. A device or pipe is written to directly.
-/// Throws InputError naming the file: unknown extension, a format for other pictures, picture without or with
-/// too many pixels, failed write.
-CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const Image& image);
-CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const DeepImage& image);
-/// Colours that are not linear become so; OpenEXR's 16 bits end at 65504, RGBE has nothing below 0.
+/// is written under another name in the same folder and renamed. One that is there keeps its mode, owner and
+/// hard links; if it has no permission to write, it is an error. A device, a pipe or an open descriptor
+/// (/dev/stdout, /dev/fd/3) is written to directly. Throws InputError naming the file: unknown extension, a
+/// format for other pictures, picture without or with too many pixels, failed write.
+CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const Image& image,
+                                 const FileOptions& options = {});
+CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const DeepImage& image,
+                                 const FileOptions& options = {});
+/// OpenEXR and Radiance: colours that are not linear become so; OpenEXR's 16 bits end at 65504, RGBE has
+/// nothing below 0. Other formats get them encoded, as to_image() and to_deep_image() do, but in front of
+/// black where they have no alpha.
 CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const ColourImage& colours,
-                                 const ExrOptions& exr = {});
-CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const BlockImage& blocks);
+                                 const ExrOptions& exr = {}, const FileOptions& options = {});
+CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const BlockImage& blocks,
+                                 const FileOptions& options = {});
 
 /// The same, to the end of an open stream, which is flushed. Throws InputError without a name.
-CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const Image& image);
-CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const DeepImage& image);
+CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const Image& image,
+                                  const FileOptions& options = {});
+CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const DeepImage& image,
+                                  const FileOptions& options = {});
 CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const ColourImage& colours,
-                                  const ExrOptions& exr = {});
-CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks);
+                                  const ExrOptions& exr = {}, const FileOptions& options = {});
+CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks,
+                                  const FileOptions& options = {});
 
 /// The same, into memory.
-CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format);
-CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format);
+CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format,
+                                                        const FileOptions& options = {});
+CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format,
+                                                        const FileOptions& options = {});
 CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const ColourImage& colours, ImageFormat format,
-                                                        const ExrOptions& exr = {});
+                                                        const ExrOptions& exr = {},
+                                                        const FileOptions& options = {});
 CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const BlockImage& blocks, ImageFormat format);
 /// As load_image() reads them. Throws InputError as that does.
 CELLTRACE_EXPORT Image decode_image(const std::uint8_t* bytes, std::size_t count);
 
-/// Throws the InputError save_image() would end with for this path's extension or folder, so that a program
-/// can tell before it computes the picture.
-CELLTRACE_EXPORT void check_image_path(const std::filesystem::path& path);
+/// Throws the InputError save_image() would end with for this path's extension, folder or file, so that a
+/// program can tell before it computes the picture. `format` as FileOptions::format.
+CELLTRACE_EXPORT void check_image_path(const std::filesystem::path& path,
+                                       std::optional<ImageFormat> format = {});
 
 /// Reads a PNG (any bit depth, grey, palette, alpha, interlaced; 16 bits are rounded to 8; gamma chunks are
-/// not applied) or a binary PPM (P6, any maximum), told apart by their content. Throws InputError naming the
-/// file: unreadable, neither format, damaged, truncated, over the limits above, or too short for the size it
-/// declares.
+/// not applied), a binary PPM (P6, any maximum), a BMP (24 or 32 bits a pixel, not compressed), a JPEG (if
+/// the build has libjpeg) or a TGA of version 2 (8 bits a channel, no palette), told apart by their content.
+/// Throws InputError naming the file: unreadable, no such format, damaged, truncated, over the limits above,
+/// or too short for the size it declares.
 CELLTRACE_EXPORT Image load_image(const std::filesystem::path& path);
 
 /// How far two pictures of the same size are apart.

@@ -37,7 +37,7 @@ public:
 
   int run() {
     catch_interrupts();
-    if (!request_.output.empty() && !is_film()) check_image_path(request_.output);
+    if (!request_.output.empty() && !is_film()) check_image_path(request_.output, request_.format);
     if (request_.resume) leave_out_finished();
     if (frames_.empty()) {
       if (!request_.quiet) std::cerr << what() << ": all frames are finished already\n";

@@ -29,6 +29,7 @@ struct RenderRequest {
   FilmFormat film = FilmFormat::none;
   FrameRate frame_rate;
   ImageFormat format = ImageFormat::png; ///< of pictures
+  FileOptions file;                      ///< how pictures are stored; its format is the one above
   int bits = 8; ///< a channel of the picture: 8 or 16, of OpenEXR 16 or 32, of Radiance's and blocks 8
   RenderOptions options;
   std::vector<std::filesystem::path> library_paths;
@@ -46,6 +47,7 @@ struct RenderRequest {
   bool quiet = false;
   std::optional<bool> verbose;       ///< progress for a program that reads stderr; none: not said
   bool stands_in_for_povray = false; ///< another program takes this one for povray
+  std::vector<std::string> notes; ///< for people
 };
 
 struct CompareRequest {

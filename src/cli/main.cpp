@@ -49,7 +49,11 @@ int run(const char* program, const std::vector<std::string>& arguments) {
   if (const auto* replay = std::get_if<ReplayRequest>(&request)) return run_replay(*replay);
   if (const auto* study = std::get_if<StudyRequest>(&request)) return run_study_command(*study);
   const auto& render = std::get<RenderRequest>(request);
-  if (!render.quiet) print_notes(notes);
+  if (!render.quiet) {
+    print_notes(notes);
+    print_notes(render.notes);
+  }
+  prepare_outputs(render);
   return run_render(render);
 }
 

@@ -2,89 +2,185 @@
 
 #include "celltrace/error.hpp"
 #include "cli/choice.hpp"
+#include "cli/output_files.hpp"
+#include "image/file.hpp"
+#include "image/format_table.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <charconv>
+#include <cmath>
 
 namespace celltrace::cli {
 
 namespace {
 
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+/// The words of --file-type: pictures by their extensions, and films.
+std::vector<std::string> file_types() {
+  return {"png", "ppm", "jpg", "jpeg", "tga", "bmp", "exr", "hdr", "dds", "y4m"};
 }
 
 std::string extension_of(const OutputTexts& texts) {
-  return '.' + (texts.file_type.empty() ? "png" : texts.file_type);
+  return '.' + (texts.file_type.empty() ? "png" : texts.file_type == "jpeg" ? "jpg" : texts.file_type);
 }
 
-/// POV-Ray adds the extension where a file name has none, and the scene's name to a folder.
-std::filesystem::path output_of(const RenderRequest& request, const OutputTexts& texts) {
-  if (texts.picture == "off") return {};
+/// A name without an extension gets that of the file type, and a folder the scene's name.
+std::filesystem::path own_output(const RenderRequest& request, const OutputTexts& texts) {
   const std::string extension = extension_of(texts);
   std::filesystem::path output = request.output;
-  if (output == kStandardOutput) return output;
   // The scene's folder is POV-Ray's choice.
   if (output.empty() && request.stands_in_for_povray) output = request.scene.parent_path() / "";
   if (!output.has_filename()) return output / (request.scene.stem().string() + extension);
   if (!output.has_extension()) return output += extension;
-  if (!texts.file_type.empty() && lower_extension(output) != extension)
+  if (texts.file_type.empty()) return output;
+  const bool is_film = texts.file_type == "y4m";
+  const bool is_right =
+      is_film ? film_format_of(output) == FilmFormat::y4m
+              : image::find_format(output.extension().string()) == image::find_format(extension);
+  if (!is_right)
     throw InputError(output.string() + ": the name does not say that the picture is to be a " +
                      texts.file_type);
   return output;
 }
 
+bool is_stream_of_bytes(const std::filesystem::path& output) {
+  return output == kStandardOutput || (!output.empty() && image::is_stream(output));
+}
+
+std::filesystem::path output_of(const RenderRequest& request, const OutputTexts& texts) {
+  if (texts.picture == "off") return {};
+  const bool is_own = texts.pov_name.empty() || !request.output.empty();
+  const std::filesystem::path given = is_own ? request.output : std::filesystem::path(texts.pov_name);
+  if (is_stream_of_bytes(given)) return given;
+  if (is_own) return own_output(request, texts);
+  // Films are no files of POV-Ray's, and have names as everywhere.
+  if (film_format_of(given) != FilmFormat::none) return given;
+  return pov_output(texts.pov_name, request.scene, extension_of(texts));
+}
+
 FilmFormat film_of(const RenderRequest& request, const OutputTexts& texts) {
-  if (request.output != kStandardOutput) return film_format_of(request.output);
+  if (!is_stream_of_bytes(request.output)) return film_format_of(request.output);
   return texts.file_type == "y4m" ? FilmFormat::y4m : FilmFormat::none;
 }
 
-/// What the picture's format asks of rendering.
+FileGamma file_gamma_of(const std::string& text) {
+  std::string lower = text;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (lower == "srgb") return {};
+  double power = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), power);
+  if (error != std::errc() || end != text.data() + text.size() || !(power > 0) || !std::isfinite(power))
+    throw InputError("--file-gamma has to be sRGB or a number above 0, not '" + text + "'");
+  return {power};
+}
+
+/// Returns the bits a channel of the file. POV-Ray, too, takes any number for any format.
+int bits_of(RenderRequest& request, const OutputTexts& texts, const image::FormatRow& row) {
+  const int usual = request.file.grey ? row.bits.back() : row.bits.front(); // as POV-Ray has it
+  const int wanted = texts.bits.value_or(usual);
+  for (const int bits : row.bits)
+    if (bits == wanted) return bits;
+  if (wanted > 16)
+    throw InputError("--bits " + std::to_string(wanted) + " is not for pictures of this format");
+  const auto enough = std::find_if(row.bits.begin(), row.bits.end(), [&](int bits) { return bits > wanted; });
+  const int bits = enough != row.bits.end() ? *enough : row.bits.back();
+  request.notes.push_back("--bits " + std::to_string(wanted) + ": " + row.name + " has " +
+                          std::to_string(bits) + " bits a channel here");
+  return bits;
+}
+
+/// What a picture's format asks of rendering.
+void set_picture_format(RenderRequest& request, const OutputTexts& texts) {
+  RenderOptions& options = request.options;
+  const bool is_stream = is_stream_of_bytes(request.output);
+  request.format = image_format_of(is_stream ? "stdout" + extension_of(texts) : request.output.string());
+  const image::FormatRow& row = image::row_of(request.format);
+  const std::string name = row.name;
+  FileOptions& file = request.file;
+  file.format = request.format;
+  if (file.grey && !row.grey) throw InputError("--grey: " + name + " has no grey pixels");
+  if (file.run_lengths && request.format != ImageFormat::tga)
+    throw InputError("--compression rle is for TGA files");
+  if (options.first_hits && request.format != ImageFormat::exr)
+    throw InputError("--first-hits is for OpenEXR files");
+  request.bits = file.bits = bits_of(request, texts, row);
+  if (options.alpha && row.pixels == image::Pixels::blocks) throw InputError(name + " has no alpha");
+  if (options.alpha && row.alpha) file.alpha = true;
+  if (options.alpha && !row.alpha)
+    request.notes.push_back(name + " has no alpha: the picture is in front of black");
+  options.colours = row.pixels == image::Pixels::numbers ||
+                    (row.pixels == image::Pixels::encoded &&
+                     (request.bits == 16 || file.grey || file.gamma.power || (options.alpha && !row.alpha)));
+  // Of other pictures the blocks are made in the end.
+  options.blocks = row.pixels == image::Pixels::blocks && options.model == Model::shared &&
+                   !options.antialiasing && !options.region;
+}
+
 void set_format(RenderRequest& request, const OutputTexts& texts) {
   RenderOptions& options = request.options;
   options.alpha = texts.alpha == "on";
   options.first_hits = texts.first_hits == "on";
   request.bits = texts.bits.value_or(8);
+  request.file.grey = texts.grey == "on";
+  request.file.run_lengths = texts.compression == "rle";
+  request.file.gamma = file_gamma_of(texts.file_gamma);
   if (request.output.empty()) return;
-  const bool is_film = request.film != FilmFormat::none;
-  const bool is_stdout = request.output == kStandardOutput;
-  if (!is_film)
-    request.format = image_format_of(is_stdout ? "stdout" + extension_of(texts) : request.output.string());
-  const auto is = [&](ImageFormat format) { return !is_film && request.format == format; };
-  const bool is_exr = is(ImageFormat::exr);
-  if (options.alpha && !is_exr && !is(ImageFormat::png))
-    throw InputError("only PNG and OpenEXR files have alpha");
-  if (options.first_hits && !is_exr) throw InputError("--first-hits is for OpenEXR files");
-  if (is_film) return;
-  const int least = is_exr ? 16 : 8;
-  const bool has_depths = is_exr || is(ImageFormat::png) || is(ImageFormat::ppm);
-  request.bits = texts.bits.value_or(least);
-  if (request.bits != least && (!has_depths || request.bits != 2 * least))
-    throw InputError("--bits " + std::to_string(request.bits) + " is not for pictures of this format");
-  options.colours = holds_numbers(request.format) || request.bits == 16;
-  // Of other pictures the blocks are made in the end.
-  options.blocks =
-      is(ImageFormat::dds) && options.model == Model::shared && !options.antialiasing && !options.region;
+  if (request.film == FilmFormat::none) return set_picture_format(request, texts);
+  if (options.alpha) throw InputError("a film has no alpha");
+  if (request.file.grey) throw InputError("--grey is not for films");
+  if (options.first_hits) throw InputError("--first-hits is for OpenEXR files");
+}
+
+/// /dev/null takes any number of pictures.
+bool is_nothing(const std::filesystem::path& output) {
+  std::error_code error;
+  return output != kStandardOutput && std::filesystem::equivalent(output, "/dev/null", error);
 }
 
 } // namespace
+
+std::filesystem::path pov_output(const std::string& name, const std::filesystem::path& scene,
+                                 const std::string& extension) {
+  if (name.empty() || name.back() == '/') return name + scene.stem().string() + extension;
+  const std::size_t dot = name.find_last_of("./");
+  const bool has_extension = dot != std::string::npos && name.compare(dot, std::string::npos, extension) == 0;
+  // Nothing but an extension counts as none, and has the scene's name in front.
+  if (has_extension && (dot == 0 || name[dot - 1] == '/'))
+    return name.substr(0, dot) + scene.stem().string() + extension;
+  if (has_extension) return name;
+  return (name.back() == '.' ? name.substr(0, name.size() - 1) : name) + extension;
+}
 
 void add_output_options(CLI::App& command, RenderRequest& request, OutputTexts& texts) {
   command
       .add_option("-o,--output", request.output,
                   "The picture or the film; default: the scene's name, here. A folder: the scene's name, "
                   "there. - is stdout")
-      ->type_name("OUT.png|ppm|exr|hdr|dds|y4m|mp4|DIR/|-");
-  add_choice(command, "--file-type,--format", texts.file_type,
-             {{"png", "ppm", "exr", "hdr", "dds", "y4m"}, {}},
+      ->type_name("OUT.png|jpg|tga|bmp|ppm|exr|hdr|dds|y4m|mp4|DIR/|-");
+  command
+      .add_option(
+          "--pov-output", texts.pov_name,
+          "The picture's name by the rule of POV-Ray's +O: the file type's extension is appended if the "
+          "name has another one")
+      ->type_name("NAME|DIR/");
+  add_choice(command, "--file-type,--format", texts.file_type, {file_types(), {}},
              "What the picture is if its name does not say; default: png");
   command
       .add_option("--bits", texts.bits,
                   "Bits a channel of the picture: 8 or 16; of OpenEXR 16 or 32, which are floats")
-      ->check(CLI::IsMember({8, 16, 32}));
+      ->check(CLI::Range(1, 32));
+  add_choice(
+      command, "--grey", texts.grey, {{"on", "off"}, {}},
+      "Whether the picture has the luminance of colours only: PNG and PPM, by default of 16 bits, TGA and "
+      "JPEG");
+  command
+      .add_option("--file-gamma", texts.file_gamma,
+                  "How colours are encoded in files of 8 and 16 bits a channel; default: sRGB")
+      ->type_name("sRGB|POWER");
+  command.add_option("--jpeg-quality", request.file.jpeg_quality, "Quality of a JPEG, 0 to 100; default: 85")
+      ->check(CLI::Range(0, 100));
+  add_choice(command, "--compression", texts.compression, {{"none", "rle"}, {}},
+             "Whether a TGA has run lengths");
   add_choice(command, "--first-hits", texts.first_hits, {{"on", "off"}, {}},
              "Whether an OpenEXR file has depths, normals and numbers of objects, too");
   add_choice(command, "--picture", texts.picture, {{"on", "off"}, {}}, "Whether the picture is written");
@@ -96,11 +192,15 @@ void finish_output(RenderRequest& request, const OutputTexts& texts) {
   request.output = output_of(request, texts);
   request.film = film_of(request, texts);
   set_format(request, texts);
-  if (request.output != kStandardOutput) return;
-  if (request.stats == kStandardOutput)
+  if (!is_stream_of_bytes(request.output)) return;
+  if (request.output == kStandardOutput && request.stats == kStandardOutput)
     throw InputError("picture and statistics cannot both go to standard output");
-  if (request.animation.is_on() && request.film == FilmFormat::none)
-    throw InputError("an animation goes to standard output as a film, of --file-type y4m");
+  if (!request.animation.is_on() || request.film != FilmFormat::none) return;
+  if (!is_nothing(request.output))
+    throw InputError("an animation goes to " +
+                     (request.output == kStandardOutput ? "standard output" : request.output.string()) +
+                     " as a film, of --file-type y4m");
+  request.output.clear();
 }
 
 } // namespace celltrace::cli

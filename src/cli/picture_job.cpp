@@ -47,9 +47,9 @@ namespace {
 
 template <class... Picture>
 void write(const RenderRequest& request, const std::filesystem::path& path, const Picture&... picture) {
-  if (path != kStandardOutput) return save_image(path, picture...);
+  if (path != kStandardOutput) return save_image(path, picture..., request.file);
   try {
-    write_image(stdout, request.format, picture...);
+    write_image(stdout, request.format, picture..., request.file);
   } catch (const InputError& error) {
     throw InputError(std::string("standard output ") + error.what());
   }
@@ -65,11 +65,9 @@ void save_picture(const RenderRequest& request, const std::filesystem::path& pat
     const EncodedPicture encoded = encode_blocks(picture.image());
     write(request, path, encoded.blocks);
     statistics.block_error = encoded.error;
-  } else if (holds_numbers(request.format)) {
+  } else if (request.options.colours) {
     const ExrOptions exr = {request.bits == 32, request.options.first_hits ? &picture.first_hits() : nullptr};
     write(request, path, picture.colours(), exr);
-  } else if (request.bits == 16) {
-    write(request, path, to_deep_image(picture.colours()));
   } else {
     write(request, path, picture.image());
   }

@@ -79,7 +79,7 @@ int run_render(const RenderRequest& request) {
     check_standard_output_is_open();
     std::signal(SIGPIPE, SIG_IGN); // a reader that is gone is an error like others
   } else if (!request.output.empty()) {
-    check_image_path(request.output);
+    check_image_path(request.output, request.format);
   }
   catch_interrupts();
   const std::string name = request.output.empty()              ? "no picture"

@@ -105,9 +105,7 @@ std::string frame_line(int frame, std::uintmax_t bytes) {
 } // namespace
 
 ResumeState::ResumeState(const fs::path& output, Settings settings) : settings_(std::move(settings)) {
-  std::error_code error;
-  const fs::file_status status = fs::status(output, error);
-  if (output.empty() || output == "-" || (fs::exists(status) && !fs::is_regular_file(status))) return;
+  if (output.empty() || output == "-" || image::is_stream(output)) return;
   journal_ = rows_ = output;
   journal_ += ".resume";
   rows_ += ".rows";

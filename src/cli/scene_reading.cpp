@@ -109,6 +109,7 @@ Settings settings_of(const RenderRequest& request) {
       {"bits", std::to_string(request.bits)},
       {"format", std::to_string(static_cast<int>(request.format))},
       {"alpha", options.alpha ? "on" : "off"},
+      {"colours", options.colours ? "on" : "off"},
       {"first hits", options.first_hits ? "on" : "off"},
       {"backend", name_of(options.backend)},
       {"simd", name_of(options.simd)},

@@ -1,9 +1,12 @@
 // OpenEXR out, by its library; its errors become ours here.
-#include "image/formats.hpp"
+#include "image/format_table.hpp"
+#include "image/rows.hpp"
+#include "image/seekable.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -15,107 +18,131 @@ namespace celltrace::image {
 
 namespace {
 
-/// The file in memory: the library goes back in what it has written, which pipes cannot.
+/// A file as the library writes it: it goes back to where it says how long the parts are.
 class PictureStream : public Imf::OStream {
 public:
-  PictureStream() : OStream("picture") {}
+  PictureStream(std::FILE* file, std::uint64_t expected) : OStream("picture"), file_(file, expected) {}
 
-  void write(const char bytes[], int count) override {
-    const auto end = at_ + static_cast<std::size_t>(count);
-    if (end > data_.size()) data_.resize(end);
-    std::copy_n(bytes, count, data_.begin() + static_cast<std::ptrdiff_t>(at_));
-    at_ = end;
-  }
-  std::uint64_t tellp() override { return at_; }
-  void seekp(std::uint64_t at) override { at_ = at; }
-
-  const std::vector<char>& data() const { return data_; }
+  void write(const char bytes[], int count) override { file_.write(bytes, static_cast<std::size_t>(count)); }
+  std::uint64_t tellp() override { return file_.position(); }
+  void seekp(std::uint64_t at) override { file_.seek(at); }
+  void finish() { file_.finish(); }
 
 private:
-  std::vector<char> data_;
-  std::size_t at_ = 0;
+  SeekableFile file_;
 };
 
-/// The channels of a file and where their pixels lie.
-class Channels {
+/// A channel of a file, and where its pixels are in what is written.
+struct Channel {
+  const char* name;
+  Imf::PixelType type;
+  std::size_t first, stride; ///< in numbers
+  enum { colours, depth, normal, object } source;
+};
+
+class ExrRows : public NumberRows {
 public:
-  Channels(Imf::Header& header, const ColourImage& picture)
-      : header_(header), width_(static_cast<std::size_t>(picture.width)),
-        pixels_(width_ * static_cast<std::size_t>(picture.height)) {}
-
-  template <class Number>
-  void add(const char* name, Imf::PixelType type, const Number* first, std::size_t stride) {
-    header_.channels().insert(name, Imf::Channel(type));
-    // The library takes no pointer to what is constant; it only reads.
-    char* const base = reinterpret_cast<char*>(const_cast<Number*>(first));
-    frame_.insert(name, Imf::Slice(type, base, stride * sizeof(Number), stride * sizeof(Number) * width_));
+  ExrRows(std::FILE* file, const RowFormat& format)
+      : NumberRows(file, format), stream_(file, bytes_expected(format)) {
+    translating([&] {
+      Imf::Header header(static_cast<int>(format.width), static_cast<int>(format.height));
+      for (const Channel& channel : channels())
+        header.channels().insert(channel.name, Imf::Channel(channel.type));
+      out_.emplace(stream_, header);
+    });
   }
-  /// As 16 or 32 bits.
-  void add_floats(const char* name, bool full, const float* first, std::size_t stride) {
-    if (full) return add(name, Imf::FLOAT, first, stride);
-    constexpr float kGreatest = 65504;
-    std::vector<Imath::half>& halves = halves_.emplace_back(pixels_);
-    for (std::size_t i = 0; i < pixels_; ++i)
-      halves[i] = Imath::half(std::clamp(first[i * stride], -kGreatest, kGreatest));
-    add(name, Imf::HALF, halves.data(), 1);
-  }
-
-  const Imf::FrameBuffer& frame() const { return frame_; }
 
 private:
-  Imf::Header& header_;
-  std::size_t width_, pixels_;
-  Imf::FrameBuffer frame_;
-  std::vector<std::vector<Imath::half>> halves_;
+  static std::uint64_t bytes_expected(const RowFormat& format) {
+    const int bytes = format.channels * format.bits / 8 + (format.first_hits ? 20 : 0);
+    return static_cast<std::uint64_t>(format.width * format.height) * static_cast<std::uint64_t>(bytes);
+  }
+
+  std::vector<Channel> channels() const {
+    const Imf::PixelType number = format().bits == 32 ? Imf::FLOAT : Imf::HALF;
+    std::vector<Channel> channels;
+    const char* const names[] = {"R", "G", "B", "A"};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(format().channels); ++i)
+      channels.push_back({names[i], number, i, 4, Channel::colours});
+    if (!format().first_hits) return channels;
+    channels.push_back({"Z", Imf::FLOAT, 0, 1, Channel::depth});
+    channels.push_back({"N.X", number, 0, 3, Channel::normal});
+    channels.push_back({"N.Y", number, 1, 3, Channel::normal});
+    channels.push_back({"N.Z", number, 2, 3, Channel::normal});
+    channels.push_back({"id", Imf::UINT, 0, 1, Channel::object});
+    return channels;
+  }
+
+  /// Lets `work` call the library.
+  template <class Work> static void translating(Work work) {
+    try {
+      work();
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw InputError(std::string("cannot be made an OpenEXR file: ") + error.what());
+    }
+  }
+
+  void put(const float* rgba, int count, const FirstHitRows& hits) override {
+    if (count == 0) return;
+    if (format().first_hits && (hits.depth == nullptr || hits.normal == nullptr || hits.object == nullptr))
+      throw InputError("rows of what is seen first are missing");
+    const std::size_t pixels = width() * static_cast<std::size_t>(count);
+    std::vector<std::vector<Imath::half>> halves;
+    Imf::FrameBuffer frame;
+    for (const Channel& channel : channels()) {
+      const float* const numbers = channel.source == Channel::colours ? rgba
+                                   : channel.source == Channel::depth ? hits.depth
+                                                                      : hits.normal;
+      if (channel.type == Imf::UINT) {
+        add(frame, channel, hits.object, 1);
+      } else if (channel.type == Imf::FLOAT) {
+        add(frame, channel, numbers + channel.first, channel.stride);
+      } else {
+        constexpr float kGreatest = 65504;
+        std::vector<Imath::half>& converted = halves.emplace_back(pixels);
+        for (std::size_t i = 0; i < pixels; ++i)
+          converted[i] =
+              Imath::half(std::clamp(numbers[channel.first + i * channel.stride], -kGreatest, kGreatest));
+        add(frame, channel, converted.data(), 1);
+      }
+    }
+    translating([&] {
+      out_->setFrameBuffer(frame);
+      out_->writePixels(count);
+    });
+    row_ += count;
+  }
+
+  /// `first` is of the next row; the library counts from the picture's first.
+  template <class Number>
+  void add(Imf::FrameBuffer& frame, const Channel& channel, const Number* first, std::size_t stride) const {
+    const std::size_t row_bytes = stride * sizeof(Number) * width();
+    const auto base = reinterpret_cast<std::uintptr_t>(first) - static_cast<std::uintptr_t>(row_) * row_bytes;
+    // The library takes no pointer to what is constant; it only reads.
+    frame.insert(channel.name,
+                 Imf::Slice(channel.type, reinterpret_cast<char*>(base), stride * sizeof(Number), row_bytes));
+  }
+
+  void end() override {
+    translating([&] { out_.reset(); });
+    stream_.finish();
+  }
+
+  PictureStream stream_;
+  std::optional<Imf::OutputFile> out_;
+  std::int64_t row_ = 0; ///< the next one
 };
-
-bool is_opaque(const ColourImage& picture) {
-  for (std::size_t alpha = 3; alpha < picture.rgba.size(); alpha += 4)
-    if (picture.rgba[alpha] != 1) return false;
-  return true;
-}
-
-void check_first_hits(const FirstHits& hits, const ColourImage& picture) {
-  const std::size_t pixels = picture.rgba.size() / 4;
-  if (hits.width != picture.width || hits.height != picture.height || hits.depth.size() != pixels ||
-      hits.normal.size() != 3 * pixels || hits.object.size() != pixels)
-    throw InputError("what is seen first does not match the size of the picture");
-}
 
 } // namespace
 
-void check_has_exr() {
-}
+const bool kHasExr = true;
 
-void write_exr(std::FILE* file, const ColourImage& linear, const ExrOptions& options) {
-  const bool full = options.full_floats;
-  PictureStream bytes;
-  try {
-    Imf::Header header(linear.width, linear.height);
-    Channels channels(header, linear);
-    const float* const colours = linear.rgba.data();
-    channels.add_floats("R", full, colours, 4);
-    channels.add_floats("G", full, colours + 1, 4);
-    channels.add_floats("B", full, colours + 2, 4);
-    if (!is_opaque(linear)) channels.add_floats("A", full, colours + 3, 4);
-    if (options.first_hits != nullptr) {
-      const FirstHits& hits = *options.first_hits;
-      check_first_hits(hits, linear);
-      channels.add("Z", Imf::FLOAT, hits.depth.data(), 1);
-      channels.add_floats("N.X", full, hits.normal.data(), 3);
-      channels.add_floats("N.Y", full, hits.normal.data() + 1, 3);
-      channels.add_floats("N.Z", full, hits.normal.data() + 2, 3);
-      channels.add("id", Imf::UINT, hits.object.data(), 1);
-    }
-    Imf::OutputFile out(bytes, header);
-    out.setFrameBuffer(channels.frame());
-    out.writePixels(linear.height);
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(std::string("cannot be made an OpenEXR file: ") + error.what());
-  }
-  write_bytes(file, bytes.data().data(), bytes.data().size());
+std::unique_ptr<RowWriter> open_exr(std::FILE* file, const RowFormat& format) {
+  return std::make_unique<ExrRows>(file, format);
 }
 
 } // namespace celltrace::image

@@ -16,25 +16,42 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 /// Opens a regular file for reading. Throws InputError without the path ("cannot be opened: ...").
 File open_for_reading(const std::filesystem::path& path);
 
-/// A file that comes into being under another name in the folder of `path` and takes its place on commit();
-/// without commit() it is removed. Links are followed; what is there but no regular file (a device, a pipe)
-/// is written to directly. Not thread safe; several objects for the same path may exist, the last commit()
-/// wins.
+/// Returns where a path leads, also if nothing is there yet.
+std::filesystem::path follow_links(std::filesystem::path path);
+
+/// Returns the descriptor of this process that a path such as /dev/stdout or /dev/fd/3 names; -1: none.
+int descriptor_named(const std::filesystem::path& path);
+
+/// Whether a path names an open descriptor, or something that exists and is neither a regular file nor a
+/// folder: a pipe or a device, to which bytes are written as they come.
+bool is_stream(const std::filesystem::path& path);
+
+/// Throws the InputError that an OutputFile for this path would throw. Nothing is written.
+void check_output(const std::filesystem::path& path);
+
+/// A file that is complete when it takes the name `path`, on commit(); without commit() nothing happens. It
+/// is written under another name in the same folder and renamed. A file that is there keeps its mode, its
+/// owner and its other names (hard links): where renaming would change them, or the folder cannot be written,
+/// the bytes are copied into it. Links are followed; streams are written to directly. Not thread safe;
+/// several objects for the same path may exist, the last commit() wins.
 class OutputFile {
 public:
-  /// Throws InputError if nothing can be written there.
+  /// Throws InputError if nothing can be written there: a file without a permission to write is protected
+  /// from root, too.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
   std::FILE* get() const { return file_.get(); }
-  /// Closes and renames. Throws InputError if a write failed.
+  /// Closes and renames or copies. Throws InputError if a write failed.
   void commit();
 
 private:
-  std::filesystem::path target_;
-  std::filesystem::path temporary_; // empty: the target is written to directly
+  void take_name();
+
+  std::filesystem::path target_;    ///< empty: a stream
+  std::filesystem::path temporary_; ///< empty: a file without a name is to be copied
   File file_;
 };
 

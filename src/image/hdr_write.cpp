@@ -1,10 +1,14 @@
 // Radiance's pictures (RGBE), after Ward, "Real Pixels" (Graphics Gems II, 1991): three mantissas of 8 bits
 // and one exponent a pixel, in run-length encoded rows.
+#include "image/format_table.hpp"
 #include "image/formats.hpp"
+#include "image/rows.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace celltrace::image {
 
@@ -59,29 +63,42 @@ void append_runs(const std::vector<Pixel>& row, std::size_t channel, std::string
   }
 }
 
+class HdrRows : public NumberRows {
+public:
+  HdrRows(std::FILE* file, const RowFormat& format) : NumberRows(file, format), row_(width()) {
+    const std::string header = "#?RADIANCE\nSOFTWARE=celltrace\nFORMAT=32-bit_rle_rgbe\n\n-Y " +
+                               std::to_string(format.height) + " +X " + std::to_string(format.width) + "\n";
+    write_bytes(file, header.data(), header.size());
+  }
+
+private:
+  void put(const float* rgba, int count, const FirstHitRows&) override {
+    constexpr std::size_t kLeastWidth = 8, kGreatestWidth = 32767; // of rows that may be encoded
+    for (int y = 0; y < count; ++y) {
+      for (Pixel& pixel : row_) {
+        pixel = encoded(rgba);
+        rgba += 4;
+      }
+      std::string out;
+      if (width() >= kLeastWidth && width() <= kGreatestWidth) {
+        out = {2, 2, static_cast<char>(width() >> 8), static_cast<char>(width() & 0xFF)};
+        for (std::size_t channel = 0; channel < 4; ++channel)
+          append_runs(row_, channel, out);
+      } else {
+        for (const Pixel& pixel : row_)
+          out.append(pixel.begin(), pixel.end());
+      }
+      write_bytes(file(), out.data(), out.size());
+    }
+  }
+
+  std::vector<Pixel> row_;
+};
+
 } // namespace
 
-void write_hdr(std::FILE* file, const ColourImage& linear) {
-  const std::string header = "#?RADIANCE\nSOFTWARE=celltrace\nFORMAT=32-bit_rle_rgbe\n\n-Y " +
-                             std::to_string(linear.height) + " +X " + std::to_string(linear.width) + "\n";
-  write_bytes(file, header.data(), header.size());
-  constexpr int kLeastWidth = 8, kGreatestWidth = 32767; // of rows that may be encoded
-  const bool has_runs = linear.width >= kLeastWidth && linear.width <= kGreatestWidth;
-  std::vector<Pixel> row(static_cast<std::size_t>(linear.width));
-  for (int y = 0; y < linear.height; ++y) {
-    for (int x = 0; x < linear.width; ++x)
-      row[static_cast<std::size_t>(x)] = encoded(linear.pixel(x, y));
-    std::string out;
-    if (has_runs) {
-      out = {2, 2, static_cast<char>(linear.width >> 8), static_cast<char>(linear.width & 0xFF)};
-      for (std::size_t channel = 0; channel < 4; ++channel)
-        append_runs(row, channel, out);
-    } else {
-      for (const Pixel& pixel : row)
-        out.append(pixel.begin(), pixel.end());
-    }
-    write_bytes(file, out.data(), out.size());
-  }
+std::unique_ptr<RowWriter> open_hdr(std::FILE* file, const RowFormat& format) {
+  return std::make_unique<HdrRows>(file, format);
 }
 
 } // namespace celltrace::image

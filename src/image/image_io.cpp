@@ -1,56 +1,106 @@
-// Chooses the format and names the file in errors.
+// Whole pictures to and from files: chooses the format and names the file in errors.
 #include "image/file.hpp"
+#include "image/format_table.hpp"
 #include "image/formats.hpp"
 #include "image/limits.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
+#include <limits>
 #include <new>
+#include <string_view>
 #include <system_error>
+#include <type_traits>
 
 namespace celltrace {
 namespace fs = std::filesystem;
 
 namespace {
 
-ImageFormat format_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".png") return ImageFormat::png;
-  if (extension == ".ppm") return ImageFormat::ppm;
-  if (extension == ".hdr") return ImageFormat::hdr;
-  if (extension == ".exr") {
-    image::check_has_exr();
-    return ImageFormat::exr;
+/// By the extension, unless the caller knows the format.
+const image::FormatRow& format_of(const fs::path& path, std::optional<ImageFormat> known) {
+  const image::FormatRow* const row =
+      known ? &image::row_of(*known) : image::find_format(path.extension().string());
+  if (row == nullptr)
+    throw InputError("the picture formats that can be written are " +
+                     image::extensions_of([](const image::FormatRow&) { return true; }));
+  image::check_is_there(*row);
+  return *row;
+}
+
+void check_kind(const image::FormatRow& row, image::Pixels given) {
+  using image::Pixels;
+  if (row.pixels == given || (row.pixels == Pixels::encoded && given == Pixels::numbers)) return;
+  const char* const name = row.pixels == Pixels::blocks    ? "blocks of pixels"
+                           : row.pixels == Pixels::numbers ? "colours as numbers"
+                                                           : "encoded pixels";
+  throw InputError(std::string(row.name) + " is for " + name);
+}
+
+template <class Channel> bool is_opaque(const BasicImage<Channel>& image) {
+  if constexpr (std::is_floating_point_v<Channel>) {
+    for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4)
+      if (image.rgba[alpha] != 1) return false;
+    return true;
+  } else {
+    constexpr Channel kOpaque = std::numeric_limits<Channel>::max();
+    Channel all = kOpaque;
+    for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4)
+      all &= image.rgba[alpha];
+    return all == kOpaque;
   }
-  if (extension == ".dds") return ImageFormat::dds;
-  throw InputError("the picture formats that can be written are .png, .ppm, .exr, .hdr and .dds");
 }
 
 template <class Channel>
-void write_encoded(std::FILE* file, ImageFormat format, const BasicImage<Channel>& image) {
-  image::check_image(image);
-  if (format == ImageFormat::png)
-    image::write_png(file, image);
-  else if (format == ImageFormat::ppm)
-    image::write_ppm(file, image);
-  else
-    throw InputError(format == ImageFormat::dds ? "a DirectDraw surface is for blocks of pixels"
-                                                : "OpenEXR and Radiance files are for colours as numbers");
+image::RowFormat rows_of(const BasicImage<Channel>& image, const FileOptions& options, bool has_alpha) {
+  image::RowFormat rows;
+  rows.width = image.width;
+  rows.height = image.height;
+  rows.channels = (options.grey ? 1 : 3) + (has_alpha && options.alpha.value_or(!is_opaque(image)) ? 1 : 0);
+  rows.bits = 8 * sizeof(Channel);
+  rows.gamma = options.gamma;
+  rows.jpeg_quality = options.jpeg_quality;
+  rows.run_lengths = options.run_lengths;
+  return rows;
 }
 
-void write_numbers(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr) {
+template <class Channel>
+void write_encoded(std::FILE* file, ImageFormat format, const BasicImage<Channel>& image,
+                   const FileOptions& options) {
+  image::check_image(image);
+  const image::FormatRow& row = image::row_of(format);
+  check_kind(row, image::Pixels::encoded);
+  const auto out = image::open_rows(file, format, rows_of(image, options, row.alpha));
+  out->write(image.rgba.data(), image.height);
+  out->finish();
+}
+
+void check_first_hits(const FirstHits& hits, const ColourImage& picture) {
+  const std::size_t pixels = picture.rgba.size() / 4;
+  if (hits.width != picture.width || hits.height != picture.height || hits.depth.size() != pixels ||
+      hits.normal.size() != 3 * pixels || hits.object.size() != pixels)
+    throw InputError("what is seen first does not match the size of the picture");
+}
+
+void write_numbers(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr,
+                   const FileOptions& options) {
   image::check_image(colours);
-  if (!holds_numbers(format)) throw InputError("colours as numbers are for OpenEXR and Radiance files");
-  const ColourImage linear = image::to_linear(colours);
-  if (format == ImageFormat::hdr)
-    image::write_hdr(file, linear);
-  else
-    image::write_exr(file, linear, exr);
+  const image::FormatRow& row = image::row_of(format);
+  check_kind(row, image::Pixels::numbers);
+  image::RowFormat rows = rows_of(colours, options, row.alpha);
+  rows.colour_gamma = colours.gamma;
+  rows.bits = row.pixels == image::Pixels::encoded ? options.bits
+              : format == ImageFormat::exr         ? (exr.full_floats ? 32 : 16)
+                                                   : row.bits[0];
+  image::FirstHitRows hits;
+  if (format == ImageFormat::exr && exr.first_hits != nullptr) {
+    check_first_hits(*exr.first_hits, colours);
+    rows.first_hits = true;
+    hits = {exr.first_hits->depth.data(), exr.first_hits->normal.data(), exr.first_hits->object.data()};
+  }
+  const auto out = image::open_rows(file, format, rows);
+  out->write(colours.rgba.data(), colours.height, hits);
+  out->finish();
 }
 
 void write_blocks(std::FILE* file, ImageFormat format, const BlockImage& blocks) {
@@ -65,13 +115,26 @@ void flush(std::FILE* file) {
     throw InputError("cannot be written: " + std::generic_category().message(errno));
 }
 
+/// The formats that are read, by the bytes they begin with.
+struct Reader {
+  std::string_view magic;
+  Image (*read)(std::FILE*, std::uintmax_t);
+};
+constexpr Reader kReaders[] = {
+    {"\x89PNG\r\n\x1a\n", image::read_png},
+    {"P6", image::read_ppm},
+    {"BM", image::read_bmp},
+    {"\xFF\xD8\xFF", image::read_jpeg},
+};
+
 Image load(std::FILE* file, std::uintmax_t file_bytes) {
-  unsigned char magic[8] = {};
-  const std::size_t have = std::fread(magic, 1, sizeof magic, file);
+  char bytes[8] = {};
+  const std::string_view begin(bytes, std::fread(bytes, 1, sizeof bytes, file));
   std::rewind(file);
-  if (have == 8 && std::memcmp(magic, "\x89PNG\r\n\x1a\n", 8) == 0) return image::read_png(file, file_bytes);
-  if (have >= 2 && std::memcmp(magic, "P6", 2) == 0) return image::read_ppm(file, file_bytes);
-  throw InputError(have == 0 ? "is empty" : "is neither a PNG nor a binary PPM (P6)");
+  for (const Reader& reader : kReaders)
+    if (begin.substr(0, reader.magic.size()) == reader.magic) return reader.read(file, file_bytes);
+  if (image::is_tga(file, file_bytes)) return image::read_tga(file, file_bytes);
+  throw InputError(begin.empty() ? "is empty" : "is neither a PNG nor a binary PPM (P6), BMP, JPEG or TGA");
 }
 
 /// What `write` writes to a stream that it is given.
@@ -105,9 +168,9 @@ template <class Work> auto naming_the_file(const fs::path& path, Work work) {
 }
 
 /// `write` gets the stream and the format.
-template <class Write> void save(const fs::path& path, Write write) {
+template <class Write> void save(const fs::path& path, std::optional<ImageFormat> known, Write write) {
   naming_the_file(path, [&] {
-    const ImageFormat format = format_of(path);
+    const ImageFormat format = format_of(path, known).format;
     image::OutputFile file(path);
     write(file.get(), format);
     file.commit();
@@ -117,59 +180,59 @@ template <class Write> void save(const fs::path& path, Write write) {
 } // namespace
 
 ImageFormat image_format_of(const fs::path& path) {
-  return naming_the_file(path, [&] { return format_of(path); });
+  return naming_the_file(path, [&] { return format_of(path, {}).format; });
 }
 
-void save_image(const fs::path& path, const Image& image) {
-  save(path, [&](std::FILE* file, ImageFormat format) { write_encoded(file, format, image); });
+void save_image(const fs::path& path, const Image& image, const FileOptions& options) {
+  save(path, options.format,
+       [&](std::FILE* file, ImageFormat format) { write_encoded(file, format, image, options); });
 }
-void save_image(const fs::path& path, const DeepImage& image) {
-  save(path, [&](std::FILE* file, ImageFormat format) { write_encoded(file, format, image); });
+void save_image(const fs::path& path, const DeepImage& image, const FileOptions& options) {
+  save(path, options.format,
+       [&](std::FILE* file, ImageFormat format) { write_encoded(file, format, image, options); });
 }
-void save_image(const fs::path& path, const ColourImage& colours, const ExrOptions& exr) {
-  save(path, [&](std::FILE* file, ImageFormat format) { write_numbers(file, format, colours, exr); });
+void save_image(const fs::path& path, const ColourImage& colours, const ExrOptions& exr,
+                const FileOptions& options) {
+  save(path, options.format,
+       [&](std::FILE* file, ImageFormat format) { write_numbers(file, format, colours, exr, options); });
+}
+void save_image(const fs::path& path, const BlockImage& blocks, const FileOptions& options) {
+  save(path, options.format,
+       [&](std::FILE* file, ImageFormat format) { write_blocks(file, format, blocks); });
 }
 
-void save_image(const fs::path& path, const BlockImage& blocks) {
-  save(path, [&](std::FILE* file, ImageFormat format) { write_blocks(file, format, blocks); });
+void write_image(std::FILE* file, ImageFormat format, const Image& image, const FileOptions& options) {
+  write_encoded(file, format, image, options);
 }
-
-void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks) {
+void write_image(std::FILE* file, ImageFormat format, const DeepImage& image, const FileOptions& options) {
+  write_encoded(file, format, image, options);
+}
+void write_image(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr,
+                 const FileOptions& options) {
+  write_numbers(file, format, colours, exr, options);
+}
+void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks, const FileOptions&) {
   write_blocks(file, format, blocks);
   flush(file);
 }
-void write_image(std::FILE* file, ImageFormat format, const Image& image) {
-  write_encoded(file, format, image);
-  flush(file);
-}
-void write_image(std::FILE* file, ImageFormat format, const DeepImage& image) {
-  write_encoded(file, format, image);
-  flush(file);
-}
-void write_image(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr) {
-  write_numbers(file, format, colours, exr);
-  flush(file);
-}
 
-void check_image_path(const fs::path& path) {
+void check_image_path(const fs::path& path, std::optional<ImageFormat> format) {
   naming_the_file(path, [&] {
-    format_of(path);
-    std::error_code error;
-    if (fs::is_directory(path, error)) throw InputError("is a folder");
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, error)) throw InputError("there is no folder " + folder.string());
+    format_of(path, format);
+    image::check_output(path);
   });
 }
 
-std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format) {
-  return written_by([&](std::FILE* stream) { write_encoded(stream, format, image); });
+std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format, const FileOptions& options) {
+  return written_by([&](std::FILE* stream) { write_encoded(stream, format, image, options); });
 }
-std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format) {
-  return written_by([&](std::FILE* stream) { write_encoded(stream, format, image); });
+std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format,
+                                       const FileOptions& options) {
+  return written_by([&](std::FILE* stream) { write_encoded(stream, format, image, options); });
 }
-std::vector<std::uint8_t> encode_image(const ColourImage& colours, ImageFormat format,
-                                       const ExrOptions& exr) {
-  return written_by([&](std::FILE* stream) { write_numbers(stream, format, colours, exr); });
+std::vector<std::uint8_t> encode_image(const ColourImage& colours, ImageFormat format, const ExrOptions& exr,
+                                       const FileOptions& options) {
+  return written_by([&](std::FILE* stream) { write_numbers(stream, format, colours, exr, options); });
 }
 std::vector<std::uint8_t> encode_image(const BlockImage& blocks, ImageFormat format) {
   return written_by([&](std::FILE* stream) { write_blocks(stream, format, blocks); });

@@ -1,9 +1,12 @@
-// Binary PPM (P6) as netpbm's manual defines it.
+// Binary PPM (P6), and out PGM (P5), too, as netpbm's manual defines them.
+#include "image/format_table.hpp"
 #include "image/formats.hpp"
 #include "image/limits.hpp"
+#include "image/rows.hpp"
 
 #include <cctype>
-#include <limits>
+#include <string>
+#include <vector>
 
 namespace celltrace::image {
 
@@ -67,21 +70,41 @@ Image read_ppm(std::FILE* file, std::uintmax_t file_bytes) {
   return image;
 }
 
-template <class Channel> void write_ppm(std::FILE* file, const BasicImage<Channel>& image) {
-  std::fprintf(file, "P6\n%d %d\n%d\n", image.width, image.height, std::numeric_limits<Channel>::max());
-  std::vector<std::uint8_t> row(3 * sizeof(Channel) * static_cast<std::size_t>(image.width));
-  for (int y = 0; y < image.height; ++y) {
-    std::uint8_t* target = row.data();
-    for (int x = 0; x < image.width; ++x)
-      for (int channel = 0; channel < 3; ++channel) {
-        const Channel value = image.pixel(x, y)[channel];
-        if constexpr (sizeof(Channel) == 2) *target++ = static_cast<std::uint8_t>(value >> 8);
-        *target++ = static_cast<std::uint8_t>(value);
-      }
-    std::fwrite(row.data(), 1, row.size(), file);
+namespace {
+
+class PpmRows : public EncodedRows {
+public:
+  PpmRows(std::FILE* file, const RowFormat& format) : EncodedRows(file, format) {
+    const std::string header = std::string(is_grey() ? "P5" : "P6") + "\n" + std::to_string(format.width) +
+                               " " + std::to_string(format.height) + "\n" +
+                               (format.bits == 8 ? "255" : "65535") + "\n";
+    write_bytes(file, header.data(), header.size());
+    row_.resize(static_cast<std::size_t>((is_grey() ? 1 : 3) * format.bits / 8) * width());
   }
+
+private:
+  void put(const std::uint8_t* rgba, int count) override { write_rows(rgba, count); }
+  void put(const std::uint16_t* rgba, int count) override { write_rows(rgba, count); }
+  template <class Channel> void write_rows(const Channel* rgba, int count) {
+    const std::size_t channels = is_grey() ? 1 : 3;
+    for (int y = 0; y < count; ++y) {
+      std::uint8_t* target = row_.data();
+      for (std::size_t x = 0; x < width(); ++x, rgba += 4)
+        for (std::size_t channel = 0; channel < channels; ++channel) {
+          if constexpr (sizeof(Channel) == 2) *target++ = static_cast<std::uint8_t>(rgba[channel] >> 8);
+          *target++ = static_cast<std::uint8_t>(rgba[channel]);
+        }
+      write_bytes(file(), row_.data(), row_.size());
+    }
+  }
+
+  std::vector<std::uint8_t> row_;
+};
+
+} // namespace
+
+std::unique_ptr<RowWriter> open_ppm(std::FILE* file, const RowFormat& format) {
+  return std::make_unique<PpmRows>(file, format);
 }
-template void write_ppm(std::FILE* file, const Image& image);
-template void write_ppm(std::FILE* file, const DeepImage& image);
 
 } // namespace celltrace::image

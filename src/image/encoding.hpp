@@ -1,0 +1,41 @@
+// How colours as rays brought them become the values of files.
+#pragma once
+
+#include "celltrace/image.hpp"
+
+#include <cstddef>
+#include <optional>
+
+namespace celltrace::image {
+
+/// What becomes of alpha and of colours.
+enum class Alpha {
+  kept,    ///< colours are divided by their alpha, as files with alpha have them
+  left_out ///< colours stay as they are: in front of black
+};
+
+/// Encodes colours for files of 8 or 16 bits a channel.
+class Encoding {
+public:
+  /// `colour_gamma` as ColourImage::gamma; colours that are for display as they are ignore `file`.
+  explicit Encoding(std::optional<double> colour_gamma, const FileGamma& file = {})
+      : colour_gamma_(colour_gamma), power_(file.power) {}
+
+  /// Returns the encoded value, 0 to 1, of one channel. What is not a number becomes 0.
+  double encoded(double colour) const;
+  /// Encodes `pixels` pixels of four channels. `grey` makes the three colours their luminance.
+  template <class Channel>
+  void encode(const float* rgba, std::size_t pixels, Channel* out, Alpha alpha, bool grey) const;
+
+private:
+  std::optional<double> colour_gamma_;
+  std::optional<double> power_;
+};
+
+/// Returns the light, 0 to 1, that an encoded value from 0 to 1 stands for.
+double decoded(double value, const FileGamma& gamma);
+
+/// Makes the colours of `count` rows linear, in place. `gamma` as ColourImage::gamma.
+void make_linear(float* rgba, std::size_t pixels, std::optional<double> gamma);
+
+} // namespace celltrace::image
