@@ -7,8 +7,11 @@
 #include "image/format_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+
+#include <sys/stat.h>
 
 namespace celltrace::cli {
 
@@ -76,20 +79,21 @@ FileGamma file_gamma_of(const std::string& text) {
 
 /// Returns the bits a channel of the file. POV-Ray, too, takes any number for any format.
 int bits_of(RenderRequest& request, const OutputTexts& texts, const image::FormatRow& row) {
-  const int usual = request.file.grey ? row.bits.back() : row.bits.front(); // as POV-Ray has it
+  const int usual = request.file.grey ? row.holds.bits.back() : row.holds.bits.front(); // as POV-Ray has it
   const int wanted = texts.bits.value_or(usual);
-  for (const int bits : row.bits)
+  for (const int bits : row.holds.bits)
     if (bits == wanted) return bits;
   if (wanted > 16)
     throw InputError("--bits " + std::to_string(wanted) + " is not for pictures of this format");
-  const auto enough = std::find_if(row.bits.begin(), row.bits.end(), [&](int bits) { return bits > wanted; });
-  const int bits = enough != row.bits.end() ? *enough : row.bits.back();
+  const auto enough =
+      std::find_if(row.holds.bits.begin(), row.holds.bits.end(), [&](int bits) { return bits > wanted; });
+  const int bits = enough != row.holds.bits.end() ? *enough : row.holds.bits.back();
   request.notes.push_back("--bits " + std::to_string(wanted) + ": " + row.name + " has " +
                           std::to_string(bits) + " bits a channel here");
   return bits;
 }
 
-/// What a picture's format asks of rendering.
+/// Sets what a picture's format asks of rendering.
 void set_picture_format(RenderRequest& request, const OutputTexts& texts) {
   RenderOptions& options = request.options;
   const bool is_stream = is_stream_of_bytes(request.output);
@@ -98,21 +102,22 @@ void set_picture_format(RenderRequest& request, const OutputTexts& texts) {
   const std::string name = row.name;
   FileOptions& file = request.file;
   file.format = request.format;
-  if (file.grey && !row.grey) throw InputError("--grey: " + name + " has no grey pixels");
+  if (file.grey && !row.holds.grey) throw InputError("--grey: " + name + " has no grey pixels");
   if (file.run_lengths && request.format != ImageFormat::tga)
     throw InputError("--compression rle is for TGA files");
   if (options.first_hits && request.format != ImageFormat::exr)
     throw InputError("--first-hits is for OpenEXR files");
   request.bits = file.bits = bits_of(request, texts, row);
-  if (options.alpha && row.pixels == image::Pixels::blocks) throw InputError(name + " has no alpha");
-  if (options.alpha && row.alpha) file.alpha = true;
-  if (options.alpha && !row.alpha)
+  if (options.alpha && row.holds.pixels == image::Pixels::blocks) throw InputError(name + " has no alpha");
+  if (options.alpha && row.holds.alpha) file.alpha = true;
+  if (options.alpha && !row.holds.alpha)
     request.notes.push_back(name + " has no alpha: the picture is in front of black");
-  options.colours = row.pixels == image::Pixels::numbers ||
-                    (row.pixels == image::Pixels::encoded &&
-                     (request.bits == 16 || file.grey || file.gamma.power || (options.alpha && !row.alpha)));
-  // Of other pictures the blocks are made in the end.
-  options.blocks = row.pixels == image::Pixels::blocks && options.model == Model::shared &&
+  options.colours =
+      row.holds.pixels == image::Pixels::numbers ||
+      (row.holds.pixels == image::Pixels::encoded &&
+       (request.bits == 16 || file.grey || file.gamma.power || (options.alpha && !row.holds.alpha)));
+  // The blocks of other pictures are made in the end.
+  options.blocks = row.holds.pixels == image::Pixels::blocks && options.model == Model::shared &&
                    !options.antialiasing && !options.region;
 }
 
@@ -131,10 +136,11 @@ void set_format(RenderRequest& request, const OutputTexts& texts) {
   if (options.first_hits) throw InputError("--first-hits is for OpenEXR files");
 }
 
-/// /dev/null takes any number of pictures.
+/// Whether it is /dev/null, which takes any number of pictures.
 bool is_nothing(const std::filesystem::path& output) {
-  std::error_code error;
-  return output != kStandardOutput && std::filesystem::equivalent(output, "/dev/null", error);
+  struct stat status, nothing;
+  return output != kStandardOutput && stat(output.c_str(), &status) == 0 &&
+         stat("/dev/null", &nothing) == 0 && S_ISCHR(status.st_mode) && status.st_rdev == nothing.st_rdev;
 }
 
 } // namespace

@@ -8,7 +8,7 @@
 
 namespace celltrace::image {
 
-/// What becomes of alpha and of colours.
+/// The treatment of alpha.
 enum class Alpha {
   kept,    ///< colours are divided by their alpha, as files with alpha have them
   left_out ///< colours stay as they are: in front of black

@@ -43,10 +43,14 @@ fs::path temporary_name(const fs::path& target) {
   throw InputError("cannot be written: " + reason(error));
 }
 
+bool is_writable(const fs::path& path) {
+  return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
+}
+
 /// Throws InputError for a regular file that is there and must not be written.
 void check_permission(const fs::path& file, const struct stat& status) {
   if ((status.st_mode & 0222) == 0) throw InputError("is write-protected");
-  if (access(file.c_str(), W_OK) != 0) fail(errno);
+  if (!is_writable(file)) fail(errno);
 }
 
 /// Gives a new file the mode and the owner of the one whose place it is to take. False: that is not possible,
@@ -160,7 +164,7 @@ void check_output(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
     throw InputError("there is no folder " + (path.has_parent_path() ? path.parent_path() : folder).string());
-  if (access(folder.c_str(), W_OK) != 0) fail(errno);
+  if (!is_writable(folder)) fail(errno);
 }
 
 OutputFile::OutputFile(const fs::path& path) {
@@ -184,7 +188,7 @@ OutputFile::OutputFile(const fs::path& path) {
   if (is_there && S_ISDIR(status.st_mode)) throw InputError("is a folder");
   if (is_there) check_permission(target_, status);
   temporary_ = temporary_name(target_);
-  // What only some may read they alone may read from the beginning.
+  // A file that only some may read is closed to others from the beginning.
   const mode_t mode = is_there ? 0600 : 0666;
   const int descriptor = open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   const int error = errno;

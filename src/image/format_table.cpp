@@ -11,75 +11,41 @@ namespace celltrace::image {
 
 namespace {
 
-constexpr std::int64_t kMostPixels = std::numeric_limits<std::int32_t>::max(); // a side, as 32 bits have it
+constexpr std::int64_t kMostPixels = 1 << 28; // a side: a row has 2^31 bytes at most
 constexpr std::uint64_t kAnySize = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t k32Bits = std::numeric_limits<std::uint32_t>::max();
 
-/// In the order of ImageFormat.
+constexpr bool kGrey = true, kAlpha = true;
+constexpr FormatLimits kLarge = {kMostPixels, kAnySize};
+
+/// The formats, in the order of ImageFormat.
 const std::array<FormatRow, 8>& rows() {
+  using enum Pixels;
+  using F = ImageFormat;
   static const std::array<FormatRow, 8> kRows = {{
-      {ImageFormat::png,
-       "a PNG",
-       {"png"},
-       Pixels::encoded,
-       {8, 16},
-       true,
-       true,
-       kMostPixels,
-       kAnySize,
-       open_png},
-      {ImageFormat::ppm,
-       "a PPM",
-       {"ppm", "pnm"},
-       Pixels::encoded,
-       {8, 16},
-       true,
-       false,
-       kMostPixels,
-       kAnySize,
-       open_ppm},
-      {ImageFormat::exr,
+      {F::png, "a PNG", {"png"}, {encoded, {8, 16}, kGrey, kAlpha}, kLarge, open_png},
+      {F::ppm, "a PPM", {"ppm", "pnm"}, {encoded, {8, 16}, kGrey, !kAlpha}, kLarge, open_ppm},
+      {F::exr,
        "an OpenEXR file",
        {"exr"},
-       Pixels::numbers,
-       {16, 32},
-       false,
-       true,
-       kMostPixels,
-       kAnySize,
+       {numbers, {16, 32}, !kGrey, kAlpha},
+       kLarge,
        open_exr,
        kHasExr ? nullptr : "OpenEXR"},
-      {ImageFormat::hdr,
-       "a Radiance file",
-       {"hdr"},
-       Pixels::numbers,
-       {8},
-       false,
-       false,
-       kMostPixels,
-       kAnySize,
-       open_hdr},
-      {ImageFormat::dds,
+      {F::hdr, "a Radiance file", {"hdr"}, {numbers, {8}, !kGrey, !kAlpha}, kLarge, open_hdr},
+      {F::dds,
        "a DirectDraw surface",
        {"dds"},
-       Pixels::blocks,
-       {8},
-       false,
-       false,
-       kMaxImageSide,
-       k32Bits,
+       {blocks, {8}, !kGrey, !kAlpha},
+       {kMaxImageSide, k32Bits},
        nullptr},
-      {ImageFormat::tga, "a TGA", {"tga"}, Pixels::encoded, {8}, true, true, 65535, k32Bits, open_tga},
-      {ImageFormat::bmp, "a BMP", {"bmp"}, Pixels::encoded, {8}, false, true, kMostPixels, k32Bits, open_bmp},
-      {ImageFormat::jpeg,
+      {F::tga, "a TGA", {"tga"}, {encoded, {8}, kGrey, kAlpha}, {65535, k32Bits}, open_tga},
+      {F::bmp, "a BMP", {"bmp"}, {encoded, {8}, !kGrey, kAlpha}, {kMostPixels, k32Bits}, open_bmp},
+      {F::jpeg,
        "a JPEG",
        {"jpg", "jpeg"},
-       Pixels::encoded,
-       {8},
-       true,
-       false,
-       65500,
-       kAnySize,
+       {encoded, {8}, kGrey, !kAlpha},
+       {65500, kAnySize},
        open_jpeg,
        kHasJpeg ? nullptr : "libjpeg"},
   }};
@@ -96,19 +62,20 @@ void check(const FormatRow& row, const RowFormat& format) {
   if (row.open == nullptr) throw InputError(name + " is for blocks of pixels");
   if (format.width < 1 || format.height < 1)
     throw InputError("a picture of " + size_text(format) + " pixels is empty");
-  if (std::max(format.width, format.height) > row.longest_side)
-    throw InputError(name + " has at most " + std::to_string(row.longest_side) +
+  if (std::max(format.width, format.height) > row.limits.side)
+    throw InputError(name + " has at most " + std::to_string(row.limits.side) +
                      " pixels a side, and the picture " + size_text(format));
-  if (format.channels < 1 || format.channels > 4 || (format.channels < 3 && !row.grey))
-    throw InputError(name + " has no grey pixels");
-  if (std::find(row.bits.begin(), row.bits.end(), format.bits) == row.bits.end())
+  if (format.channels < 1 || format.channels > 4)
+    throw InputError("a picture has 1 to 4 channels, not " + std::to_string(format.channels));
+  if (format.channels < 3 && !row.holds.grey) throw InputError(name + " has no grey pixels");
+  if (std::find(row.holds.bits.begin(), row.holds.bits.end(), format.bits) == row.holds.bits.end())
     throw InputError(name + " has no channels of " + std::to_string(format.bits) + " bits");
   if (format.first_hits && row.format != ImageFormat::exr)
     throw InputError(name + " has no channels of what is seen first");
   // The product of two sides of 31 bits and 8 bytes a channel at most fits.
   const auto pixels = static_cast<std::uint64_t>(format.width) * static_cast<std::uint64_t>(format.height);
   constexpr std::uint64_t kHeader = 1024; // more than any format has besides pixels
-  if (pixels > (row.most_bytes - kHeader) / static_cast<std::uint64_t>(format.channels))
+  if (pixels > (row.limits.bytes - kHeader) / static_cast<std::uint64_t>(format.channels))
     throw InputError("a picture of " + size_text(format) + " pixels is too large for " + name);
 }
 
@@ -129,13 +96,13 @@ const FormatRow* find_format(const std::string& extension) {
   return nullptr;
 }
 
-std::string extensions_of(bool (*is_wanted)(const FormatRow&)) {
-  std::vector<std::string> names;
-  for (const FormatRow& row : rows())
-    if (is_wanted(row)) names.push_back("." + std::string(row.extensions[0]));
+std::string extensions() {
   std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    list += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+  for (const FormatRow& row : rows()) {
+    if (&row != &rows().front()) list += &row == &rows().back() ? " and " : ", ";
+    list += '.';
+    list += row.extensions[0];
+  }
   return list;
 }
 
@@ -149,7 +116,8 @@ std::unique_ptr<RowWriter> open_rows(std::FILE* file, ImageFormat format, const 
   const FormatRow& row = row_of(format);
   check(row, rows);
   RowFormat stored = rows;
-  if (!row.alpha) stored.channels = rows.channels < 3 ? 1 : 3;
+  if (!row.holds.alpha) stored.channels = rows.channels < 3 ? 1 : 3;
+  if (!rows.colour_gamma) stored.gamma = {}; // colours are as they are, which readers take for sRGB
   return row.open(file, stored);
 }
 

@@ -11,11 +11,22 @@
 
 namespace celltrace::image {
 
-/// What pictures are made of.
+/// The kinds of pictures.
 enum class Pixels {
   encoded, ///< Image and DeepImage
   numbers, ///< ColourImage
   blocks   ///< BlockImage
+};
+
+struct FormatChannels {
+  Pixels pixels;
+  std::vector<int> bits; ///< a channel, the usual number first
+  bool grey, alpha;      ///< whether the format has these
+};
+
+struct FormatLimits {
+  std::int64_t side;   ///< pixels
+  std::uint64_t bytes; ///< of a file
 };
 
 /// A picture format.
@@ -23,20 +34,17 @@ struct FormatRow {
   ImageFormat format;
   const char* name;                         ///< for people, with its article
   std::vector<std::string_view> extensions; ///< lower case, without their dot; POV-Ray's first
-  Pixels pixels;
-  std::vector<int> bits; ///< a channel, the usual number first
-  bool grey, alpha;      ///< whether it has these
-  std::int64_t longest_side;
-  std::uint64_t most_bytes;                                         ///< of a file
-  std::unique_ptr<RowWriter> (*open)(std::FILE*, const RowFormat&); ///< null: not made of rows
+  FormatChannels holds;
+  FormatLimits limits;
+  std::unique_ptr<RowWriter> (*open)(std::FILE*, const RowFormat&); ///< null: the format is not made of rows
   const char* absent = nullptr; ///< a library that this build lacks for the format; null: it has all
 };
 
 const FormatRow& row_of(ImageFormat format);
 /// Returns null if no format has this extension, which may be of either case and has a dot.
 const FormatRow* find_format(const std::string& extension);
-/// Returns the extensions that can be written: ".png, .ppm and .dds".
-std::string extensions_of(bool (*is_wanted)(const FormatRow&));
+/// Returns one extension of each format: ".png, .ppm and .dds".
+std::string extensions();
 /// Throws InputError if the build cannot write the format.
 void check_is_there(const FormatRow& row);
 

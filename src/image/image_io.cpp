@@ -21,19 +21,17 @@ namespace {
 const image::FormatRow& format_of(const fs::path& path, std::optional<ImageFormat> known) {
   const image::FormatRow* const row =
       known ? &image::row_of(*known) : image::find_format(path.extension().string());
-  if (row == nullptr)
-    throw InputError("the picture formats that can be written are " +
-                     image::extensions_of([](const image::FormatRow&) { return true; }));
+  if (row == nullptr) throw InputError("the picture formats that can be written are " + image::extensions());
   image::check_is_there(*row);
   return *row;
 }
 
 void check_kind(const image::FormatRow& row, image::Pixels given) {
   using image::Pixels;
-  if (row.pixels == given || (row.pixels == Pixels::encoded && given == Pixels::numbers)) return;
-  const char* const name = row.pixels == Pixels::blocks    ? "blocks of pixels"
-                           : row.pixels == Pixels::numbers ? "colours as numbers"
-                                                           : "encoded pixels";
+  if (row.holds.pixels == given || (row.holds.pixels == Pixels::encoded && given == Pixels::numbers)) return;
+  const char* const name = row.holds.pixels == Pixels::blocks    ? "blocks of pixels"
+                           : row.holds.pixels == Pixels::numbers ? "colours as numbers"
+                                                                 : "encoded pixels";
   throw InputError(std::string(row.name) + " is for " + name);
 }
 
@@ -70,7 +68,7 @@ void write_encoded(std::FILE* file, ImageFormat format, const BasicImage<Channel
   image::check_image(image);
   const image::FormatRow& row = image::row_of(format);
   check_kind(row, image::Pixels::encoded);
-  const auto out = image::open_rows(file, format, rows_of(image, options, row.alpha));
+  const auto out = image::open_rows(file, format, rows_of(image, options, row.holds.alpha));
   out->write(image.rgba.data(), image.height);
   out->finish();
 }
@@ -87,11 +85,11 @@ void write_numbers(std::FILE* file, ImageFormat format, const ColourImage& colou
   image::check_image(colours);
   const image::FormatRow& row = image::row_of(format);
   check_kind(row, image::Pixels::numbers);
-  image::RowFormat rows = rows_of(colours, options, row.alpha);
+  image::RowFormat rows = rows_of(colours, options, row.holds.alpha);
   rows.colour_gamma = colours.gamma;
-  rows.bits = row.pixels == image::Pixels::encoded ? options.bits
-              : format == ImageFormat::exr         ? (exr.full_floats ? 32 : 16)
-                                                   : row.bits[0];
+  rows.bits = row.holds.pixels == image::Pixels::encoded ? options.bits
+              : format == ImageFormat::exr               ? (exr.full_floats ? 32 : 16)
+                                                         : row.holds.bits[0];
   image::FirstHitRows hits;
   if (format == ImageFormat::exr && exr.first_hits != nullptr) {
     check_first_hits(*exr.first_hits, colours);

@@ -20,7 +20,7 @@ namespace {
 
 /// libdeflate's levels 2 to 4 are equally fast on rendered pictures; below, it is slower and compresses less.
 constexpr int kLevel = 4;
-constexpr int kStreamLevel = 3; ///< zlib's
+constexpr int kStreamLevel = 4; ///< zlib's, whose files are as large
 /// Bytes of pixels that are compressed at once.
 constexpr std::uint64_t kMostAtOnce = 64u << 20;
 
@@ -87,7 +87,7 @@ void filter_row(int channels, const Channel* row, const Channel* above, std::uin
   kByChannels[channels - 1](row, above, target, width);
 }
 
-/// What becomes of rows that are filtered.
+/// Takes rows that are filtered.
 class Compressor {
 public:
   virtual ~Compressor() = default;
@@ -129,7 +129,8 @@ private:
 class StreamCompressor : public Compressor {
 public:
   StreamCompressor() : out_(1u << 20) {
-    if (deflateInit2(&stream_, kStreamLevel, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_FILTERED) != Z_OK)
+    if (deflateInit2(&stream_, kStreamLevel, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) !=
+        Z_OK)
       throw std::bad_alloc();
     begin_chunk();
   }

@@ -1,4 +1,5 @@
-// What the writers of row_writer.hpp share: they count rows, convert them, and say what a file does not hold.
+// The common part of the writers of row_writer.hpp: counting and converting rows, and refusing what a file
+// does not hold.
 #pragma once
 
 #include "image/encoding.hpp"

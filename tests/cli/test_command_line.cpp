@@ -1,5 +1,6 @@
 #include "cli/command_line.hpp"
 #include "cli/machine_options.hpp"
+#include "cli/output_options.hpp"
 
 #include "celltrace/error.hpp"
 
@@ -372,6 +373,63 @@ TEST_CASE("regions count as POV-Ray does") {
   CHECK_THAT(render_error({"--clock", "inf"}), Contains("--clock"));
 }
 
+TEST_CASE("the picture's name by POV-Ray's rule") {
+  // As povray 3.7 names its pictures; the scene is b/q.pov.
+  const auto name = [](const std::string& given, const std::string& type) {
+    return pov_output(given, "b/q.pov", "." + type).string();
+  };
+  CHECK(name("out", "png") == "out.png");
+  CHECK(name("out.png", "png") == "out.png");
+  CHECK(name("out.foo", "png") == "out.foo.png");
+  CHECK(name("out.jpg", "png") == "out.jpg.png");
+  CHECK(name("out.jpeg", "jpg") == "out.jpeg.jpg");
+  CHECK(name("out.PNG", "png") == "out.PNG.png");
+  CHECK(name("out.", "png") == "out.png");
+  CHECK(name("out..", "png") == "out..png");
+  CHECK(name("out.png.", "png") == "out.png.png");
+  CHECK(name("dir/", "tga") == "dir/q.tga");
+  CHECK(name("dir.d/x", "png") == "dir.d/x.png");
+  CHECK(name("dir.png/x", "png") == "dir.png/x.png");
+  CHECK(name(".hidden", "png") == ".hidden.png");
+  CHECK(name(".", "png") == ".png");
+  CHECK(name(".png", "png") == "q.png");
+  CHECK(name("dir/.png", "png") == "dir/q.png");
+  CHECK(name("", "png") == "q.png");
+
+  const auto output = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "b/a.pov");
+    return render_request(std::move(arguments)).output;
+  };
+  CHECK(output({"--pov-output", "x.jpg"}) == "x.jpg.png");
+  CHECK(output({"--pov-output", "x.jpg", "--file-type", "jpg"}) == "x.jpg");
+  CHECK(output({"--pov-output", "x", "--file-type", "jpeg"}) == "x.jpg");
+  CHECK(output({"--pov-output", "x.mp4"}) == "x.mp4"); // no file of POV-Ray's
+  CHECK(output({"--pov-output", "x", "-o", "y.ppm"}) == "y.ppm");
+  CHECK(output({"--pov-output", "-"}) == "-");
+  CHECK(output({"--pov-output", "/dev/null"}) == "/dev/null");
+}
+
+TEST_CASE("how a picture is stored") {
+  CHECK_FALSE(render_request({"a.pov"}).file.alpha);
+  CHECK(render_request({"a.pov"}).file.jpeg_quality == 85);
+  CHECK(render_request({"a.pov", "--jpeg-quality", "0"}).file.jpeg_quality == 0);
+  CHECK_THAT(render_error({"--jpeg-quality", "101"}), Contains("--jpeg-quality"));
+  CHECK(render_request({"a.pov", "-o", "a.tga", "--compression", "rle"}).file.run_lengths);
+  CHECK_THAT(render_error({"--compression", "rle"}), Contains("TGA"));
+  CHECK_THAT(render_error({"--grey", "on", "-o", "a.bmp"}), Contains("no grey"));
+  CHECK_THAT(render_error({"--grey", "on", "-o", "a.y4m"}), Contains("films"));
+  for (const std::string gamma : {"sRGB", "srgb", "SRGB"}) {
+    const RenderRequest request = render_request({"a.pov", "--file-gamma", gamma});
+    CHECK(request.file.gamma == FileGamma());
+    CHECK_FALSE(request.options.colours);
+  }
+  const RenderRequest linear = render_request({"a.pov", "--file-gamma", "1.0"});
+  CHECK(linear.file.gamma.power == 1.0);
+  CHECK(linear.options.colours);
+  for (const std::string gamma : {"0", "-1", "abc", "1x", "inf", "nan", ""})
+    CHECK_THAT(render_error({"--file-gamma", gamma}), Contains("--file-gamma"));
+}
+
 TEST_CASE("the picture's name and type") {
   const auto output = [](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "b/a.pov");
@@ -381,6 +439,11 @@ TEST_CASE("the picture's name and type") {
   CHECK(output({"-o", "x"}) == "x.png");
   CHECK(output({"-o", "x", "--file-type", "ppm"}) == "x.ppm");
   CHECK(output({"-o", "x.PPM", "--file-type", "ppm"}) == "x.PPM");
+  CHECK(output({"-o", "x.jpeg", "--file-type", "jpg"}) == "x.jpeg");
+  CHECK(output({"-o", "/dev/null"}) == "/dev/null");
+  CHECK(output({"-o", "/dev/null", "--final-frame", "2"}).empty());
+  CHECK_THAT(render_error({"-o", "/dev/fd/1", "--final-frame", "2"}), Contains("as a film"));
+  CHECK(render_request({"a.pov", "-o", "/dev/fd/1", "--file-type", "y4m"}).film == FilmFormat::y4m);
   CHECK(output({"-o", "x/"}) == "x/a.png");
   CHECK(output({"--picture", "off"}).empty());
   CHECK_THAT(render_error({"-o", "x.png", "--file-type", "ppm"}), Contains("x.png") && Contains("ppm"));
@@ -389,14 +452,33 @@ TEST_CASE("the picture's name and type") {
   CHECK(output({"--format", "dds"}) == "a.dds");
   CHECK_FALSE(render_request({"a.pov"}).options.colours);
   CHECK(render_request({"a.pov", "--bits", "16"}).options.colours);
-  CHECK_THAT(render_error({"--bits", "12"}), Contains("--bits"));
+  CHECK_THAT(render_error({"--bits", "33"}), Contains("--bits"));
   CHECK_THAT(render_error({"--bits", "32"}), Contains("--bits 32"));
-  CHECK_THAT(render_error({"--format", "hdr", "--bits", "16"}), Contains("--bits 16"));
+  // POV-Ray takes any number for any format.
+  const auto bits = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "a.pov");
+    const RenderRequest request = render_request(std::move(arguments));
+    return std::make_pair(request.bits, request.notes.size());
+  };
+  CHECK(bits({"--bits", "12"}) == std::make_pair(16, std::size_t{1}));
+  CHECK(bits({"--bits", "5"}) == std::make_pair(8, std::size_t{1}));
+  CHECK(bits({"--format", "hdr", "--bits", "16"}) == std::make_pair(8, std::size_t{1}));
+  CHECK(bits({"--format", "exr", "--bits", "8"}) == std::make_pair(16, std::size_t{1}));
+  CHECK(bits({"--format", "jpg", "--bits", "8"}) == std::make_pair(8, std::size_t{0}));
+  CHECK(bits({"--grey", "on"}) == std::make_pair(16, std::size_t{0}));
+  CHECK(bits({"--grey", "on", "--bits", "8"}) == std::make_pair(8, std::size_t{0}));
+  CHECK(bits({"--grey", "on", "--format", "tga"}) == std::make_pair(8, std::size_t{0}));
   CHECK(render_request({"a.pov", "-o", "a.hdr"}).options.colours);
   CHECK(render_request({"a.pov", "-o", "a.dds"}).options.blocks);
   CHECK(render_request({"a.pov", "--alpha", "on"}).options.alpha);
   CHECK_THAT(render_error({"--alpha", "on", "-o", "a.dds"}), Contains("alpha"));
-  CHECK_THAT(render_error({"--alpha", "on", "-o", "a.ppm"}), Contains("alpha"));
+  CHECK(render_request({"a.pov", "--alpha", "on"}).file.alpha == true);
+  CHECK(render_request({"a.pov", "--alpha", "on", "-o", "a.tga"}).notes.empty());
+  const RenderRequest opaque = render_request({"a.pov", "--alpha", "on", "-o", "a.ppm"});
+  CHECK(opaque.options.alpha);
+  CHECK(opaque.options.colours);
+  CHECK(opaque.notes.size() == 1);
+  CHECK_THAT(render_error({"--alpha", "on", "-o", "a.y4m"}), Contains("alpha"));
   CHECK_THAT(render_error({"--first-hits", "on"}), Contains("--first-hits"));
   CHECK_THAT(render_error({"-o", "-", "--stats", "-"}), Contains("standard output"));
   CHECK(render_request({"a.pov", "--clock", "0.5"}).clock == 0.5);

@@ -32,7 +32,7 @@ bool has_openexr(const TemporaryFolder& folder) {
 
 TEST_CASE("a picture goes to stdout as it goes to a file") {
   const TemporaryFolder folder;
-  std::vector<std::string> formats = {"png", "ppm", "hdr", "dds"};
+  std::vector<std::string> formats = {"png", "ppm", "hdr", "dds", "tga", "bmp", "jpg"};
   if (has_openexr(folder)) formats.push_back("exr");
   for (const std::string& format : formats) {
     CAPTURE(format);
@@ -55,7 +55,7 @@ TEST_CASE("a stdout that is full, closed or has no reader any more is an error")
       "cd '" + folder.path().string() +
       "' && rm -f pipe && mkfifo pipe && exec 3<>pipe && exec 4>pipe && exec 3>&- && '" +
       CELLTRACE_PROGRAM "' '" + kScene + "' -W 100 -H 60 --quiet -o - 2>err.txt --format ";
-  for (const std::string format : {"png", "ppm", "hdr", "dds"})
+  for (const std::string format : {"png", "ppm", "hdr", "dds", "tga", "bmp", "jpg"})
     for (const std::string where : {" >/dev/full", " >&-", " >&4"}) {
       const std::string command = begin + format + where;
       CAPTURE(command);
