@@ -7,6 +7,7 @@
 #include "cli/replay_command.hpp"
 #include "cli/spu_command.hpp"
 #include "cli/study_command.hpp"
+#include "cli/used_files.hpp"
 #include "cli/view_command.hpp"
 
 #include <algorithm>
@@ -37,6 +38,12 @@ void keep_freed_memory() {
 #endif
 }
 
+int run_with_files(RenderRequest render) {
+  const bool has_all = prepare_outputs(render);
+  const int code = run_render(render);
+  return code == 0 && !has_all ? 1 : code;
+}
+
 int run(const char* program, const std::vector<std::string>& arguments) {
   const auto [request, notes] = read_invocation(program, arguments);
   if (const auto* information = std::get_if<InformationRequest>(&request)) {
@@ -53,8 +60,7 @@ int run(const char* program, const std::vector<std::string>& arguments) {
     print_notes(notes);
     print_notes(render.notes);
   }
-  prepare_outputs(render);
-  return run_render(render);
+  return run_with_files(render);
 }
 
 /// For errors: `spu` leaves 1 to the programs that it runs.

@@ -1,7 +1,6 @@
 // Where reports go.
 #pragma once
 
-#include "cli/command_line.hpp"
 #include "image/file.hpp"
 
 #include <cstdint>
@@ -54,10 +53,6 @@ private:
 /// Writes all of a report at once. `where` is a file, or "-" for stdout. Throws InputError if it cannot be
 /// written.
 void write_report(const std::string& where, const std::string& text);
-
-/// For the start of a render: throws InputError if two of its files are the same, by whatever name, or if one
-/// that is written in the end cannot be. Lets a pipe whose reader is gone be an error like others.
-void prepare_outputs(const RenderRequest& request);
 
 /// Gives what is to come to stdout, a file that fails where it is closed. For the start of the program: files
 /// that it opens must not take the places of those that it was started without.

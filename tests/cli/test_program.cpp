@@ -225,7 +225,7 @@ TEST_CASE("errors are one line and exit code 1") {
       {"bad.pov"},
       {kScene, "-o", "a.gif"},
       {kScene, "-o", "no/a.png"},
-      {kScene, "+UA", "+FP"},
+      {kScene, "+UA", "-o", "a.dds"},
       {kScene, "+A4"},
       {kScene, "+SC641"},
       {"missing.ini"},
