@@ -1,6 +1,7 @@
 #include "pov/spline.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace celltrace::pov {
 
@@ -23,6 +24,8 @@ Quantity Spline::value(double at, Kind other) const {
   // Of a cubic one the ends only say how steep it is.
   const std::size_t margin = other == Kind::cubic && last > 0 ? 1 : 0;
   const auto constant = [&](std::size_t knot) { return knots_[knot].value.promoted(count_); };
+  // As in POV-Ray, where such a number is.
+  if (std::isnan(at)) return other == Kind::cubic ? constant(margin) : Quantity(at).promoted(count_);
   if (last < 2 * margin) return linear(0, (knots_[0].at + knots_[1].at) / 2);
   if (at <= knots_[margin].at) return constant(margin);
   if (at >= knots_[last - margin].at) return constant(last - margin);
@@ -42,38 +45,54 @@ Quantity Spline::value(double at, Kind other) const {
   return constant(left);
 }
 
+/// A vector by its components.
+template <class Component> Quantity Spline::vector_of(Component component) const {
+  Quantity result;
+  result.count = count_;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i)
+    result.v[i] = component(i);
+  return result;
+}
+
 Quantity Spline::linear(std::size_t left, double at) const {
   const Knot &a = knots_[left], &b = knots_[left + 1];
-  return a.value.promoted(count_) + (b.value - a.value) * Quantity((at - a.at) / (b.at - a.at));
+  const double share = (at - a.at) / (b.at - a.at);
+  return vector_of([&](std::size_t i) { return a.value.v[i] + (b.value.v[i] - a.value.v[i]) * share; });
 }
 
 /// The parabola through both knots and the one before; in the first segment, the one behind.
 Quantity Spline::quadratic(std::size_t left, double at) const {
-  const std::size_t middle = std::max<std::size_t>(left, 1);
-  Quantity sum = Quantity(0).promoted(count_);
-  for (std::size_t i = middle - 1; i <= middle + 1; ++i) {
-    double weight = 1; // Lagrange's
-    for (std::size_t j = middle - 1; j <= middle + 1; ++j)
-      if (j != i) weight *= (at - knots_[j].at) / (knots_[i].at - knots_[j].at);
-    sum = sum + knots_[i].value * Quantity(weight);
+  const std::size_t first = std::max<std::size_t>(left, 1) - 1;
+  const Knot* const knots = &knots_[first];
+  double weights[3]; // Lagrange's
+  for (std::size_t i = 0; i < 3; ++i) {
+    weights[i] = 1;
+    for (std::size_t j = 0; j < 3; ++j)
+      if (j != i) weights[i] *= (at - knots[j].at) / (knots[i].at - knots[j].at);
   }
-  return sum;
+  return vector_of([&](std::size_t i) {
+    return 0 + knots[0].value.v[i] * weights[0] + knots[1].value.v[i] * weights[1] +
+           knots[2].value.v[i] * weights[2];
+  });
 }
 
 Quantity Spline::slope(std::size_t left) const {
   const Knot &a = knots_[left], &b = knots_[left + 1];
-  return (b.value - a.value) * Quantity(1 / (b.at - a.at));
+  const double inverse_width = 1 / (b.at - a.at);
+  return vector_of([&](std::size_t i) { return (b.value.v[i] - a.value.v[i]) * inverse_width; });
 }
 
 /// Hermite's interpolation; at a knot it is as steep as the segments on both sides are on average.
 Quantity Spline::cubic(std::size_t left, double at) const {
   const Knot &a = knots_[left], &b = knots_[left + 1];
-  const double width = b.at - a.at, t = (at - a.at) / width;
-  const Quantity start = (slope(left - 1) + slope(left)) * Quantity(width / 2);
-  const Quantity end = (slope(left) + slope(left + 1)) * Quantity(width / 2);
-  return (a.value * Quantity((2 * t - 3) * t * t + 1) + b.value * Quantity((3 - 2 * t) * t * t) +
-          start * Quantity(((t - 2) * t + 1) * t) + end * Quantity((t - 1) * t * t))
-      .promoted(count_);
+  const double width = b.at - a.at, t = (at - a.at) / width, half = width / 2;
+  const Quantity before = slope(left - 1), here = slope(left), behind = slope(left + 1);
+  const double of_a = (2 * t - 3) * t * t + 1, of_b = (3 - 2 * t) * t * t;
+  const double of_start = ((t - 2) * t + 1) * t, of_end = (t - 1) * t * t;
+  return vector_of([&](std::size_t i) {
+    const double start = (before.v[i] + here.v[i]) * half, end = (here.v[i] + behind.v[i]) * half;
+    return a.value.v[i] * of_a + b.value.v[i] * of_b + start * of_start + end * of_end;
+  });
 }
 
 Quantity Spline::natural(std::size_t left, double at) const {
@@ -82,9 +101,11 @@ Quantity Spline::natural(std::size_t left, double at) const {
   const double width = b.at - a.at;
   const double t = (at - a.at) / width, u = 1 - t;
   const double square = width * width / 6;
-  return a.value.promoted(count_) * Quantity(u) + b.value * Quantity(t) +
-         curvatures_[left] * Quantity((u * u * u - u) * square) +
-         curvatures_[left + 1] * Quantity((t * t * t - t) * square);
+  const double of_left = (u * u * u - u) * square, of_right = (t * t * t - t) * square;
+  const Quantity &bend = curvatures_[left], &next_bend = curvatures_[left + 1];
+  return vector_of([&](std::size_t i) {
+    return a.value.v[i] * u + b.value.v[i] * t + bend.v[i] * of_left + next_bend.v[i] * of_right;
+  });
 }
 
 /// The tridiagonal system of the natural cubic spline, by Thomas' algorithm.

@@ -21,6 +21,8 @@ public:
   /// Takes the place of what is there at the same number.
   void add(double at, const Quantity& value);
   std::size_t size() const { return knots_.size(); }
+  /// As many as the longest vector has that it is made of, at least 2.
+  int components() const { return count_; }
 
   /// A vector of as many components as the longest that it is made of. There must be a knot. Beyond the ends
   /// a spline stays as it is there; a cubic one goes from its second knot to its last but one only.
@@ -33,6 +35,7 @@ private:
     double at;
     Quantity value;
   };
+  template <class Component> Quantity vector_of(Component component) const;
   Quantity linear(std::size_t left, double at) const;
   Quantity quadratic(std::size_t left, double at) const;
   Quantity cubic(std::size_t left, double at) const;
