@@ -108,14 +108,15 @@ Quantity decoded(Session& session, const Quantity& colour, const Location& where
 
 Quantity call(Session& session, const UserFunction& function, const std::vector<Value>& arguments,
               const Location& where) {
-  std::vector<double> numbers;
-  for (const Value& argument : arguments) {
+  check_argument_count(session, function, arguments.size(), where);
+  double numbers[kMostParameters];
+  std::transform(arguments.begin(), arguments.end(), numbers, [&](const Value& argument) {
     const auto* quantity = std::get_if<Quantity>(&argument);
     if (!quantity)
       session.fail(where, std::string("the arguments of a function are floats, not ") + kind_name(argument));
-    numbers.push_back(session.number(*quantity, where));
-  }
-  return call_function(session, function, numbers, where);
+    return session.any_number(*quantity, where);
+  });
+  return call_function(session, function, numbers, arguments.size(), where);
 }
 
 Quantity trace(Session& session, const ObjectDefinition& object, const Quantity& origin,

@@ -160,8 +160,20 @@ private:
     if (value == nullptr) return give_up();
     if (const auto* quantity = std::get_if<Quantity>(value)) return *quantity;
     const auto* function = std::get_if<FunctionPtr>(value);
-    if (function == nullptr || !take_arguments()) return give_up();
-    return call(session_, **function, arguments_, word.where);
+    return function != nullptr ? called(**function, word.where) : give_up();
+  }
+  /// A function of the scene, whose arguments need no room of their own.
+  Quantity called(const UserFunction& function, const Location& where) {
+    double arguments[kMostParameters];
+    std::size_t count = 0;
+    if (!take('(')) return give_up();
+    do {
+      const Quantity argument = in_brackets();
+      if (!argument.is_float() || count == function.parameters) return give_up();
+      arguments[count++] = argument.v[0];
+    } while (take(','));
+    if (!take(')') || !understands_ || count != function.parameters) return give_up();
+    return call_function(session_, function, arguments, count, where);
   }
   /// Behind [.
   const Value* element(const Array& array) {

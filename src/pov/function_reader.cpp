@@ -1,7 +1,9 @@
 // Reads functions of the scene: their expressions are of floats only, and not values yet, so that the
 // grammar's rules for numbers are of no use.
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <string_view>
 
 #include "pov/actions.hpp"
 #include "pov/functions.hpp"
@@ -14,11 +16,26 @@ namespace celltrace::pov {
 namespace {
 
 using tokens = Parser::token;
-using Kind = FunctionStep::Kind;
+constexpr int kDeepestCalls = 1000;
+constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
 
-constexpr int kDeepestCalls = 100;
-constexpr std::size_t kMostParameters = 56; // as in POV-Ray
-constexpr std::size_t kMostSteps = 1'000'000;
+/// The language's functions that functions may call.
+struct CalledFunction {
+  std::string_view name;
+  FunctionOp op;
+};
+constexpr CalledFunction kCalledFunctions[] = {
+    {"abs", FunctionOp::absolute},   {"acos", FunctionOp::acos},   {"acosh", FunctionOp::acosh},
+    {"asin", FunctionOp::asin},      {"asinh", FunctionOp::asinh}, {"atan", FunctionOp::atan},
+    {"atan2", FunctionOp::atan2},    {"atanh", FunctionOp::atanh}, {"ceil", FunctionOp::ceil},
+    {"cos", FunctionOp::cos},        {"cosh", FunctionOp::cosh},   {"div", FunctionOp::quotient},
+    {"exp", FunctionOp::exp},        {"floor", FunctionOp::floor}, {"int", FunctionOp::whole},
+    {"ln", FunctionOp::ln},          {"log", FunctionOp::log},     {"max", FunctionOp::maximum},
+    {"min", FunctionOp::minimum},    {"mod", FunctionOp::modulo},  {"pow", FunctionOp::power},
+    {"sin", FunctionOp::sin},        {"sinh", FunctionOp::sinh},   {"sqrt", FunctionOp::square_root},
+    {"tan", FunctionOp::tan},        {"tanh", FunctionOp::tanh},   {"degrees", FunctionOp::multiply},
+    {"radians", FunctionOp::divide},
+};
 
 class Reader {
 public:
@@ -30,8 +47,9 @@ public:
     require('{', "around a function's body");
     // Names of parameters stand for themselves, whatever they are declared as outside.
     session_.symbols.enter_scope();
-    for (const NameId name : variables_)
-      if (session_.names[name].token == 0) session_.symbols.bind(name, std::make_shared<Slot>());
+    for (const Variable& variable : variables_)
+      if (session_.names[variable.name].token == 0)
+        session_.symbols.bind(variable.name, std::make_shared<Slot>());
     advance();
     if (!read_special_body()) read_expression_body();
     require('}', "behind a function's body");
@@ -75,7 +93,7 @@ private:
   void read_parameters() {
     if (!take('(')) {
       for (const char* name : {"x", "y", "z"})
-        variables_.push_back(session_.names.intern(name));
+        add_parameter(session_.names.intern(name));
       return;
     }
     while (!is(')')) {
@@ -85,12 +103,15 @@ private:
       if (variables_.size() >= kMostParameters)
         session_.fail(terminal_.where,
                       "a function has at most " + std::to_string(kMostParameters) + " parameters");
-      variables_.push_back(variable_of(*name));
+      add_parameter(variable_of(*name));
       advance();
       take(',');
     }
     advance();
     function_->parameters = variables_.size();
+  }
+  void add_parameter(NameId name) {
+    variables_.push_back({name, static_cast<FunctionValue>(variables_.size())});
   }
   /// u and v are other names of x and y.
   NameId variable_of(NameId name) const {
@@ -114,11 +135,10 @@ private:
     } else if (is(tokens::T_TRANSFORM) || is(tokens::T_SPLINE)) {
       read_value();
     } else if (is(tokens::T_PIGMENT) || (name && session_.names.text(*name) == "pattern")) {
-      const Location where = terminal_.where;
       const bool is_pigment = is(tokens::T_PIGMENT);
       session_.tokens.skip_group();
-      function_->body = std::make_shared<const Unsupported>(
-          Unsupported{is_pigment ? "a pigment as a function" : "a pattern as a function", where});
+      function_->body = unsupported_function(
+          is_pigment ? "a pigment as a function" : "a pattern as a function", 3, is_pigment ? 5 : 1);
       function_->gives_vector = is_pigment;
       advance();
     } else {
@@ -132,11 +152,11 @@ private:
     expect('(', "after 'internal'");
     const auto* number = std::get_if<Quantity>(&terminal_.value);
     if (!is(tokens::T_QUANTITY) || !number) fail_unexpected("a number");
-    const int parameters =
-        number->v[0] >= 0 && number->v[0] < 1000 ? internal_parameters(static_cast<int>(number->v[0])) : -1;
-    if (parameters < 0) session_.fail(where, "there is no internal function of this number");
-    function_->body = InternalFunction{static_cast<int>(number->v[0])};
-    function_->parameters = static_cast<std::size_t>(3 + parameters);
+    const bool is_number = number->v[0] >= 0 && number->v[0] < 1000;
+    const auto internal = is_number ? internal_function(static_cast<int>(number->v[0])) : nullptr;
+    if (!internal) session_.fail(where, "there is no internal function of this number");
+    function_->body = internal;
+    function_->parameters = internal->parameters();
     advance();
     expect(')', "after the number");
   }
@@ -149,7 +169,7 @@ private:
     if (const auto* transform = std::get_if<Transform>(&value)) {
       function_->body = *transform;
     } else {
-      function_->body = std::get<SplinePtr>(value);
+      function_->body = spline_function(std::get<SplinePtr>(value));
       function_->parameters = 1;
     }
     advance();
@@ -157,122 +177,125 @@ private:
 
   // ---- Expressions ----
 
+  struct Variable {
+    NameId name;
+    FunctionValue value;
+  };
+
   void read_expression_body() {
-    read_logic();
-    program_.variables =
-        static_cast<std::uint32_t>(most_variables_ = std::max(most_variables_, variables_.size()));
-    function_->body = std::move(program_);
+    builder_.emplace(static_cast<std::uint32_t>(function_->parameters));
+    const FunctionValue result = read_logic();
+    auto code = std::make_shared<const FunctionCode>(builder_->finish(result));
+    function_->memory.take(code->graph().bytes());
+    function_->body = std::move(code);
   }
-  bool is_variable(NameId name) const {
-    return std::find(variables_.begin(), variables_.end(), name) != variables_.end();
+  auto find(NameId name) const {
+    // The innermost one of that name.
+    return std::find_if(variables_.rbegin(), variables_.rend(),
+                        [name](const Variable& variable) { return variable.name == name; });
   }
 
-  std::uint32_t emit(Kind kind, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0) {
-    if (program_.steps.size() >= kMostSteps) session_.fail(terminal_.where, "this function is too long");
-    program_.steps.push_back({kind, a, b, c, 0, terminal_.where});
-    return static_cast<std::uint32_t>(program_.steps.size() - 1);
+  FunctionValue apply(FunctionOp op, FunctionValue a, FunctionValue b = 0) {
+    if (builder_->is_too_large()) session_.fail(terminal_.where, "this function is too long");
+    return builder_->apply(op, a, b);
   }
-  void emit_constant(double value) { program_.steps[emit(Kind::constant)].value = value; }
-  std::uint32_t here() const { return static_cast<std::uint32_t>(program_.steps.size()); }
 
   /// In functions, and there alone, & binds tighter than |.
-  void read_logic() {
-    read_both();
-    while (take('|')) {
-      read_both();
-      emit(Kind::either);
-    }
+  FunctionValue read_logic() {
+    FunctionValue result = read_both();
+    while (take('|'))
+      result = apply(FunctionOp::either, result, read_both());
+    return result;
   }
-  void read_both() {
-    read_comparison();
-    while (take('&')) {
-      read_comparison();
-      emit(Kind::both);
-    }
+  FunctionValue read_both() {
+    FunctionValue result = read_comparison();
+    while (take('&'))
+      result = apply(FunctionOp::both, result, read_comparison());
+    return result;
   }
 
-  std::optional<Relation> relation() const {
+  std::optional<FunctionOp> relation() const {
     switch (terminal_.token) {
     case '<':
-      return Relation::less;
+      return FunctionOp::less;
     case tokens::T_LESS_EQUAL:
-      return Relation::less_equal;
+      return FunctionOp::less_equal;
     case '=':
-      return Relation::equal;
+      return FunctionOp::equal;
     case tokens::T_NOT_EQUAL:
-      return Relation::not_equal;
+      return FunctionOp::not_equal;
     case tokens::T_GREATER_EQUAL:
-      return Relation::greater_equal;
+      return FunctionOp::greater_equal;
     case '>':
-      return Relation::greater;
+      return FunctionOp::greater;
     default:
       return std::nullopt;
     }
   }
 
-  void read_comparison() {
-    read_sum();
-    while (const std::optional<Relation> found = relation()) {
+  FunctionValue read_comparison() {
+    FunctionValue result = read_sum();
+    while (const std::optional<FunctionOp> found = relation()) {
       advance();
-      read_sum();
-      emit(Kind::compare, static_cast<std::uint32_t>(*found));
+      result = apply(*found, result, read_sum());
     }
+    return result;
   }
 
-  void read_sum() {
-    read_product();
+  FunctionValue read_sum() {
+    FunctionValue result = read_product();
     for (;;) {
-      const Kind kind = is('+') ? Kind::add : Kind::subtract;
-      if (!take('+') && !take('-')) return;
-      read_product();
-      emit(kind);
+      const FunctionOp op = is('+') ? FunctionOp::add : FunctionOp::subtract;
+      if (!take('+') && !take('-')) return result;
+      result = apply(op, result, read_product());
     }
   }
 
-  void read_product() {
-    read_signed();
+  FunctionValue read_product() {
+    FunctionValue result = read_signed();
     for (;;) {
-      const Kind kind = is('*') ? Kind::multiply : Kind::divide;
-      if (!take('*') && !take('/')) return;
-      read_signed();
-      emit(kind);
+      const FunctionOp op = is('*') ? FunctionOp::multiply : FunctionOp::divide;
+      if (!take('*') && !take('/')) return result;
+      result = apply(op, result, read_signed());
     }
   }
 
-  void read_signed() {
-    std::vector<Kind> signs;
+  FunctionValue read_signed() {
+    std::vector<FunctionOp> signs;
     for (; is('-') || is('+') || is('!'); advance())
-      if (!is('+')) signs.push_back(is('-') ? Kind::negate : Kind::invert);
-    read_operand();
+      if (!is('+')) signs.push_back(is('-') ? FunctionOp::negate : FunctionOp::invert);
+    FunctionValue result = read_operand();
     for (auto sign = signs.rbegin(); sign != signs.rend(); ++sign)
-      emit(*sign);
+      result = apply(*sign, result);
+    return result;
   }
 
-  void read_operand() {
+  FunctionValue read_operand() {
     const std::optional<NameId> name = word();
     if (name) {
       const NameId variable = variable_of(*name);
-      if (is_variable(variable)) return read_variable(variable);
+      const auto found = find(variable);
+      if (found != variables_.rend()) {
+        advance();
+        return found->value;
+      }
       if (is_coordinate(variable) && session_.names.text(variable) != "t") return read_missing(*name);
     }
     switch (terminal_.token) {
-    case '(':
+    case '(': {
       advance();
-      read_logic();
-      return expect(')', "");
+      const FunctionValue result = read_logic();
+      expect(')', "");
+      return result;
+    }
     case tokens::T_QUANTITY:
       return read_constant();
     case tokens::T_FUNCTION:
-      return read_builtin(name);
+      return read_builtin(*name);
     case tokens::T_FUNCTION_ID:
       return read_call(std::get<FunctionPtr>(terminal_.value));
-    case tokens::T_SPLINE_ID: {
-      auto spline = std::make_shared<UserFunction>();
-      spline->body = std::get<SplinePtr>(terminal_.value);
-      spline->parameters = 1;
-      spline->gives_vector = true;
-      return read_call(spline);
-    }
+    case tokens::T_SPLINE_ID:
+      return read_call(function_of(std::get<SplinePtr>(terminal_.value)));
     case tokens::T_UNDECLARED_ID:
       session_.fail(terminal_.where, session_.tokens.describe_last() + " is not declared");
     default:
@@ -282,22 +305,15 @@ private:
     }
   }
 
-  void read_variable(NameId name) {
-    // The innermost one of that name.
-    const auto found = std::find(variables_.rbegin(), variables_.rend(), name);
-    emit(Kind::load, static_cast<std::uint32_t>(variables_.rend() - found - 1));
-    advance();
-  }
-
   /// A coordinate that is no parameter, in place of the vector that it is elsewhere.
-  void read_missing(NameId name) {
+  FunctionValue read_missing(NameId name) {
     session_.diagnostics.warn_once(terminal_.where, "'" + session_.names.text(name) +
                                                         "' is no parameter of this function: it is 0 here");
-    emit_constant(0);
     advance();
+    return builder_->constant(0);
   }
 
-  void read_constant() {
+  FunctionValue read_constant() {
     Quantity value = std::get<Quantity>(terminal_.value);
     const Location where = terminal_.where;
     advance();
@@ -305,77 +321,128 @@ private:
       value = component(session_, value, terminal_.detail, terminal_.where);
       advance();
     }
-    emit_constant(session_.number(value, where));
+    return builder_->constant(session_.any_number(value, where));
   }
 
-  std::uint32_t read_arguments() {
-    std::uint32_t count = 0;
+  std::vector<FunctionValue> read_arguments() {
+    std::vector<FunctionValue> arguments;
     expect('(', "before the arguments of a function");
     while (!is(')')) {
-      if (count > 0) expect(',', "between the arguments of a function");
-      read_logic();
-      ++count;
+      if (!arguments.empty()) expect(',', "between the arguments of a function");
+      arguments.push_back(read_logic());
     }
     advance();
-    return count;
+    return arguments;
   }
 
-  void read_builtin(const std::optional<NameId>& name) {
-    if (name && session_.names.text(*name) == "select") return read_select();
+  FunctionValue read_builtin(NameId name) {
+    const std::string& text = session_.names.text(name);
+    if (text == "select") return read_select();
     const Location where = terminal_.where;
-    const auto number = static_cast<std::uint32_t>(terminal_.detail);
+    const int number = terminal_.detail;
+    const auto called = std::find_if(std::begin(kCalledFunctions), std::end(kCalledFunctions),
+                                     [&](const CalledFunction& function) { return function.name == text; });
     advance();
-    const std::uint32_t count = read_arguments();
-    check_numeric_call(session_, static_cast<int>(number), count, where);
-    program_.steps[emit(Kind::builtin, number, count)].where = where;
+    const std::vector<FunctionValue> arguments = read_arguments();
+    check_numeric_call(session_, number, arguments.size(), where);
+    if (called == std::end(kCalledFunctions))
+      session_.fail(where, text + "() is no function that functions may call");
+    if (called->op == FunctionOp::multiply || called->op == FunctionOp::divide)
+      return apply(called->op, arguments[0], builder_->constant(kDegreesPerRadian));
+    FunctionValue result = arguments[0];
+    if (arguments.size() == 1 && (text == "max" || text == "min")) return result;
+    if (arguments.size() == 1) return apply(called->op, result);
+    for (std::size_t i = 1; i < arguments.size(); ++i)
+      result = apply(called->op, result, arguments[i]);
+    return result;
   }
 
-  void read_call(const FunctionPtr callee) { // a copy: the terminal moves on
+  FunctionPtr function_of(const SplinePtr& spline) {
+    const auto known = std::find_if(splines_.begin(), splines_.end(),
+                                    [&](const auto& entry) { return entry.first == spline; });
+    if (known != splines_.end()) return known->second;
+    auto function = std::make_shared<UserFunction>();
+    function->body = spline_function(spline);
+    function->parameters = 1;
+    function->gives_vector = true;
+    splines_.emplace_back(spline, function);
+    return function;
+  }
+
+  FunctionValue read_call(const FunctionPtr callee) { // a copy: the terminal moves on
     const Location where = terminal_.where;
     advance();
-    const std::uint32_t count = read_arguments();
-    if (count != callee->parameters)
-      session_.fail(where, "this function takes " + std::to_string(callee->parameters) +
-                               (callee->parameters == 1 ? " argument" : " arguments") + ", not " +
-                               std::to_string(count));
+    const std::vector<FunctionValue> arguments = read_arguments();
+    check_argument_count(session_, *callee, arguments.size(), where);
     function_->depth = std::max(function_->depth, callee->depth + 1);
     if (function_->depth > kDeepestCalls) session_.fail(where, "functions call one another too deeply");
-    std::uint32_t which = 0;
-    if (callee->gives_vector) {
-      if (!is(tokens::T_COMPONENT)) fail_unexpected("one of the vector's components");
-      which = static_cast<std::uint32_t>(terminal_.detail);
-      advance();
-    }
-    program_.callees.push_back(callee);
-    emit(Kind::call, static_cast<std::uint32_t>(program_.callees.size() - 1), which, count);
-    program_.steps.back().where = where;
+    if (builder_->is_too_large()) session_.fail(where, "this function is too long");
+    if (const auto* transform = std::get_if<Transform>(&callee->body))
+      return read_component([&](std::uint32_t which) { return coordinate(*transform, arguments, which); });
+    const auto* code = std::get_if<std::shared_ptr<const FunctionCode>>(&callee->body);
+    const FunctionCallee called =
+        code ? FunctionCallee(*code) : std::get<std::shared_ptr<const NativeFunction>>(callee->body);
+    const FunctionValue result = builder_->call(called, arguments);
+    if (!callee->gives_vector) return result;
+    return read_component([&](std::uint32_t which) { return builder_->component(result, which); });
   }
 
-  /// Only what is chosen is evaluated.
-  void read_select() {
+  /// The component of a vector or colour that stands behind it. `component` gives each by its number.
+  template <class Component> FunctionValue read_component(Component component) {
+    if (!is(tokens::T_COMPONENT)) fail_unexpected("one of the vector's components");
+    const int which = terminal_.detail;
+    advance();
+    const auto weighted = [&](std::uint32_t number, double weight) {
+      return apply(FunctionOp::multiply, builder_->constant(weight), component(number));
+    };
+    switch (which) {
+    case kGreyComponent:
+      return apply(FunctionOp::add, apply(FunctionOp::add, weighted(0, 0.297), weighted(1, 0.589)),
+                   weighted(2, 0.114));
+    case kHeightComponent: {
+      const FunctionValue fine = apply(FunctionOp::divide, component(1), builder_->constant(255));
+      return apply(FunctionOp::multiply, apply(FunctionOp::add, component(0), fine),
+                   builder_->constant(0.996093));
+    }
+    default:
+      return component(static_cast<std::uint32_t>(which));
+    }
+  }
+
+  /// A coordinate of a transformed point, by the operations of Transform::point().
+  FunctionValue coordinate(const Transform& transform, const std::vector<FunctionValue>& point,
+                           std::uint32_t which) {
+    if (which > 2) return builder_->constant(0);
+    const auto axis = static_cast<int>(which);
+    const auto product = [&](int row) {
+      return apply(FunctionOp::multiply, point[static_cast<std::size_t>(row)],
+                   builder_->constant(transform.rows[row][axis]));
+    };
+    const FunctionValue turned =
+        apply(FunctionOp::add, apply(FunctionOp::add, product(0), product(1)), product(2));
+    return apply(FunctionOp::add, turned, builder_->constant(transform.rows[3][axis]));
+  }
+
+  /// Only what is chosen is evaluated, unless it takes no time.
+  FunctionValue read_select() {
     const Location where = terminal_.where;
     advance();
     expect('(', "after 'select'");
-    read_logic();
-    const std::uint32_t choice = emit(Kind::choose);
-    std::vector<std::uint32_t> starts, jumps;
+    const FunctionValue chooser = read_logic();
+    FunctionBranches branches;
+    std::uint32_t count = 0;
     while (take(',')) {
-      starts.push_back(here());
-      read_logic();
-      jumps.push_back(emit(Kind::jump));
+      builder_->open_branch();
+      const std::uint32_t block = builder_->close(read_logic());
+      if (count++ < 3) branches.blocks[branches.count++] = block;
     }
     expect(')', "behind the arguments of 'select'");
-    if (starts.size() != 2 && starts.size() != 3) session_.fail(where, "select() takes 3 or 4 arguments");
-    FunctionStep& step = program_.steps[choice];
-    step.a = starts[0];
-    step.b = starts[1];
-    step.c = starts.back();
-    for (const std::uint32_t jump : jumps)
-      program_.steps[jump].a = here();
+    if (count != 2 && count != 3) session_.fail(where, "select() takes 3 or 4 arguments");
+    return builder_->select(chooser, branches);
   }
 
   /// sum(i, first, last, expression), and the product.
-  void read_series(bool is_sum) {
+  FunctionValue read_series(bool is_sum) {
     advance();
     expect('(', is_sum ? "after 'sum'" : "after 'prod'");
     const std::optional<NameId> name = word();
@@ -385,40 +452,18 @@ private:
     if (session_.names[*name].token == 0) session_.symbols.bind(*name, std::make_shared<Slot>());
     advance();
     expect(',', "after the name to count with");
-    read_logic();
+    const FunctionValue first = read_logic();
     expect(',', "after the first number");
-    read_logic();
+    const FunctionValue last = read_logic();
     require(',', "after the last number");
-    const auto counter = static_cast<std::uint32_t>(variables_.size());
-    const std::uint32_t last = counter + 1, result = counter + 2;
     // As in POV-Ray, what is named like a coordinate is still the parameter.
-    variables_.push_back(is_coordinate(*name) ? kNoName : *name);
-    variables_.push_back(kNoName);
-    variables_.push_back(kNoName);
-    most_variables_ = std::max(most_variables_, variables_.size());
+    variables_.push_back({is_coordinate(*name) ? kNoName : *name, builder_->open_loop()});
     advance();
-    emit(Kind::store, last);
-    emit(Kind::store, counter);
-    emit_constant(is_sum ? 0 : 1);
-    emit(Kind::store, result);
-    const std::uint32_t loop = here();
-    emit(Kind::load, counter);
-    emit(Kind::load, last);
-    const std::uint32_t exit = emit(Kind::jump_past);
-    emit(Kind::load, result);
-    read_logic();
-    emit(is_sum ? Kind::add : Kind::multiply);
-    emit(Kind::store, result);
-    emit(Kind::load, counter);
-    emit_constant(1);
-    emit(Kind::add);
-    emit(Kind::store, counter);
-    emit(Kind::jump, loop);
-    program_.steps[exit].a = here();
-    emit(Kind::load, result);
-    variables_.resize(counter);
+    const std::uint32_t body = builder_->close(read_logic());
+    variables_.pop_back();
     session_.symbols.leave_scope();
     expect(')', is_sum ? "behind a sum" : "behind a product");
+    return builder_->loop(is_sum ? FunctionOp::add : FunctionOp::multiply, first, last, body);
   }
 
   static constexpr NameId kNoName = ~NameId{0};
@@ -426,9 +471,9 @@ private:
   Session& session_;
   Terminal terminal_;
   std::shared_ptr<UserFunction> function_ = std::make_shared<UserFunction>();
-  FunctionProgram program_;
-  std::vector<NameId> variables_; // the parameters, then what is counted with
-  std::size_t most_variables_ = 0;
+  std::optional<FunctionBuilder> builder_;
+  std::vector<Variable> variables_;                        ///< the parameters, then what is counted with
+  std::vector<std::pair<SplinePtr, FunctionPtr>> splines_; ///< that are called by their own names
 };
 
 } // namespace

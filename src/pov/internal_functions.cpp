@@ -3,7 +3,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "pov/session.hpp"
 #include "pov/user_function.hpp"
 #include "scene/noise.hpp"
 
@@ -13,7 +12,7 @@ namespace {
 
 /// The arguments of a call: three coordinates, and the parameters p[0], p[1], ... behind them.
 struct InternalCall {
-  Session& session;
+  const FunctionContext& context;
   double x, y, z;
   const double* p;
 
@@ -40,6 +39,11 @@ double superellipsoid(const InternalCall& c) {
   const double around = std::pow(std::fabs(c.x), 2 / c.p[0]) + std::pow(std::fabs(c.y), 2 / c.p[0]);
   const double all = std::pow(around, c.p[0] / c.p[1]) + std::pow(std::fabs(c.z), 2 / c.p[1]);
   return 1 - std::pow(all, c.p[1] / 2);
+}
+
+double noise_at(const InternalCall& c, int generator) {
+  const double sum = c.x + c.y + c.z;
+  return std::isfinite(sum) ? noise_value({c.x, c.y, c.z}, generator) : sum - sum;
 }
 
 /// By its number.
@@ -138,29 +142,37 @@ constexpr Internal kInternals[] = {
     {2, nullptr}, // f_witch_of_agnesi
     {6, nullptr}, // f_witch_of_agnesi_2d
     // f_noise3d
-    {0,
-     [](const InternalCall& c) {
-       return noise_value({c.x, c.y, c.z}, c.session.builder.noise_generator());
-     }},
+    {0, [](const InternalCall& c) { return noise_at(c, c.context.noise_generator); }},
     {-1, nullptr},
     // f_noise_generator
     {1,
      [](const InternalCall& c) {
        const double generator = std::trunc(c.p[0]);
-       return noise_value({c.x, c.y, c.z}, generator == 2 ? 2 : generator == 3 ? 3 : 1);
+       return noise_at(c, generator == 2 ? 2 : generator == 3 ? 3 : 1);
      }},
+};
+
+class InternalFunction final : public NativeFunction {
+public:
+  explicit InternalFunction(int number)
+      : NativeFunction(3 + static_cast<std::size_t>(kInternals[number].parameters), 1), number_(number) {}
+  void evaluate(const double* arguments, const FunctionContext& context, double* results) const override {
+    const Internal& internal = kInternals[number_];
+    if (!internal.value)
+      throw FunctionFault{"'internal(" + std::to_string(number_) + ")' is not supported yet"};
+    *results = internal.value({context, arguments[0], arguments[1], arguments[2], arguments + 3});
+  }
+
+private:
+  int number_;
 };
 
 } // namespace
 
-int internal_parameters(int number) {
-  return number >= 0 && number < static_cast<int>(std::size(kInternals)) ? kInternals[number].parameters : -1;
-}
-
-double internal_value(Session& session, int number, const double* arguments, const Location& where) {
-  const Internal& internal = kInternals[number];
-  if (!internal.value) session.fail(where, "'internal(" + std::to_string(number) + ")' is not supported yet");
-  return internal.value({session, arguments[0], arguments[1], arguments[2], arguments + 3});
+std::shared_ptr<const NativeFunction> internal_function(int number) {
+  const bool is_known =
+      number >= 0 && number < static_cast<int>(std::size(kInternals)) && kInternals[number].parameters >= 0;
+  return is_known ? std::make_shared<InternalFunction>(number) : nullptr;
 }
 
 } // namespace celltrace::pov

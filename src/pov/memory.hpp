@@ -73,6 +73,23 @@ public:
   ~Counted() { MemoryCount::give_back(sizeof(T)); }
 };
 
+/// As a member: counts bytes that are known later.
+class MemoryShare {
+public:
+  MemoryShare() = default;
+  MemoryShare(const MemoryShare&) = delete;
+  MemoryShare& operator=(const MemoryShare&) = delete;
+  ~MemoryShare() { MemoryCount::give_back(bytes_); }
+
+  void take(std::size_t bytes) {
+    MemoryCount::take(bytes);
+    bytes_ += bytes;
+  }
+
+private:
+  std::size_t bytes_ = 0;
+};
+
 /// For the elements of arrays.
 template <class T> struct ElementAllocator {
   using value_type = T;

@@ -13,6 +13,8 @@ inline constexpr double kComparisonTolerance = 1e-10;
 
 /// What `.gray` counts as, past the components.
 inline constexpr int kGreyComponent = 5;
+/// What `.hf` counts as, the height that a height field would have from a colour; in functions alone.
+inline constexpr int kHeightComponent = 6;
 
 /// Components of a colour: red, green, blue, filter, transmit. Those past `count` are zero.
 struct Quantity {

@@ -277,8 +277,13 @@ struct ComponentWord {
 };
 
 const ComponentWord kComponents[] = {
-    {"x", 0},     {"y", 1},    {"z", 2},      {"t", 3},     {"u", 0},        {"v", 1},    {"red", 0},
-    {"green", 1}, {"blue", 2}, {"filter", 3}, {"alpha", 3}, {"transmit", 4}, {"gray", 5},
+    {"x", 0},     {"y", 1},
+    {"z", 2},     {"t", 3},
+    {"u", 0},     {"v", 1},
+    {"red", 0},   {"green", 1},
+    {"blue", 2},  {"filter", 3},
+    {"alpha", 3}, {"transmit", 4},
+    {"gray", 5},  {"hf", kHeightComponent},
 };
 
 struct DirectiveWord {

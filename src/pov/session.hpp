@@ -7,6 +7,7 @@
 
 #include "celltrace/pov.hpp"
 #include "pov/diagnostics.hpp"
+#include "pov/function_machine.hpp"
 #include "pov/input.hpp"
 #include "pov/memory.hpp"
 #include "pov/names.hpp"
@@ -33,6 +34,7 @@ struct Session {
   Symbols symbols;
   TokenStream tokens;
   SceneBuilder builder;
+  FunctionMachine functions;
   std::vector<std::uint32_t> random_streams; ///< what seed() handed out
   std::uint64_t text_bytes = 0;
   std::uint64_t written_bytes = 0;                   ///< by #write

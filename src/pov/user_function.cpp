@@ -1,147 +1,80 @@
-// What functions of the scene come to.
+// The values of functions of the scene.
 #include "pov/user_function.hpp"
 
-#include <cmath>
+#include <algorithm>
 
-#include "pov/functions.hpp"
 #include "pov/session.hpp"
 
 namespace celltrace::pov {
 
 namespace {
 
-/// Of one evaluation.
-constexpr std::uint64_t kMostSteps = 1'000'000'000;
-
-class Machine {
+class SplineFunction final : public NativeFunction {
 public:
-  explicit Machine(Session& session) : session_(session) {}
-
-  Quantity value(const UserFunction& function, const double* arguments, const Location& where);
+  explicit SplineFunction(SplinePtr spline)
+      : NativeFunction(1, static_cast<std::size_t>(spline->components())), spline_(std::move(spline)) {}
+  void evaluate(const double* arguments, const FunctionContext&, double* results) const override {
+    const Quantity value = spline_->value(arguments[0]);
+    std::copy(value.v.begin(), value.v.end(), results);
+  }
 
 private:
-  double run(const FunctionProgram& program, std::size_t parameters, const double* arguments);
-  double take() {
-    const double value = stack_.back();
-    stack_.pop_back();
-    return value;
-  }
-  void call_builtin(const FunctionStep& step);
-  void call(const FunctionProgram& program, const FunctionStep& step);
-
-  Session& session_;
-  std::vector<double> stack_;
-  std::uint64_t steps_ = 0;
+  SplinePtr spline_;
 };
 
-Quantity Machine::value(const UserFunction& function, const double* arguments, const Location& where) {
-  if (const auto* program = std::get_if<FunctionProgram>(&function.body))
-    return run(*program, function.parameters, arguments);
-  if (const auto* internal = std::get_if<InternalFunction>(&function.body))
-    return internal_value(session_, internal->number, arguments, where);
-  if (const auto* spline = std::get_if<SplinePtr>(&function.body)) return (*spline)->value(arguments[0]);
+class UnsupportedFunction final : public NativeFunction {
+public:
+  UnsupportedFunction(const std::string& what, std::size_t parameters, std::size_t results)
+      : NativeFunction(parameters, results), what_(what) {}
+  void evaluate(const double*, const FunctionContext&, double*) const override {
+    throw FunctionFault{what_ + " is not supported yet"};
+  }
+
+private:
+  std::string what_;
+};
+
+Quantity value_of(Session& session, const UserFunction& function, const double* arguments) {
   if (const auto* transform = std::get_if<Transform>(&function.body))
     return Quantity::vector(transform->point({arguments[0], arguments[1], arguments[2]}));
-  session_.fail(where, std::get<UnsupportedPtr>(function.body)->what + " is not supported yet");
-}
-
-void Machine::call_builtin(const FunctionStep& step) {
-  const std::size_t first = stack_.size() - step.b;
-  const std::vector<Value> arguments(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end());
-  stack_.resize(first);
-  for (std::size_t i = 0; i < arguments.size(); ++i)
-    session_.number(std::get<Quantity>(arguments[i]), step.where);
-  stack_.push_back(call_numeric(session_, static_cast<int>(step.a), arguments, step.where).v[0]);
-}
-
-void Machine::call(const FunctionProgram& program, const FunctionStep& step) {
-  const std::vector<double> arguments(stack_.end() - step.c, stack_.end());
-  stack_.resize(stack_.size() - step.c);
-  const Quantity result = value(*program.callees[step.a], arguments.data(), step.where);
-  stack_.push_back(step.b == kGreyComponent ? result.grey() : result.v[step.b]);
-}
-
-double Machine::run(const FunctionProgram& program, std::size_t parameters, const double* arguments) {
-  std::vector<double> variables(arguments, arguments + parameters);
-  variables.resize(program.variables);
-  using Kind = FunctionStep::Kind;
-  for (std::size_t at = 0; at < program.steps.size(); ++at) {
-    const FunctionStep& step = program.steps[at];
-    if (++steps_ > kMostSteps) session_.fail(step.where, "this function takes too long");
-    switch (step.kind) {
-    case Kind::constant:
-      stack_.push_back(step.value);
-      break;
-    case Kind::load:
-      stack_.push_back(variables[step.a]);
-      break;
-    case Kind::store:
-      variables[step.a] = take();
-      break;
-    case Kind::negate:
-      stack_.back() = -stack_.back();
-      break;
-    case Kind::invert:
-      stack_.back() = stack_.back() == 0 ? 1 : 0;
-      break;
-    case Kind::builtin:
-      call_builtin(step);
-      break;
-    case Kind::call:
-      call(program, step);
-      break;
-    case Kind::choose: {
-      const double chooser = take();
-      at = (chooser < 0 ? step.a : chooser == 0 ? step.b : step.c) - 1;
-      break;
-    }
-    case Kind::jump:
-      at = step.a - 1;
-      break;
-    default: {
-      const double right = take(), left = take();
-      switch (step.kind) {
-      case Kind::add:
-        stack_.push_back(left + right);
-        break;
-      case Kind::subtract:
-        stack_.push_back(left - right);
-        break;
-      case Kind::multiply:
-        stack_.push_back(left * right);
-        break;
-      case Kind::divide:
-        stack_.push_back(left / right);
-        break;
-      case Kind::compare:
-        stack_.push_back(compare(Relation(step.a), left, right).v[0]);
-        break;
-      case Kind::both:
-        stack_.push_back(left != 0 && right != 0 ? 1 : 0);
-        break;
-      case Kind::either:
-        stack_.push_back(left != 0 || right != 0 ? 1 : 0);
-        break;
-      default: // jump_past
-        if (left > right) at = step.a - 1;
-        break;
-      }
-      break;
-    }
-    }
-  }
-  return take();
+  const FunctionContext context{session.builder.noise_generator()};
+  if (const auto* code = std::get_if<std::shared_ptr<const FunctionCode>>(&function.body))
+    return session.functions.run(**code, arguments, context);
+  const NativeFunction& native = *std::get<std::shared_ptr<const NativeFunction>>(function.body);
+  Quantity result;
+  native.evaluate(arguments, context, result.v.data());
+  result.count = static_cast<int>(native.results());
+  result.is_colour = function.gives_colour;
+  return result;
 }
 
 } // namespace
 
-Quantity call_function(Session& session, const UserFunction& function, const std::vector<double>& arguments,
-                       const Location& where) {
-  if (arguments.size() != function.parameters)
+std::shared_ptr<const NativeFunction> spline_function(SplinePtr spline) {
+  return std::make_shared<SplineFunction>(std::move(spline));
+}
+
+std::shared_ptr<const NativeFunction> unsupported_function(const std::string& what, std::size_t parameters,
+                                                           std::size_t results) {
+  return std::make_shared<UnsupportedFunction>(what, parameters, results);
+}
+
+void check_argument_count(Session& session, const UserFunction& function, std::size_t count,
+                          const Location& where) {
+  if (count != function.parameters)
     session.fail(where, "this function takes " + std::to_string(function.parameters) +
                             (function.parameters == 1 ? " argument" : " arguments") + ", not " +
-                            std::to_string(arguments.size()));
-  return Machine(session).value(function, arguments.data(), where);
+                            std::to_string(count));
+}
+
+Quantity call_function(Session& session, const UserFunction& function, const double* arguments,
+                       std::size_t count, const Location& where) {
+  check_argument_count(session, function, count, where);
+  try {
+    return value_of(session, function, arguments);
+  } catch (const FunctionFault& fault) {
+    session.fail(where, fault.what);
+  }
 }
 
 } // namespace celltrace::pov
