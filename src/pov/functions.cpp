@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "pov/function_operations.hpp"
 #include "scene/noise.hpp"
 
 namespace celltrace::pov {
@@ -17,7 +18,6 @@ namespace celltrace::pov {
 namespace {
 
 constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
-constexpr int kMostDigits = 300;
 
 /// The arguments of one call, already of the types the function's signature asks for.
 class Call {
@@ -49,7 +49,7 @@ private:
 Quantity select(const Call& call) {
   const double chooser = call.number(0);
   if (chooser < 0) return call.number(1);
-  return call.count() == 4 && chooser > 0 ? call.number(3) : call.number(2);
+  return call.count() == 4 && chooser != 0 ? call.number(3) : call.number(2);
 }
 
 template <class Better> Quantity best(const Call& call, Better better) {
@@ -59,27 +59,18 @@ template <class Better> Quantity best(const Call& call, Better better) {
   return result;
 }
 
-/// POV-Ray's int() and div() make an int of a number, as a PC does it: those that are out of range, and
-/// infinities, are all the least one.
-double whole(double number) {
-  constexpr double kBound = 2147483648.0;
-  const double result = std::trunc(number);
-  return result >= -kBound && result < kBound ? result : -kBound;
-}
-
 /// Of the arguments as ints, from the first to the last.
 template <class Combine> Quantity bitwise(const Call& call, Combine combine) {
-  auto result = static_cast<std::int32_t>(whole(call.number(0)));
+  auto result = static_cast<std::int32_t>(to_int(call.number(0)));
   for (std::size_t i = 1; i < call.count(); ++i)
-    result = combine(result, static_cast<std::int32_t>(whole(call.number(i))));
+    result = combine(result, static_cast<std::int32_t>(to_int(call.number(i))));
   return static_cast<double>(result);
 }
 
 Quantity seed(const Call& call) {
   auto& streams = call.session().random_streams;
   call.require(streams.size() < call.session().options.limits.list_entries, "too many random streams");
-  streams.push_back(
-      static_cast<std::uint32_t>(static_cast<std::int64_t>(call.whole(0, -2147483648.0, 2147483647.0))));
+  streams.push_back(static_cast<std::uint32_t>(static_cast<std::int32_t>(to_int(call.number(0)))));
   return static_cast<double>(streams.size() - 1);
 }
 
@@ -105,7 +96,7 @@ Quantity value_of(const Call& call) {
 Quantity rotate_about(const Call& call) {
   const Vec3 v = call.vector(0);
   const double length = glm::length(call.vector(1));
-  call.require(length > 0, "the axis has no direction");
+  call.require(length != 0, "the axis has no direction");
   const Vec3 axis = call.vector(1) / length;
   const double angle = call.number(2) / kDegreesPerRadian;
   return Quantity::vector(v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
@@ -115,36 +106,48 @@ Quantity rotate_about(const Call& call) {
 Quantity normalize(const Call& call) {
   const Vec3 v = call.vector(0);
   const double length = glm::length(v);
-  return Quantity::vector(length > 0 ? v / length : Vec3(0, 0, 0));
+  return Quantity::vector(length == 0 ? Vec3(0, 0, 0) : v / length);
 }
 
-/// As printf's f in the C locale, whatever the application's: a negative width pads with zeros, a negative
-/// precision stands for 6 digits.
-std::string format(double value, int width, int digits) {
+/// Characters that a number takes at the most.
+constexpr int kMostDigits = 254;
+
+std::string format(double value, int width, int digits, std::chars_format notation) {
   char buffer[1024]; // 309 digits, the point and kMostDigits more
-  const auto result =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, digits < 0 ? 6 : digits);
+  const int precision = digits < 0 ? 6 : std::min(digits, 2 * kMostDigits);
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, notation, precision);
   std::string text(buffer, result.ptr);
   const auto wanted = static_cast<std::size_t>(std::abs(width));
   if (text.size() >= wanted) return text;
-  const bool has_sign = width < 0 && text[0] == '-';
-  text.insert(has_sign ? 1 : 0, wanted - text.size(), width < 0 ? '0' : ' ');
+  const bool is_padded_with_zeros = width < 0 && std::isfinite(value);
+  const bool has_sign = is_padded_with_zeros && text[0] == '-';
+  text.insert(has_sign ? 1 : 0, wanted - text.size(), is_padded_with_zeros ? '0' : ' ');
   return text;
 }
 
+/// As printf's f in the C locale, whatever the application's, or as its g if that is too long: a negative
+/// width pads with zeros, a negative precision stands for 6 digits.
+std::string format(double value, double width, double digits) {
+  constexpr const char* kTooLong = "<invalid>"; // POV-Ray's word
+  width = to_int(width);
+  if (std::fabs(width) > kMostDigits) return kTooLong;
+  const int columns = static_cast<int>(width), precision = static_cast<int>(to_int(digits));
+  std::string text = format(value, columns, precision, std::chars_format::fixed);
+  if (text.size() > kMostDigits) text = format(value, columns, precision, std::chars_format::general);
+  return text.size() > kMostDigits ? kTooLong : text;
+}
+
 std::string number_text(const Call& call) {
-  return format(call.number(0), call.whole(1, -kMostDigits, kMostDigits), call.whole(2, -1, kMostDigits));
+  return format(call.number(0), call.number(1), call.number(2));
 }
 
 std::string vector_text(const Call& call) {
   const int count = call.whole(0, 2, 5);
   const Quantity vector = call.quantity(1).promoted(count);
-  const int width = call.whole(3, -kMostDigits, kMostDigits);
-  const int digits = call.whole(4, -1, kMostDigits);
   std::string result;
   for (int i = 0; i < count; ++i)
-    result +=
-        (i > 0 ? call.text(2) : std::string()) + format(vector.v[static_cast<std::size_t>(i)], width, digits);
+    result += (i > 0 ? call.text(2) : std::string()) +
+              format(vector.v[static_cast<std::size_t>(i)], call.number(3), call.number(4));
   return result;
 }
 
@@ -218,12 +221,12 @@ bool file_exists(const Call& call) {
 }
 
 double logarithm(const Call& call, double (*function)(double)) {
-  call.require(call.number(0) > 0, "the logarithm of a number that is not positive");
+  call.require(!(call.number(0) <= 0), "the logarithm of a number that is not positive");
   return function(call.number(0));
 }
 
 double square_root(const Call& call) {
-  call.require(call.number(0) >= 0, "the square root of a negative number");
+  call.require(!(call.number(0) < 0), "the square root of a negative number");
   return std::sqrt(call.number(0));
 }
 
@@ -255,11 +258,11 @@ const Function kFunctions[] = {
     {"cos", "n", CELLTRACE_NUMERIC(std::cos(c.number(0)))},
     {"cosh", "n", CELLTRACE_NUMERIC(std::cosh(c.number(0)))},
     {"degrees", "n", CELLTRACE_NUMERIC(c.number(0) * kDegreesPerRadian)},
-    {"div", "nn", CELLTRACE_NUMERIC(whole(c.number(0) / c.number(1)))},
+    {"div", "nn", CELLTRACE_NUMERIC(to_int(c.number(0) / c.number(1)))},
     {"exp", "n", CELLTRACE_NUMERIC(std::exp(c.number(0)))},
     {"file_exists", "s", CELLTRACE_NUMERIC(file_exists(c) ? 1 : 0)},
     {"floor", "n", CELLTRACE_NUMERIC(std::floor(c.number(0)))},
-    {"int", "n", CELLTRACE_NUMERIC(whole(c.number(0)))},
+    {"int", "n", CELLTRACE_NUMERIC(to_int(c.number(0)))},
     {"ln", "n", CELLTRACE_NUMERIC(logarithm(c, std::log))},
     {"log", "n", CELLTRACE_NUMERIC(logarithm(c, std::log10))},
     {"max", "n+", CELLTRACE_NUMERIC(best(c, std::greater<>()))},

@@ -321,17 +321,17 @@ component // which may be infinite: what uses the vector knows whether it takes 
 // Comparisons and the like exist inside parentheses only: elsewhere < and > enclose vectors.
 value_in_brackets
   : logic
-  | logic '?' value_in_brackets ':' value_in_brackets { $$ = is_true(session.number($1, @1)) ? $3 : $5; }
+  | logic '?' value_in_brackets ':' value_in_brackets { $$ = is_true(session.any_number($1, @1)) ? $3 : $5; }
   | colour
   ;
 
 logic
   : comparison
   | logic '&' comparison {
-      $$ = double(is_true(session.number($1, @1)) && is_true(session.number($3, @3)));
+      $$ = double(is_true(session.any_number($1, @1)) && is_true(session.any_number($3, @3)));
     }
   | logic '|' comparison {
-      $$ = double(is_true(session.number($1, @1)) || is_true(session.number($3, @3)));
+      $$ = double(is_true(session.any_number($1, @1)) || is_true(session.any_number($3, @3)));
     }
   ;
 
@@ -414,7 +414,7 @@ srgb_model
 // Where POV-Ray asks for a colour it takes a whole expression, which has brackets around it elsewhere.
 choice
   : quantity
-  | quantity '?' choice ':' choice { $$ = is_true(session.number($1, @1)) ? $3 : $5; }
+  | quantity '?' choice ':' choice { $$ = is_true(session.any_number($1, @1)) ? $3 : $5; }
   ;
 
 colour_base

@@ -21,19 +21,20 @@ Quantity component_wise(const Quantity& a, const Quantity& b, Operation operatio
   return result;
 }
 
+/// As POV-Ray: what is no number, such as the difference of two infinities, counts as equal to everything.
 bool holds(Relation relation, double a, double b) {
   const double difference = a - b;
   switch (relation) {
   case Relation::less:
     return a < b;
   case Relation::less_equal:
-    return difference <= kComparisonTolerance;
+    return !(difference > kComparisonTolerance);
   case Relation::equal:
-    return std::fabs(difference) < kComparisonTolerance;
+    return !(std::fabs(difference) >= kComparisonTolerance);
   case Relation::not_equal:
-    return !(std::fabs(difference) < kComparisonTolerance);
+    return std::fabs(difference) >= kComparisonTolerance;
   case Relation::greater_equal:
-    return difference >= -kComparisonTolerance;
+    return !(difference < -kComparisonTolerance);
   case Relation::greater:
     return a > b;
   }

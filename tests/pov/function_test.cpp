@@ -74,10 +74,105 @@ TEST_CASE("faults of functions") {
   CHECK(error_line("#declare F = function { internal(77) }") ==
         "scene.pov:1:33: error: there is no internal function of this number");
   CHECK(error_line("#declare F = function(n) { sum(i, 1, n, 1) } #declare A = F(1e15);") ==
-        "scene.pov:1:42: error: this function takes too long");
+        "scene.pov:1:59: error: this function takes too long");
+  CHECK(error_line("#declare F = function(a) { rand(a) }") ==
+        "scene.pov:1:28: error: rand() is no function that functions may call");
   std::string nested =
       "#declare F = function(x) { x } #for (I, 1, 1000) #declare F = function(x) { F(x) } #end";
   CHECK(error_line(nested) == "scene.pov:1:77: error: functions call one another too deeply");
+}
+
+TEST_CASE("functions go on with what is no number") {
+  struct Row {
+    const char* expression;
+    const char* argument;
+    const char* value;
+  };
+  // Where an operand is no number, its sign is the processor's.
+  const Row kRows[] = {
+      {"ln(x)", "0", "-inf"},
+      {"log(x)", "0", "-inf"},
+      {"1/x", "0", "inf"},
+      {"-1/x", "0", "-inf"},
+      {"pow(x, -1)", "0", "inf"},
+      {"atanh(x)", "1", "inf"},
+      {"exp(x)", "1000", "inf"},
+      {"atan2(x, 0)", "0", "0.00"},
+      {"div(7, x)", "0", "-2147483648.00"},
+      {"div(x, 1)", "1e20", "-2147483648.00"},
+      {"int(1/x)", "0", "-2147483648.00"},
+      {"int(sqrt(x))", "-1", "-2147483648.00"},
+      {"floor(1/x)", "0", "inf"},
+      {"max(0.5, sqrt(x))", "-1", "0.50"},
+      {"min(sqrt(x), 0.5)", "-1", "0.50"},
+      {"max(0.5, sqrt(x), 0.7)", "-1", "0.70"},
+      {"min(0.5, sqrt(x), 0.7)", "-1", "0.70"},
+      {"min(0.5, sqrt(x), 0.2)", "-1", "0.20"},
+      {"select(sqrt(x), 1, 2)", "-1", "2.00"},
+      {"select(sqrt(x), 1, 2, 3)", "-1", "3.00"},
+      {"select(1/x, 1, 2, 3)", "0", "3.00"},
+      {"sqrt(x) < 1", "-1", "0.00"},
+      {"sqrt(x) <= 1", "-1", "0.00"},
+      {"sqrt(x) = 1", "-1", "0.00"},
+      {"sqrt(x) != 1", "-1", "1.00"},
+      {"sqrt(x) > 1", "-1", "1.00"},
+      {"sqrt(x) >= 1", "-1", "1.00"},
+      {"1 > sqrt(x)", "-1", "1.00"},
+      {"1/x = 1/x", "0", "1.00"},
+      {"sqrt(x) & 1", "-1", "1.00"},
+      {"sqrt(x) | 0", "-1", "1.00"},
+      {"x & 1", "1e-12", "1.00"},
+      {"x = 1", "1 + 1e-12", "0.00"},
+      {"sum(i, 1, sqrt(x), i)", "-1", "0.00"},
+      {"prod(i, sqrt(x), 3, i)", "-1", "1.00"},
+      {"mod(1, 1/x)", "0", "1.00"},
+      {"pow(-1, 1/x)", "0", "1.00"},
+      {"1/min(x, -x)", "0", "inf"},
+      {"1/max(x, -x)", "0", "inf"},
+  };
+  for (const Row& row : kRows) {
+    INFO(row.expression << " at " << row.argument);
+    CHECK(output("#declare F = function(x) { " + std::string(row.expression) + " } #debug str(F(" +
+                 row.argument + "), 0, 2)") == row.value);
+  }
+  for (const char* nothing : {"sqrt(x)", "ln(x)", "log(x)", "pow(x, 0.5)", "acosh(x)", "asin(2*x)",
+                              "acos(2*x)", "mod(x, 0)", "max(sqrt(x), 0.5)", "min(0.5, sqrt(x))", "0*sqrt(x)",
+                              "sin(x/0)", "floor(sqrt(x))", "sum(i, 1, 2, sqrt(x))"}) {
+    INFO(nothing);
+    const std::string value = number("#declare F = function(x) { " + std::string(nothing) + " } ", "F(-1)");
+    CHECK((value == "nan" || value == "-nan"));
+  }
+}
+
+TEST_CASE("what is no number is an argument, and goes on in expressions") {
+  const std::string numbers = "#declare R = function(x) { sqrt(x) } #declare V = function(x) { 1/x } "
+                              "#declare N = R(-1); #declare I = V(0); ";
+  const auto holds = [&](const char* condition) {
+    return output(numbers + "#if (" + condition + ") #debug \"yes\" #else #debug \"no\" #end");
+  };
+  for (const char* condition : {"N <= 1", "N >= 1", "N = 1", "N = N", "I = I", "I > 1", "I >= I", "!N"})
+    CHECK(holds(condition) == "yes");
+  for (const char* condition : {"N", "N < 1", "N > 1", "N != 1", "I != I", "I < I", "N & 1", "N | 0"})
+    CHECK(holds(condition) == "no");
+  CHECK(number(numbers, "(N ? 2 : 3)") == "3.000000");
+  CHECK(number(numbers, "select(N, 1, 2, 3)") == "3.000000");
+  CHECK(number(numbers, "V(I)") == "0.000000");
+  CHECK(number(numbers + "#declare S = seed(N); ", "rand(S)") == "0.500003");
+  CHECK(output(numbers + "#debug str(I, -8, 2)") == "     inf");
+  CHECK(number(numbers + "#declare S = function { spline { cubic_spline 0, x 1, y 2, z 3, x } } ",
+               "S(N).y") == "1.000000");
+  for (const char* kind : {"linear_spline", "quadratic_spline", "natural_spline"}) {
+    const std::string value =
+        number(numbers + "#declare S = function { spline { " + kind + " 0, x 1, y 2, z 3, x } } ", "S(N).y");
+    CHECK((value == "nan" || value == "-nan"));
+  }
+}
+
+TEST_CASE("components of what functions give") {
+  const std::string moved = "#declare F = function { transform { scale 10 } } ";
+  CHECK(number(moved + "#declare G = function { F(x, y, z).hf } ", "G(0.3, 0.2, 0.1)") == "2.996091");
+  CHECK(error_line(moved + "#declare A = F(1, 2, 3).hf;") ==
+        "scene.pov:1:73: error: a vector of 3 components has no such component");
 }
 
 TEST_CASE("functions of what is not supported are an error where they are called") {
