@@ -50,6 +50,23 @@ std::string arithmetic_scene(int steps) {
          "  #if (A.x > 50 & J != 3) #declare S = S + vlength(A); #end\n  #declare J = J + 1;\n#end\n";
 }
 
+/// Functions that each call the one before twice with the same arguments and twice with others, `depth` deep.
+std::string function_nest_scene(int depth) {
+  std::ostringstream text;
+  text << "#version 3.7;\n#declare F0 = function(x, y) { x*y + 1 }\n";
+  for (int i = 1; i <= depth; ++i)
+    text << "#declare F" << i << " = function(x, y) { F" << i - 1 << "(x, y)*F" << i - 1 << "(x, y) - F"
+         << i - 1 << "(x + 1, y)*F" << i - 1 << "(x, y/2) }\n";
+  text << "#declare S = 0;\n#for (I, 1, 1000) #declare S = S + F" << depth << "(I/1000, 0.5); #end\n";
+  return text.str();
+}
+
+/// A function that is called 1000 times.
+std::string function_scene(const std::string& body) {
+  return "#version 3.7;\n#declare F = function { " + body +
+         " }\n#declare S = 0;\n#for (I, 1, 1000) #declare S = S + F(I/1000, 0.5, 7).x; #end\n";
+}
+
 void parse(benchmark::State& state, const std::string& text) {
   for (auto _ : state)
     benchmark::DoNotOptimize(celltrace::parse_string(text));
@@ -82,5 +99,15 @@ void parse_arithmetic(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 BENCHMARK(parse_arithmetic)->Arg(10000)->Unit(benchmark::kMillisecond);
+
+void parse_function_nest(benchmark::State& state) {
+  parse(state, function_nest_scene(static_cast<int>(state.range(0))));
+}
+BENCHMARK(parse_function_nest)->Arg(4)->Arg(8)->Arg(16)->Unit(benchmark::kMillisecond);
+
+void parse_pigment_function(benchmark::State& state) {
+  parse(state, function_scene("pigment { bozo turbulence 0.5 color_map { [0 rgb 0] [1 rgb 1] } }"));
+}
+BENCHMARK(parse_pigment_function)->Unit(benchmark::kMillisecond);
 
 } // namespace

@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Of src/scene, for the language: what computes in double precision and knows no records.
-set(computing "scene/(extent|mesh_geometry|noise|shape_geometry|triangle_tree)\\.hpp")
+set(computing "scene/(extent|mesh_geometry|noise|point_texture|shape_geometry|triangle_tree)\\.hpp")
 
 # Of each room, what it may include besides itself and public headers.
 set(allowed_cli "study/|pov/|render/|image/|cache/|viewer/")
@@ -54,6 +54,13 @@ foreach(file IN LISTS files)
   foreach(line IN LISTS lines)
     message(SEND_ERROR "${file}: a library does not print: ${line}")
   endforeach()
+endforeach()
+
+# Programs of functions know neither the parser nor places in scenes.
+file(GLOB files ${SOURCE}/pov/function_*.[ch]pp)
+list(FILTER files EXCLUDE REGEX "function_reader\\.cpp$")
+foreach(file IN LISTS files)
+  check_includes(${file} "pov/function_")
 endforeach()
 
 file(GLOB headers ${SOURCE}/scene/*.hpp)

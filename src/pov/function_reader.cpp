@@ -135,12 +135,7 @@ private:
     } else if (is(tokens::T_TRANSFORM) || is(tokens::T_SPLINE)) {
       read_value();
     } else if (is(tokens::T_PIGMENT) || (name && session_.names.text(*name) == "pattern")) {
-      const bool is_pigment = is(tokens::T_PIGMENT);
-      session_.tokens.skip_group();
-      function_->body = unsupported_function(
-          is_pigment ? "a pigment as a function" : "a pattern as a function", 3, is_pigment ? 5 : 1);
-      function_->gives_vector = is_pigment;
-      advance();
+      read_texture(is(tokens::T_PIGMENT));
     } else {
       return false;
     }
@@ -159,6 +154,21 @@ private:
     function_->parameters = internal->parameters();
     advance();
     expect(')', "after the number");
+  }
+
+  /// Has the grammar read a pigment, or a pattern as if it were one.
+  void read_texture(bool is_pigment) {
+    const Location where = terminal_.where;
+    Token word = session_.tokens.last_token();
+    word.name = session_.names.intern("pigment");
+    session_.input.unread(word);
+    const Value value = session_.tokens.evaluate(Start::value);
+    const PigmentDefinition& pigment = *std::get<PigmentPtr>(value);
+    if (!is_pigment && !pigment.pattern.exists() && !pigment.first_unsupported())
+      session_.fail(where, "there is no pattern in this function");
+    function_->body = is_pigment ? pigment_function(pigment) : pattern_function(pigment);
+    function_->gives_vector = function_->gives_colour = is_pigment;
+    advance();
   }
 
   /// Has the grammar read a transformation or spline.

@@ -14,6 +14,7 @@
 
 namespace celltrace::pov {
 
+struct PigmentDefinition;
 struct Session;
 struct UserFunction;
 using FunctionPtr = std::shared_ptr<const UserFunction>;
@@ -47,6 +48,10 @@ void check_argument_count(Session& session, const UserFunction& function, std::s
 
 /// A spline as a function of its number.
 std::shared_ptr<const NativeFunction> spline_function(SplinePtr spline);
+/// A pigment as a function of points that gives its colour.
+std::shared_ptr<const NativeFunction> pigment_function(const PigmentDefinition& pigment);
+/// A pigment's pattern, of which there must be one, as a function of points.
+std::shared_ptr<const NativeFunction> pattern_function(const PigmentDefinition& pigment);
 /// A function that fails wherever it is called: "`what` is not supported yet".
 std::shared_ptr<const NativeFunction> unsupported_function(const std::string& what, std::size_t parameters,
                                                            std::size_t results);

@@ -175,11 +175,56 @@ TEST_CASE("components of what functions give") {
         "scene.pov:1:73: error: a vector of 3 components has no such component");
 }
 
+TEST_CASE("pigments and patterns are functions of points") {
+  const auto at = [](const std::string& declarations, const std::string& function) {
+    return number(declarations, function + "(1.2, 3.4, 5.6)");
+  };
+  CHECK(at("#declare F = function { pattern { granite scale 0.3 turbulence 0.2 } } ", "F") == "0.398628");
+  CHECK(at("#declare F = function { pattern { crackle metric 1 form <1, 0, 0> } } ", "F") == "0.832894");
+  CHECK(at("#declare F = function { pattern { checker } } ", "F") == "1.000000");
+  CHECK(at("global_settings { number_of_waves 5 } #declare F = function { pattern { ripples } } ", "F") ==
+        "0.359171"); // of ten waves in any case
+  CHECK(at("#declare F = function { pattern { bozo } } ", "F") == "0.535667");
+  CHECK(at("#declare F = function { pattern { bozo } } global_settings { noise_generator 1 } ", "F") ==
+        "0.541099");
+  CHECK(at("#declare F = function { pattern { pigment_pattern { bozo color_map { [0 rgb 0] "
+           "[1 rgb <1, 0.5, 0.2>] } } sine_wave } } ",
+           "F") == "0.939568");
+  const std::string pigment = "#declare E = function { pigment { bozo color_map { [0 rgb <1, 0, 0>] "
+                              "[0.5 rgbt <0, 1, 0, 0.5>] [1 rgbf <0, 0, 1, 0.7>] } scale 0.4 } } ";
+  CHECK(vector(pigment, 5, "E(1.2, 3.4, 5.6)") == "0.000000 0.878338 0.121662 0.085163 0.439169");
+  CHECK(number(pigment, "E(1.2, 3.4, 5.6).gray") == "0.531211");
+  CHECK(number(pigment, "E(1.2, 3.4, 5.6).transmit") == "0.439169");
+  CHECK(at(pigment + "#declare A = function { pattern { granite scale 0.3 turbulence 0.2 } } "
+                     "#declare F = function { E(x, y, z).hf + E(y, x, z).gray*A(x, y, z) } ",
+           "F") == "0.198735");
+  CHECK(
+      vector(
+          "#declare P = pigment { rgbft <0.1, 0.2, 0.3, 0.4, 0.5> } #declare F = function { pigment { P } } ",
+          5, "F(7, 8, 9)") == "0.100000 0.200000 0.300000 0.400000 0.500000");
+  // Nothing goes wrong far away, or nowhere.
+  const std::string far =
+      "#declare V = function(x) { 1/x } #declare I = V(0); #declare P = function { pattern { ";
+  for (const char* pattern :
+       {"bozo", "granite", "crackle", "cells", "checker", "hexagon", "wood", "mandel 20",
+        "bozo noise_generator 3", "bozo warp { repeat x } warp { black_hole 0, 1 }"})
+    for (const char* point : {"I", "-I", "I-I", "1e300", "1e20", "3e9"})
+      CHECK_NOTHROW(output(far + pattern + " } } #declare A = P(" + point + ", 1, 2);"));
+}
+
 TEST_CASE("functions of what is not supported are an error where they are called") {
-  const std::string declaration = "#declare F = function { pattern { bozo scale 2 } } ";
+  const std::string declaration =
+      "#declare F = function { pattern { image_map { png \"a.png\" } scale 2 } } ";
   CHECK(error_line(declaration).empty());
   CHECK(error_line(declaration + "#declare A = F(1, 2, 3);") ==
-        "scene.pov:1:65: error: a pattern as a function is not supported yet");
+        "scene.pov:1:86: error: 'image_map' is not supported yet");
+  CHECK(error_line(declaration + "#declare G = function { F(x, y, z) } #declare A = G(1, 2, 3);") ==
+        "scene.pov:1:123: error: 'image_map' is not supported yet");
+  CHECK(
+      error_line("#declare F = function { pigment { slope y } } #declare A = F(1, 2, 3);") ==
+      "scene.pov:1:60: error: a pigment of surface coordinates or slopes as a function is not supported yet");
+  CHECK(error_line("#declare F = function { pattern { scale 2 } }") ==
+        "scene.pov:1:25: error: there is no pattern in this function");
 }
 
 TEST_CASE("splines") {
