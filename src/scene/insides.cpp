@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 
 #include <glm/geometric.hpp>
 
@@ -97,22 +98,24 @@ bool may_have_inside(const Object& object) {
   return sphere == nullptr || sphere->radius != 0;
 }
 
-/// Whether it or something that it is made of is inverse.
-bool has_inverse(const Object& object) {
-  const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
-  return object.inverse ||
-         (csg != nullptr && std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_inverse));
-}
+/// Extents of meshes in their own spaces, of which instances share one.
+class MeshExtents {
+public:
+  const Extent& of(const Mesh& mesh) {
+    const auto [known, is_new] = extents_.try_emplace(&mesh);
+    if (is_new) known->second = geometry::extent_of(mesh);
+    return known->second;
+  }
 
-/// Without inverse parts nothing is in an object beyond its meshes: they are not worth a look at all of their
-/// vertices then.
-enum class Meshes { bounded, unbounded };
+private:
+  std::unordered_map<const Mesh*, Extent> extents_;
+};
 
-Aabb box_of(const Object& object, const Transform& around, Meshes meshes);
+Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes);
 
 /// Of what all parts of an intersection or difference have in common. What is inverse does not limit it, nor
 /// what is taken away, which counts as inverse. Nothing is a point, as in POV-Ray.
-Aabb common_box(const Csg& csg, const Transform& transform, Meshes meshes) {
+Aabb common_box(const Csg& csg, const Transform& transform, MeshExtents& meshes) {
   Aabb box = kUnbounded;
   for (const Object& part : csg.parts)
     if (part.inverse == is_taken_away(part, csg)) box = intersected(box, box_of(part, transform, meshes));
@@ -122,7 +125,7 @@ Aabb common_box(const Csg& csg, const Transform& transform, Meshes meshes) {
 }
 
 /// Of an object that is not clipped. `transform`: all of its own.
-Aabb box_of_shape(const Object& object, const Transform& transform, Meshes meshes) {
+Aabb box_of_shape(const Object& object, const Transform& transform, MeshExtents& meshes) {
   if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
     using Operation = Csg::Operation;
     const Operation operation = (*csg)->operation;
@@ -134,8 +137,7 @@ Aabb box_of_shape(const Object& object, const Transform& transform, Meshes meshe
     return box;
   }
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape)) {
-    if (meshes == Meshes::unbounded) return kUnbounded;
-    const Extent extent = geometry::extent_of(**mesh).moved(transform);
+    const Extent extent = meshes.of(**mesh).moved(transform);
     Aabb box;
     for (int axis = 0; axis < 3; ++axis) {
       box.min[axis] = static_cast<float>(extent.min[axis]);
@@ -153,7 +155,7 @@ Aabb box_of_shape(const Object& object, const Transform& transform, Meshes meshe
 
 /// Around what POV-Ray takes for the object when it asks what the camera is in: what is inverse counts as if
 /// it were not, in merges too. As far as it is worth finding out.
-Aabb box_of(const Object& object, const Transform& around, Meshes meshes) {
+Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes) {
   Aabb box = box_of_shape(object, object.transform.then(around), meshes);
   if (object.clipped_by)
     for (const Object& clip : *object.clipped_by)
@@ -162,17 +164,17 @@ Aabb box_of(const Object& object, const Transform& around, Meshes meshes) {
 }
 
 /// As the former; a sphere of its own is not worth a box, of which there may be a million.
-Aabb box_around(const Object& object) {
+Aabb box_around(const Object& object, MeshExtents& meshes) {
   if (std::holds_alternative<Sphere>(object.shape) && !object.inverse && !object.clipped_by)
     return kUnbounded;
-  return box_of(object, Transform(), has_inverse(object) ? Meshes::bounded : Meshes::unbounded);
+  return box_of(object, Transform(), meshes);
 }
 
 } // namespace
 
 bool Medium::contains(const Vec3& point) const {
   for (int axis = 0; axis < 3; ++axis) {
-    const double slack = 1e-4 * (1 + std::abs(point[axis]));
+    const double slack = 1e-6 * (1 + std::abs(point[axis]));
     if (point[axis] < box.min[axis] - slack || point[axis] > box.max[axis] + slack) return false;
   }
   return is_inside(object, Transform(), point, false);
@@ -192,10 +194,11 @@ std::vector<Medium> media_of(const Scene& scene) {
   if (scene.fogs.empty() && std::none_of(scene.materials.begin(), scene.materials.end(), asks_for_interiors))
     return {};
   std::vector<Medium> media;
+  MeshExtents meshes;
   for (const Object& object : scene.objects) {
     const std::optional<Index> interior = interior_of(object);
     if (interior && !object.is_hidden && may_have_inside(object))
-      media.push_back({object, *interior, box_around(object)});
+      media.push_back({object, *interior, box_around(object, meshes)});
   }
   return media;
 }

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace celltrace::geometry {
@@ -87,8 +88,14 @@ bool is_inside(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, co
 }
 
 Extent extent_of(const Mesh& mesh) {
-  if (mesh.vertices.empty()) return {};
-  return Extent::around({mesh.vertices.begin(), mesh.vertices.end()});
+  if (mesh.triangles.empty()) return {};
+  Vec3f low = mesh.vertices[mesh.triangles.front().vertex[0]], high = low;
+  for (const Mesh::Triangle& triangle : mesh.triangles)
+    for (const Index vertex : triangle.vertex) {
+      low = glm::min(low, mesh.vertices[vertex]);
+      high = glm::max(high, mesh.vertices[vertex]);
+    }
+  return {Vec3(low), Vec3(high)};
 }
 
 } // namespace celltrace::geometry

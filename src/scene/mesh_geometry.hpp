@@ -24,7 +24,7 @@ bool is_inside(const Mesh& mesh, const Vec3& point);
 /// `triangles`: with all that this ray crosses.
 bool is_inside(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Vec3& point);
 
-/// A point where there are no vertices.
+/// Around its triangles; a point if there are none.
 Extent extent_of(const Mesh& mesh);
 
 } // namespace celltrace::geometry

@@ -640,3 +640,33 @@ TEST_CASE("Through transparent cylinders and cones is seen what they stand on") 
     }
   }
 }
+
+TEST_CASE("A camera beyond the box around an open mesh is not inside of it") {
+  // The ray along the inside vector crosses the mesh once from all places in front of it.
+  auto mesh = std::make_shared<Mesh>();
+  mesh->vertices = {{-3, -3, 0}, {3, -3, 0}, {0, 3, 1}};
+  mesh->triangles.push_back({{0, 1, 2}});
+  mesh->inside_vector = {0, 0, 1};
+  Scene scene;
+  scene.add(Material{Pigment{{1, 1, 1}}});
+  scene.lights.push_back({{0, 0, -100}});
+  scene.fogs.emplace_back().distance = 3;
+  Object wall, open;
+  wall.shape = Plane{{0, 0, 1}, -20};
+  wall.interior = scene.add(Interior());
+  open.shape = std::shared_ptr<const Mesh>(mesh);
+  open.interior = scene.add(Interior());
+  scene.objects = {wall, open};
+  scene.camera.direction = {0, 0, -1};
+  const auto brightness = [&](double z, const Transform& by) {
+    scene.camera.location = {0, -2, z};
+    scene.objects[1].transform = by;
+    return int{render(scene, backends().front().options(4, 4, 1)).image.rgba[0]};
+  };
+  const int in_fog = brightness(-1, Transform());
+  CHECK(in_fog < 5);
+  CHECK(brightness(0.05, Transform()) > 100);
+  CHECK(brightness(0.95, Transform()) == in_fog); // behind the mesh
+  CHECK(brightness(-1, Transform::scale({1, 1, 3})) == in_fog);
+  CHECK(brightness(-1, Transform::translate({0, 0, -1.05})) > 100);
+}
