@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <variant>
 
@@ -103,12 +105,61 @@ bool ConvexSolid::cut(const Object& object) {
   const Vec3 low = glm::min(box->corner[0], box->corner[1]), high = glm::max(box->corner[0], box->corner[1]);
   const Vec3 size = high - low;
   if (!(std::min({size.x, size.y, size.z}) > kFlat * std::max({size.x, size.y, size.z}))) return false;
+  const std::size_t first = half_spaces_.size();
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 normal(0);
     normal[axis] = 1;
     if (!add(normal, high) || !add(-normal, low)) return false;
   }
+  if (box_) return true;
+  WholeBox& whole = box_.emplace();
+  whole.first = first;
+  whole.reach = 0;
+  for (int i = 0; i < 8; ++i) {
+    whole.corners[i] = object.transform.point(
+        {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z});
+    const Vec3 away = glm::abs(whole.corners[i] - whole.corners[0]);
+    whole.reach = std::max({whole.reach, away.x, away.y, away.z});
+  }
   return true;
+}
+
+/// Where all corners of the box are, as seen from another half-space.
+ConvexSolid::Side ConvexSolid::side_of(const HalfSpace& half_space, double tolerance) const {
+  double least = std::numeric_limits<double>::max(), most = -least;
+  for (const Vec3& corner : box_->corners) {
+    const double height = glm::dot(half_space.normal, corner) - half_space.offset;
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  return most < -tolerance ? Side::inside : least > tolerance ? Side::outside : Side::cut;
+}
+
+bool ConvexSolid::is_surely_empty() const {
+  return box_ && std::any_of(half_spaces_.begin(), half_spaces_.end(), [this](const HalfSpace& half_space) {
+           return side_of(half_space, kFlat * box_->reach) == Side::outside;
+         });
+}
+
+/// The faces of the box from the last one on, if no other half-space cuts it and it is not flat for a space
+/// of that size; else nothing.
+std::vector<ConvexSolid::HalfSpace> ConvexSolid::faces_of_whole_box(double size) const {
+  if (!box_) return {};
+  const double tolerance = kFlat * std::max(size, box_->reach);
+  const auto first = half_spaces_.begin() + static_cast<std::ptrdiff_t>(box_->first), end = first + 6;
+  const auto is_beside = [&](const HalfSpace& half_space) {
+    return side_of(half_space, tolerance) == Side::inside;
+  };
+  if (!std::all_of(half_spaces_.begin(), first, is_beside) ||
+      !std::all_of(end, half_spaces_.end(), is_beside))
+    return {};
+  const auto is_wide = [&](const HalfSpace& face) {
+    return std::any_of(std::begin(box_->corners), std::end(box_->corners), [&](const Vec3& corner) {
+      return face.offset - glm::dot(face.normal, corner) > kFlat * size;
+    });
+  };
+  if (!std::all_of(first, end, is_wide)) return {};
+  return {std::make_reverse_iterator(end), std::make_reverse_iterator(first)};
 }
 
 std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
@@ -122,12 +173,24 @@ std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
     start.min[i] -= static_cast<float>(size);
     start.max[i] += static_cast<float>(size);
   }
+  const auto box_of_faces = [&](const std::vector<HalfSpace>& shown) -> std::optional<Object> {
+    const std::optional<Transform> box = box_between(shown);
+    if (!box) return {};
+    Object object = first_;
+    object.inverse = false;
+    object.shape = Box{{Vec3(0), Vec3(1)}};
+    object.transform = *box;
+    object.material = shown.front().material;
+    return object;
+  };
+  std::vector<HalfSpace> shown = faces_of_whole_box(size);
+  if (std::optional<Object> whole = box_of_faces(shown)) return whole;
+  shown.clear();
   const double tolerance = 0.1 * kFlat * size;
   Polytope polytope(start);
   for (std::size_t i = half_spaces_.size(); i-- > 0;)
     polytope.cut_exactly(half_spaces_[i].normal, half_spaces_[i].offset, tolerance, i);
 
-  std::vector<HalfSpace> shown;
   for (const Polytope::Face& face : polytope.faces()) {
     if (face.source == Polytope::kBox) return {};
     shown.push_back(half_spaces_[face.source]);
@@ -141,19 +204,14 @@ std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
     });
   };
   if (shown.size() < 4 || std::any_of(shown.begin(), shown.end(), is_flat_below)) return {};
-  Object object = first_;
-  object.inverse = false;
-  if (const std::optional<Transform> box = box_between(shown)) {
-    object.shape = Box{{Vec3(0), Vec3(1)}};
-    object.transform = *box;
-    object.material = shown.front().material;
-    return object;
-  }
+  if (std::optional<Object> box = box_of_faces(shown)) return box;
   MeshOfFaces faces(tolerance);
   for (std::size_t i = 0; i < shown.size(); ++i)
     faces.add(polytope.faces()[i].corners, shown[i].normal, shown[i].material);
   Mesh mesh = faces.take();
   if (mesh.triangles.empty()) return {};
+  Object object = first_;
+  object.inverse = false;
   object.shape = std::make_shared<const Mesh>(std::move(mesh));
   object.transform = Transform();
   return object;

@@ -533,13 +533,14 @@ private:
     }
   }
 
-  /// Where it is a solid between planes. False: it is not, and nothing is shown.
+  /// Shows it if it is a solid between planes. False: it is none, and nothing is shown.
   bool show_convex(const Node& node) {
     constexpr std::uint32_t kMostSolids = 300; // the time grows with the square
     if (material_flags_ == nullptr || node.kind != Node::Kind::intersection || node.leaves > kMostSolids)
       return false;
     ConvexSolid solid;
     if (!cut(solid, node, *material_flags_)) return false;
+    if (solid.is_surely_empty()) return true;
     std::optional<Object> object = solid.as_object(solid_bounds(node, kEverywhere));
     if (!object) return false;
     BuildWatch::look_at(to_.parts.size());

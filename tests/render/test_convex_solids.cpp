@@ -150,3 +150,22 @@ TEST_CASE("What is not convex, not closed, or asks for more than points stays as
   CHECK(are_limited(parts_of(csg_object(kIntersection, {cube, slanted}), {kernel::object_flag::two_sided})));
   CHECK(are_limited(parts_of(csg_object(kIntersection, {cube, slanted}), {kernel::object_flag::by_surface})));
 }
+
+TEST_CASE("A box that a plane does not cut is that box, or nothing") {
+  const Object whole = csg_object(kIntersection, {box({0, 0, 0}, {1, 2, 3}), plane({1, 1, 1}, 10)});
+  const std::vector<CsgPart> parts = parts_of(whole);
+  REQUIRE(parts.size() == 1);
+  REQUIRE(std::holds_alternative<Box>(parts[0].object.shape));
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 at((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+    const Vec3 from = parts[0].object.transform.point(at);
+    CHECK((from.x == Approx(0).margin(1e-9) || from.x == Approx(1)));
+    CHECK((from.y == Approx(0).margin(1e-9) || from.y == Approx(2)));
+    CHECK((from.z == Approx(0).margin(1e-9) || from.z == Approx(3)));
+  }
+  Object turned = csg_object(kIntersection, {plane({1, 1, 1}, -1), box({0, 0, 0}, {1, 2, 3})});
+  turned.transform = Transform::rotate({10, 20, 30});
+  CHECK(parts_of(turned).empty());
+  // Touched by a plane it is not whole for sure, but looks so.
+  CHECK(parts_of(csg_object(kIntersection, {box({0, 0, 0}, {1, 1, 1}), plane({1, 0, 0}, 1)})).size() == 1);
+}
