@@ -97,6 +97,14 @@ template <class T> void make_room(std::vector<T>& list, const TokenStream& token
   list.reserve(std::max(2 * list.size(), list.size() + more));
 }
 
+/// The radius of a disc, or one that is as good: no ray goes that far.
+double seen_radius(const Disc& disc, const Transform& transform) {
+  constexpr double kFarthest = 1e15;
+  const double scale = std::max(
+      {glm::length(transform.rows[0]), glm::length(transform.rows[1]), glm::length(transform.rows[2])});
+  return disc.radius * scale > kFarthest ? kFarthest / scale : disc.radius;
+}
+
 /// Orders the corners so that its outside as a Mesh's is POV-Ray's: where its normals point, or else, by the
 /// axis along which it faces most, to -x, +y or -z.
 void turn_outside(TriangleDefinition& triangle) {
@@ -423,6 +431,16 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
   if (const Shape* shape = std::get_if<Shape>(&object.shape)) {
     made.shape = *shape;
     if (std::holds_alternative<std::shared_ptr<const Polygon>>(*shape)) made.inverse = false;
+    if (auto* disc = std::get_if<Disc>(&made.shape)) disc->radius = seen_radius(*disc, own.transform);
+    if (!geometry::fits_single_precision(made.shape, own.transform)) {
+      warn_of_size(object);
+      if (!own.inside) return false;
+      // No ray comes to its surface; the scene is inside of it or outside.
+      const Vec3 at = own.transform.inverse().point(Vec3(0));
+      if (geometry::is_inside(*shape, at)) made.inverse = !made.inverse;
+      made.shape = Sphere{{0, 0, 0}, 0};
+      return true;
+    }
     return own.inside || !is_invisible(*shape);
   }
   const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);
@@ -447,9 +465,18 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     }
     made.inverse = false;
   }
+  if (!geometry::fits_single_precision(mesh, triangle ? Transform() : own.transform)) {
+    warn_of_size(object);
+    return false;
+  }
   const bool is_visible = !mesh->triangles.empty();
   made.shape = std::move(mesh);
   return own.inside || is_visible;
+}
+
+void SceneBuilder::warn_of_size(const ObjectDefinition& object) {
+  diagnostics_.warn_once(object.where, "this object is too large, too thin or too far away to be seen: it is "
+                                       "left out");
 }
 
 void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& object, const Location& where) {

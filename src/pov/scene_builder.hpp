@@ -120,6 +120,7 @@ private:
   std::vector<Index> add_light(const LightDefinition& definition, const Inherited& own,
                                const Location& where);
   void place_look(const LightDefinition& definition, Inherited own, const Location& where);
+  void warn_of_size(const ObjectDefinition& object);
   void refuse(const std::string& what, const ObjectDefinition& object, const Location& where);
   Index interior_of(const Inherited& own);
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,

@@ -159,7 +159,7 @@ void InstancedMeshes::add_instance(const Object& object, std::uint32_t mesh) {
   for (const Aabb& group : prototype.group_bounds())
     box.grow(WorldBox(group, object.transform));
   instances_.push_back({&object, mesh, next_number_, around(box)});
-  check_size(instances_.back().box);
+  check_size(instances_.back().box, static_cast<std::size_t>(&object - objects_));
   next_number_ = sum_of(next_number_, prototype.triangles().size());
 }
 

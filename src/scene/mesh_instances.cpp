@@ -120,7 +120,8 @@ bool MeshInstances::keeps_areas(const Instance& instance) const {
   std::vector<Vec3f> world;
   for (const Vec3f& vertex : prototype.vertices()) {
     const Vec3f at = in_world(transform, vertex);
-    check_size({{at.x, at.y, at.z}, {at.x, at.y, at.z}});
+    check_size({{at.x, at.y, at.z}, {at.x, at.y, at.z}},
+               static_cast<std::size_t>(instance.object - scene_.objects.data()));
     world.push_back(at);
   }
   const auto has_area_in_world = [&](const MeshPrototype::Triangle& triangle) {

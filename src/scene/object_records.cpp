@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 
 namespace celltrace {
 
@@ -26,12 +27,16 @@ void hide(ObjectRecord& record, const Vec3f& at) {
   record.extra = kNoOffset;
 }
 
-void check_size(const Aabb& box) {
-  constexpr float kMost = 1e18f;
+bool has_size(const Aabb& box) {
   for (int i = 0; i < 3; ++i)
-    if (!(box.min[i] > -kMost && box.max[i] < kMost))
-      throw InputError(
-          "the scene has an object that is too large, too thin or too far away for single precision");
+    if (!(box.min[i] > -kMostCoordinate && box.max[i] < kMostCoordinate)) return false;
+  return true;
+}
+
+void check_size(const Aabb& box, std::size_t object) {
+  if (!has_size(box))
+    throw InputError("object " + std::to_string(object) +
+                     " is too large, too thin or too far away for single precision");
 }
 
 } // namespace celltrace

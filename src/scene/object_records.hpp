@@ -6,6 +6,7 @@
 #include "kernel/records.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <variant>
 #include <vector>
@@ -96,7 +97,10 @@ inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kin
 /// shown.
 void hide(kernel::ObjectRecord& record, const Vec3f& at);
 
-/// Throws InputError unless single precision holds the squares of an object's coordinates.
-void check_size(const kernel::Aabb& box);
+/// Coordinates whose squares single precision holds are less, in either direction.
+inline constexpr float kMostCoordinate = 1e18f;
+bool has_size(const kernel::Aabb& box);
+/// Throws InputError, naming the object by its index in the scene, unless its coordinates are all less.
+void check_size(const kernel::Aabb& box, std::size_t object);
 
 } // namespace celltrace

@@ -191,6 +191,10 @@ SceneObjects::Placed SceneObjects::placed_at(const Piece& piece, std::uint32_t n
   return {&part->object, part};
 }
 
+Index SceneObjects::owner_of(const Piece& piece) const {
+  return owner_of({piece.object, piece.part});
+}
+
 Index SceneObjects::owner_of(const Placed& placed) const {
   if (placed.part != nullptr) return static_cast<Index>(placed.part->whole);
   return static_cast<Index>(placed.object - scene_.objects.data());
@@ -323,7 +327,7 @@ void SceneObjects::visit_shapes(const Piece& piece, std::uint32_t begin, std::ui
       box = shape.bounds();
       census.extras += shape.has_parameters;
     }
-    check_size(box);
+    check_size(box, owner_of(object));
     census.around = united(census.around, box);
     ++census.objects;
     visit(number, lanes_of(box));
@@ -343,7 +347,7 @@ void SceneObjects::visit_triangles(const Piece& piece, std::uint32_t begin, std:
                 &c = piece.vertices[triangle.vertex[2]];
     if (!has_area(a, b, c)) continue;
     LaneAabb box = box_around(a, b, c);
-    if (!has_size(box)) check_size(box_of(box));
+    if (!has_size(box)) check_size(box_of(box), owner_of(piece));
     if (is_limited && !limit(box, piece.part->bounds)) continue;
     census.extras += is_limited || is_smooth(triangle) || (may_be_mapped && is_mapped(piece, triangle));
     census.blended += is_blended(piece, triangle);

@@ -129,6 +129,7 @@ private:
   bool is_mapped(const Piece& piece, const Mesh::Triangle& triangle) const;
 
   Index owner_of(const Placed& placed) const;
+  Index owner_of(const Piece& piece) const;
 
   const Scene& scene_;
   const std::vector<std::uint32_t>& material_flags_;

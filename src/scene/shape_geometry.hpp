@@ -48,6 +48,10 @@ bool is_inside(const Shape& shape, const Vec3& point);
 /// POV-Ray's box around a shape that is placed; everywhere of a CSG.
 Extent extent_of(const Shape& shape, const Transform& transform);
 
+/// Whether rays can be tested against a shape, no CSG, in single precision: it is not too large, too thin or
+/// too far away. The transformation is not singular.
+bool fits_single_precision(const Shape& shape, const Transform& transform);
+
 /// That of the half-space of a plane which is a part of an intersection: smaller if it is along an axis.
 Extent half_space(const Plane& plane, const Transform& transform, bool is_inverse);
 

@@ -163,3 +163,41 @@ TEST_CASE("degenerate shapes that POV-Ray refuses") {
   CHECK(error_line("cone { y, 1, y, 0 }") == "scene.pov:1:1: error: this cone's ends are the same point");
   CHECK(error_line("cone { 0, 1, y, -1 }") == "scene.pov:1:1: error: a cone's radii must not be negative");
 }
+
+TEST_CASE("what is too large, thin or far away to be seen is left out, and its place said") {
+  const auto warning = [](const std::string& object) {
+    std::string said;
+    ParseOptions options;
+    options.message = [&said](std::string_view message) { said += message; };
+    const Scene scene = parse("sphere { 0, 1 }\n" + object, options);
+    CHECK_NOTHROW(validate(scene));
+    CHECK(scene.objects.size() == 1);
+    return said;
+  };
+  const std::string left_out =
+      ": warning: this object is too large, too thin or too far away to be seen: it is left out\n";
+  for (const char* object :
+       {"sphere { 0, 1 translate 1e200*x }", "sphere { 0, 1e200 }", "cylinder { 0, y, 1e-40 }",
+        "torus { 1, 0.1 scale 1e-45 }", "mesh { triangle { 0, x, y } scale 1e30 }"})
+    CHECK(warning(object) == "scene.pov:2:1" + left_out);
+  CHECK(warning("union { box { 0, 1 } translate 1e100 }") == "scene.pov:2:9" + left_out);
+  // Flat ones are seen, and so is what only looks extreme.
+  for (const char* object :
+       {"box { 0, <1, 1e-40, 1> }", "box { 0, 1 scale 1e30 }", "disc { 0, y, 1e30 }", "plane { y, -1e15 }",
+        "sphere { 1e6, 1e7 }", "cone { 0, 1, y, 0 scale 1e-6 }", "quadric { 1, 0, 0, -1 }"})
+    CHECK(parse(object).objects.size() == 1);
+}
+
+TEST_CASE("a part of CSG that is far away leaves nothing or everything of the others") {
+  ParseOptions quiet;
+  quiet.message = [](std::string_view) {};
+  const auto far_part = [&](const std::string& part) {
+    const Scene scene = parse("intersection { sphere { 0, 1 } " + part + " }", quiet);
+    return std::get<std::shared_ptr<const Csg>>(scene.objects.at(0).shape)->parts.at(1);
+  };
+  const auto is_point = [](const Object& object) { return std::get<Sphere>(object.shape).radius == 0; };
+  const Object beyond = far_part("sphere { 0, 1 translate 1e200*x }"),
+               around = far_part("sphere { 0, 1e200 }");
+  CHECK((is_point(beyond) && !beyond.inverse));
+  CHECK((is_point(around) && around.inverse));
+}
