@@ -44,8 +44,9 @@ constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8960};
 /// What is inside of shapes whose equations have powers, and the normals of these.
 constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
-/// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
-constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
+/// What is inside of meshes, and which crossings CSG sees of those without an inside. Likewise: where CSG has
+/// meshes, it asks both by turns.
+constexpr CodeModule kMeshes = {"meshes", 17, 1, 4864};
 /// Where crossings are in polygons. Likewise, beside the shapes.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// Instances of meshes. Likewise.

@@ -162,6 +162,24 @@ struct alignas(64) MeshTriangleRecord {
 };
 static_assert(sizeof(MeshTriangleRecord) == 64, "two a line");
 
+// A mesh without an inside vector in CSG. POV-Ray looks at the boxes of its triangles in the order in which a
+// ray enters them, and stops before the first one that it enters behind the crossing found last: CSG shows
+// what was found until then.
+
+/// SolidRecord: which crossings with such a mesh are found. `geometry` is the map from the world to the
+/// mesh's own space, `extra` the offset of the first of its CrossedMeshRecords.
+constexpr uint32_t kCrossedMeshSolid = kEmptySolid - 2;
+
+/// A triangle of such a mesh, or a box around those between this record and the one at `next`: a tree of
+/// boxes in depth-first order. The first record is the box around all.
+struct alignas(64) CrossedMeshRecord {
+  float corner[3][3];   ///< of a box: the least and the greatest one
+  uint32_t next;        ///< offset of the record behind it and what is in it
+  uint32_t is_triangle; ///< 0 or 1
+  uint32_t unused[5];
+};
+static_assert(sizeof(CrossedMeshRecord) == 64, "two a line");
+
 // Instances of a mesh of which the image has one copy. Its triangles are ObjectRecords in its own space, in a
 // table apart, in the order of the leaves of a BVH that it has for itself. An instance is one object, whose
 // test traverses that BVH. Hits name a triangle of an instance by a number, for which an ObjectRecord in the
@@ -557,6 +575,8 @@ constexpr uint32_t near_surfaces = 0x200;
 /// With `stepwise`: only because interiors fade. What surfaces let through depends on points of them alone.
 constexpr uint32_t only_fading = 0x400;
 constexpr uint32_t unseen = 0x1000; ///< some objects are object_flag::no_image
+/// With `near_surfaces`: which surfaces a shadow ray crosses depends on where it started last.
+constexpr uint32_t restarts = 0x2000;
 // Of frames alone, not of scene images:
 constexpr uint32_t alpha = 0x20; ///< how clear each pixel is is wanted, too
 /// With `alpha`: only rays that came by a mirror see sky and background.
@@ -615,10 +635,11 @@ struct alignas(128) ImageHeader {
   uint32_t slope_offset, slope_count;                 ///< SlopeRecords
   uint32_t projector_count; ///< ObjectRecords of projectors, just before those without bounds
   uint32_t surface_nodes; ///< that what the rays of a node hit may push, at most; kMostSurfaceNodes: or more
-  uint32_t instance_offset, instance_count;       ///< InstanceRecords
-  uint32_t mesh_object_offset, mesh_object_count; ///< ObjectRecords of the meshes of instances
-  uint32_t mesh_node_offset, mesh_node_count;     ///< NodeRecords of their BVHs
-  uint32_t unused[17];
+  uint32_t instance_offset, instance_count;         ///< InstanceRecords
+  uint32_t mesh_object_offset, mesh_object_count;   ///< ObjectRecords of the meshes of instances
+  uint32_t mesh_node_offset, mesh_node_count;       ///< NodeRecords of their BVHs
+  uint32_t crossed_mesh_offset, crossed_mesh_count; ///< CrossedMeshRecords
+  uint32_t unused[15];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 

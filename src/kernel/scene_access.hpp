@@ -65,6 +65,9 @@ public:
   const MeshTriangleRecord* mesh_triangle(uint32_t offset) {
     return read_apart<MeshTriangleRecord>(offset, DataKind::object);
   }
+  const CrossedMeshRecord* crossed_mesh(uint32_t offset) {
+    return read_apart<CrossedMeshRecord>(offset, DataKind::object);
+  }
   const MaterialRecord* material(uint32_t offset) {
     return read_apart<MaterialRecord>(offset, DataKind::material);
   }

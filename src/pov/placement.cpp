@@ -456,9 +456,8 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
       mesh = with_inside(mesh, scene_.materials[made.material].inside, where);
   }
   if (!mesh->has_inside()) {
-    // Of a mesh without an inside POV-Ray's CSG takes what a ray crosses first, and nothing behind it.
-    const bool is_crossed_once = mesh->triangles.size() < 2;
-    if (own.inside && (own.clips || !is_crossed_once)) {
+    // POV-Ray refuses it, too: nothing would be left of what it clips.
+    if (own.inside && own.clips) {
       refuse((triangle ? "a triangle in " : "a mesh without 'inside_vector' in ") + std::string(own.inside),
              object, where);
       return false;

@@ -252,7 +252,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.fog_count = header.fog_count;
   frame.light_ways = header.light_ways | (frame.light_ways & kWaysOfPictures);
   // Their stages cannot walk: light is dimmed by what lies within POV-Ray's tolerance, too.
-  if (options.model != Model::shared) frame.light_ways &= ~light_way::near_surfaces;
+  if (options.model != Model::shared) frame.light_ways &= ~(light_way::near_surfaces | light_way::restarts);
   constexpr double kVersionOfTransparency = 3.7;
   const bool has_backdrop = scene.version >= kVersionOfTransparency;
   if (!has_backdrop) frame.light_ways |= light_way::no_backdrop;

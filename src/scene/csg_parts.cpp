@@ -95,6 +95,7 @@ struct Node {
   std::uint32_t record = 0;    ///< of a solid: index in CsgParts::solids
   std::uint32_t leaves = 1;    ///< solids in it
   std::uint32_t unseen_by = 0; ///< of object_flag::selective: rays that see none of it
+  bool is_bare = false;        ///< it has a solid without an inside, which shows beyond what is inside of it
   bool needs_bounds = false;   ///< it has a quadric or an inverse box: what these leave depends on others
   std::vector<Node> children;
 
@@ -130,6 +131,7 @@ struct Node {
 
   void add(Node child) {
     leaves = (children.empty() ? 0 : leaves) + child.leaves;
+    is_bare = is_bare || child.is_bare;
     needs_bounds = needs_bounds || child.needs_bounds;
     children.push_back(std::move(child));
   }
@@ -229,6 +231,7 @@ private:
     node.object.clipped_by = nullptr;
     node.record = static_cast<std::uint32_t>(solids_.size());
     solids_.push_back(node.mesh() != nullptr ? place_mesh(node) : place_solid(node));
+    node.is_bare = node.has_no_inside();
     if (node.mesh() == nullptr) node.box = box_along_axes(node.shape);
     node.needs_bounds = node.inverse ? node.box.has_value() : node.quadric() != nullptr;
     return node;
@@ -449,7 +452,7 @@ public:
       for_each_child(node, [&](const Node& child, std::size_t i) {
         filled[i] = solid_bounds(child, all);
         // What has no inside shows what is in all others.
-        if (!child.has_no_inside()) all = intersected(all, filled[i]);
+        if (!child.is_bare) all = intersected(all, filled[i]);
       });
       if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))
         polytope = planes.cut_out_of(all);
@@ -572,7 +575,7 @@ private:
     CsgPart part;
     part.object = node.object;
     part.shape = node.shape;
-    part.condition = condition;
+    part.condition = is_crossed_in_part(node, condition) ? add_crossed_mesh(node, condition) : condition;
     Aabb around = kEverywhere;
     if (node.mesh() != nullptr)
       around = node.mesh_bounds;
@@ -589,6 +592,33 @@ private:
     // Meshes that are too large are refused with their triangles.
     part.is_bounded = node.mesh() != nullptr || is_bounded(part.bounds);
     to_.parts.push_back(std::move(part));
+  }
+
+  /// Whether CSG gets to see a part of the crossings with a mesh only. What clips the mesh by itself comes
+  /// before that.
+  bool is_crossed_in_part(const Node& node, std::uint32_t condition) const {
+    if (condition == kNoCondition || node.mesh() == nullptr || node.mesh()->has_inside() ||
+        node.mesh()->triangles.size() < 2)
+      return false;
+    const bool clips_alone = to_.conditions[condition].next == kNoCondition && !limits_.empty() &&
+                             limits_.back().intersection->is_clipped &&
+                             &limits_.back().intersection->children.front() == &node;
+    return !clips_alone;
+  }
+  /// The condition that a crossing is found, besides another one.
+  std::uint32_t add_crossed_mesh(const Node& node, std::uint32_t condition) {
+    SolidRecord solid{};
+    solid.object.kind_and_flags = kCrossedMeshSolid;
+    solid.object.extra = to_.crossed_meshes.of(*node.mesh());
+    write_map(node.object.transform.inverse(), solid.object.geometry);
+    CsgRecord record{};
+    record.next = condition;
+    record.steps = static_cast<std::uint32_t>(to_.steps.size());
+    record.count = 1;
+    to_.steps.push_back({static_cast<std::uint32_t>(to_.solids.size()), kCsgAccept, kCsgReject, 0});
+    to_.solids.push_back(solid);
+    to_.conditions.push_back(record);
+    return static_cast<std::uint32_t>(to_.conditions.size()) - 1;
   }
 
   CsgParts& to_;

@@ -4,6 +4,7 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "scene/crossed_meshes.hpp"
 #include "scene/mesh_insides.hpp"
 #include "scene/shapes.hpp"
 
@@ -46,9 +47,10 @@ struct CsgParts {
   std::vector<kernel::CsgRecord> conditions;
   /// `solid` is an index.
   std::vector<kernel::CsgStep> steps;
-  /// `extra` of a mesh is an index in meshes.grids().
+  /// `extra` of a mesh is an index in meshes.grids(), or in crossed_meshes.records().
   std::vector<kernel::SolidRecord> solids;
   MeshInsides meshes;
+  CrossedMeshes crossed_meshes;
 
   CsgParts() = default;
   /// Takes every object of the scene apart that is a CSG or clipped. The first conditions say what is inside

@@ -219,7 +219,7 @@ bool csg_is_valid(const std::byte* base, const ImageHeader& h) {
   const auto* solids = reinterpret_cast<const SolidRecord*>(base + h.solid_offset);
   return std::all_of(solids, solids + h.solid_count, [](const SolidRecord& solid) {
     const std::uint32_t kind = solid_kind(solid);
-    return kind < kPrimitives || kind == kMeshSolid || kind == kEmptySolid;
+    return kind < kPrimitives || kind == kCrossedMeshSolid || kind == kMeshSolid || kind == kEmptySolid;
   });
 }
 
@@ -250,6 +250,30 @@ bool mesh_insides_are_valid(const std::byte* base, const ImageHeader& h) {
         if (!refers_to(words[at], h.mesh_triangle_offset, h.mesh_triangle_count, sizeof(MeshTriangleRecord)))
           return false;
     }
+  }
+  return true;
+}
+
+bool crossed_meshes_are_valid(const std::byte* base, const ImageHeader& h) {
+  constexpr auto kBytes = static_cast<std::uint32_t>(sizeof(CrossedMeshRecord));
+  const auto* records = reinterpret_cast<const CrossedMeshRecord*>(base + h.crossed_mesh_offset);
+  const auto* solids = reinterpret_cast<const SolidRecord*>(base + h.solid_offset);
+  // A walk only goes forward, and ends where the first record says.
+  std::vector<std::uint32_t> ends;
+  for (std::uint32_t i = 0; i < h.solid_count; ++i) {
+    if (solid_kind(solids[i]) != kCrossedMeshSolid) continue;
+    const std::uint32_t first = solids[i].object.extra;
+    if (!refers_to(first, h.crossed_mesh_offset, h.crossed_mesh_count, kBytes)) return false;
+  }
+  for (std::uint32_t i = 0; i < h.crossed_mesh_count; ++i) {
+    const std::uint32_t self = h.crossed_mesh_offset + i * kBytes, next = records[i].next;
+    while (!ends.empty() && ends.back() == self)
+      ends.pop_back();
+    const std::uint32_t end =
+        ends.empty() ? h.crossed_mesh_offset + h.crossed_mesh_count * kBytes : ends.back();
+    if (next <= self || next > end || (next - self) % kBytes != 0) return false;
+    if (records[i].is_triangle != 0 && next != self + kBytes) return false;
+    ends.push_back(next);
   }
   return true;
 }

@@ -29,6 +29,9 @@ bool csg_is_valid(const std::byte* base, const kernel::ImageHeader& h);
 /// True if the insides of meshes have grids, and their cells lists of triangles.
 bool mesh_insides_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
+/// True if the boxes around triangles of crossed meshes are nested, and solids refer to some of them.
+bool crossed_meshes_are_valid(const std::byte* base, const kernel::ImageHeader& h);
+
 /// True if instances have meshes and numbers of their own for the triangles of these, whose nodes lead to
 /// them in few steps.
 bool instances_are_valid(const std::byte* base, const kernel::ImageHeader& h);

@@ -31,7 +31,7 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::slope_count, &ImageHeader::projector_count, &ImageHeader::surface_nodes,
           &ImageHeader::instance_offset, &ImageHeader::instance_count, &ImageHeader::mesh_object_offset,
           &ImageHeader::mesh_object_count, &ImageHeader::mesh_node_offset, &ImageHeader::mesh_node_count,
-          &ImageHeader::unused>
+          &ImageHeader::crossed_mesh_offset, &ImageHeader::crossed_mesh_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -60,6 +60,10 @@ FieldList<&MeshTriangleRecord::row, &MeshTriangleRecord::column, &MeshTriangleRe
           &MeshTriangleRecord::height, &MeshTriangleRecord::gradient, &MeshTriangleRecord::least_height,
           &MeshTriangleRecord::greatest_height, &MeshTriangleRecord::unused>
 fields_of(const MeshTriangleRecord&);
+
+FieldList<&CrossedMeshRecord::corner, &CrossedMeshRecord::next, &CrossedMeshRecord::is_triangle,
+          &CrossedMeshRecord::unused>
+fields_of(const CrossedMeshRecord&);
 
 FieldList<&InstanceRecord::to_world, &InstanceRecord::normal_to_world, &InstanceRecord::first_number,
           &InstanceRecord::triangle_count, &InstanceRecord::first_triangle, &InstanceRecord::root,

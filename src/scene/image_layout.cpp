@@ -105,6 +105,9 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, light_sets, textures, census.blended);
   if (has_near_surfaces) header.light_ways |= light_way::near_surfaces;
+  // A ray that goes on behind a surface may find crossings that it did not find from where it started.
+  if (textures.filters && !objects.csg().crossed_meshes.records().empty())
+    header.light_ways |= light_way::near_surfaces | light_way::restarts;
   if (!objects.are_all_seen()) header.light_ways |= light_way::unseen;
   const CsgParts& csg = objects.csg();
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
@@ -115,6 +118,8 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   layout.place<std::uint32_t>(meshes.words().size(), header.mesh_word_offset, header.mesh_word_count);
   layout.place<MeshTriangleRecord>(meshes.triangles().size(), header.mesh_triangle_offset,
                                    header.mesh_triangle_count);
+  layout.place<CrossedMeshRecord>(csg.crossed_meshes.records().size(), header.crossed_mesh_offset,
+                                  header.crossed_mesh_count);
   layout.place<PolygonEdgeRecord>(objects.polygons().edges().size(), header.polygon_edge_offset,
                                   header.polygon_edge_count);
   layout.place<InstanceRecord>(instanced.instance_count(), header.instance_offset, header.instance_count);
@@ -144,7 +149,7 @@ ImageHeader with_surfaces(const ImageHeader& old, const Scene& scene, const Ligh
   ImageHeader header = old;
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, light_sets, textures, old.blend_count);
-  header.light_ways |= old.light_ways & (light_way::near_surfaces | light_way::unseen);
+  header.light_ways |= old.light_ways & (light_way::near_surfaces | light_way::unseen | light_way::restarts);
   return header;
 }
 

@@ -78,6 +78,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.mesh_grid_offset, h.mesh_grid_count, sizeof(MeshGridRecord), bytes.size()) ||
       !table_fits(h.mesh_word_offset, h.mesh_word_count, sizeof(std::uint32_t), bytes.size()) ||
       !table_fits(h.mesh_triangle_offset, h.mesh_triangle_count, sizeof(MeshTriangleRecord), bytes.size()) ||
+      !table_fits(h.crossed_mesh_offset, h.crossed_mesh_count, sizeof(CrossedMeshRecord), bytes.size()) ||
       !table_fits(h.instance_offset, h.instance_count, sizeof(InstanceRecord), bytes.size()) ||
       !table_fits(h.mesh_object_offset, h.mesh_object_count, sizeof(ObjectRecord), bytes.size()) ||
       !table_fits(h.mesh_node_offset, h.mesh_node_count, sizeof(NodeRecord), bytes.size()) ||
@@ -86,8 +87,9 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
       !objects_are_valid(image.base(), h) || !lights_are_valid(image.base(), h) ||
       !textures_are_valid(image.base(), h) || !csg_is_valid(image.base(), h) ||
-      !mesh_insides_are_valid(image.base(), h) || !groups_are_valid(image.base(), h) ||
-      !prototypes_are_valid(image.base(), h) || !instances_are_valid(image.base(), h))
+      !mesh_insides_are_valid(image.base(), h) || !crossed_meshes_are_valid(image.base(), h) ||
+      !groups_are_valid(image.base(), h) || !prototypes_are_valid(image.base(), h) ||
+      !instances_are_valid(image.base(), h))
     throw InputError("scene image: an offset is out of range");
   return image;
 }

@@ -133,9 +133,16 @@ void TableWriter::write_csg(const CsgParts& csg) {
     SolidRecord solid = csg.solids[i];
     if (solid.object.kind_and_flags == kMeshSolid)
       solid.object.extra = offset(header_.mesh_grid_offset, solid.object.extra, sizeof(MeshGridRecord));
+    if (solid.object.kind_and_flags == kCrossedMeshSolid)
+      solid.object.extra = offset(header_.crossed_mesh_offset, solid.object.extra, sizeof(CrossedMeshRecord));
     table<SolidRecord>(header_.solid_offset)[i] = solid;
   }
   write_meshes(csg.meshes);
+  auto* crossed = table<CrossedMeshRecord>(header_.crossed_mesh_offset);
+  for (CrossedMeshRecord record : csg.crossed_meshes.records()) {
+    record.next = offset(header_.crossed_mesh_offset, record.next, sizeof record);
+    *crossed++ = record;
+  }
 }
 
 void TableWriter::write_polygons(const PolygonTable& polygons) {

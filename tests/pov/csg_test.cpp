@@ -240,29 +240,27 @@ TEST_CASE("triangles in CSG lie where they do without it") {
   CHECK(scene.objects[1].clipped_by->size() == 1);
 }
 
-TEST_CASE("meshes without an inside are an error in CSG where they are placed") {
+TEST_CASE("meshes without an inside are parts of CSG, but clip nothing") {
   const std::string mesh =
       "#declare M = mesh { triangle { 0, x, y } triangle { 0, y, z } inside_vector 0 }\n";
   const auto refused = [&](const std::string& scene) { return error_line(mesh + scene); };
-  CHECK(refused("#declare A = intersection { object { M } box { 0, 1 } }").empty());
-  CHECK(refused("intersection { box { 0, 1 } object { M } }") ==
-        "scene.pov:2:29: error: a mesh without 'inside_vector' in an intersection is not supported yet");
-  CHECK(refused("merge { union { sphere { 0, 1 } object { M } } box { 0, 1 } }") ==
-        "scene.pov:2:33: error: a mesh without 'inside_vector' in a merge is not supported yet");
-  CHECK(refused("union { sphere { 0, 1 } M inverse }") ==
-        "scene.pov:1:14: error: a mesh without 'inside_vector' in an inverse union is not supported yet");
-  CHECK(refused("union { object { M } clipped_by { box { 0, 1 } } }") ==
-        "scene.pov:2:9: error: a mesh without 'inside_vector' in a clipped union is not supported yet");
+  for (const char* scene :
+       {"intersection { box { 0, 1 } object { M } }",
+        "merge { union { sphere { 0, 1 } object { M } } box { 0, 1 } }",
+        "union { sphere { 0, 1 } M inverse }", "union { object { M } clipped_by { box { 0, 1 } } }",
+        "difference { object { M } box { 0, 1 } }", "object { M clipped_by { box { 0, 1 } } }"})
+    CHECK(refused(scene).empty());
+  const Object part =
+      csg_of(parse(mesh + "intersection { box { 0, 1 } object { M inverse } }").objects[0]).parts.at(1);
+  CHECK_FALSE(part.inverse);
+  CHECK_FALSE(std::get<std::shared_ptr<const Mesh>>(part.shape)->has_inside());
   CHECK(refused("sphere { 0, 1 clipped_by { object { M } } }") ==
         "scene.pov:2:28: error: a mesh without 'inside_vector' in 'clipped_by' is not supported yet");
   CHECK(error_line("sphere { 0, 1 clipped_by { triangle { 0, x, y } } }") ==
         "scene.pov:1:28: error: a triangle in 'clipped_by' is not supported yet");
-  CHECK(test::error(mesh + "union { sphere { 0, 1 } M inverse }") ==
-        "scene.pov:1:14: error: a mesh without 'inside_vector' in an inverse union is not supported yet\n"
-        "    used at scene.pov:2:1");
-  // What a ray crosses once at most is no trouble, nor what is clipped by itself.
-  CHECK(refused("object { M clipped_by { box { 0, 1 } } }").empty());
-  CHECK(error_line("merge { box { 0, 1 } mesh { triangle { 0, x, y } } }").empty());
+  CHECK(test::error(mesh + "#declare A = sphere { 0, 1 clipped_by { object { M } } }\nA") ==
+        "scene.pov:2:41: error: a mesh without 'inside_vector' in 'clipped_by' is not supported yet\n"
+        "    used at scene.pov:3:1");
   const Scene scene =
       parse(mesh + "union { M } union { object { M } difference { sphere { 0, 1 } box { 0, 1 } } }");
   REQUIRE(scene.objects.size() == 3);

@@ -532,7 +532,8 @@ private:
                                 uint32_t reflected) {
     if (lanes == 0) return M::none();
     const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
-    return M::from_bits(csg_accepted(scene_, condition, origin + direction * distance, lanes, reflected));
+    return M::from_bits(
+        csg_accepted(scene_, condition, origin, origin + direction * distance, lanes, reflected));
   }
 
   /// Multiplies the light of `lanes` by the transmittance of a translucent surface that they cross at `at`.

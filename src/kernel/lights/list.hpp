@@ -60,6 +60,10 @@ constexpr bool walks_for_fading(const FrameBlock& frame) {
 constexpr bool walks_shadows(const FrameBlock& frame) {
   return (frame.light_ways & (light_way::stepwise | light_way::near_surfaces)) != 0;
 }
+/// Of these, whether it takes a search from each surface on.
+constexpr bool restarts_shadows(const FrameBlock& frame) {
+  return (frame.light_ways & light_way::restarts) != 0;
+}
 constexpr bool is_parallel(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::parallel) != 0;
 }

@@ -1,21 +1,27 @@
 // Constructive solid geometry: which crossings with a part's surface count. Kernel dialect.
 #pragma once
 
+#include "kernel/primitives/crossed_meshes.hpp"
 #include "kernel/primitives/meshes_module.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scene_access.hpp"
 
 namespace celltrace::kernel {
 
-/// Which of the points in `lanes` are in a solid.
+/// Which of the points in `lanes` are in a solid; of a mesh without an inside, which of its crossings with
+/// rays from `origins` CSG gets to see.
 template <class Spu>
-uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename Spu::simd>& points,
-                      uint32_t lanes) {
+uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename Spu::simd>& origins,
+                      const V3<typename Spu::simd>& points, uint32_t lanes) {
   const SolidRecord& record = *scene.solid(solid);
   const uint32_t kind = record.object.kind_and_flags & object_flag::kind_mask;
   if (kind == kMeshSolid) {
     scene.spu().enter_module(modules::kMeshes);
     return module_meshes::inside(scene, record.object, points, lanes);
+  }
+  if (kind == kCrossedMeshSolid) {
+    scene.spu().enter_module(modules::kMeshes);
+    return module_meshes::found_crossings(scene, record.object, origins, points, lanes);
   }
   if (has_heavy_points(kind)) {
     scene.spu().enter_module(modules::kHeavyPoints);
@@ -35,12 +41,13 @@ inline uint32_t blind_lanes(uint32_t flags, uint32_t reflected) {
          ((flags & object_flag::no_reflection) != 0 ? reflected : 0);
 }
 
-/// Which of the points in `lanes`, on the surface of a part, satisfy its condition and those of all levels
-/// above it. Each lane has a place in the program of its own, which only goes forward.
+/// Which of the points in `lanes`, where rays from `origins` cross the surface of a part, satisfy its
+/// condition and those of all levels above it. Each lane has a place in the program of its own, which only
+/// goes forward.
 template <class Spu>
-[[gnu::noinline]] uint32_t csg_accepted(SceneAccess<Spu>& scene, uint32_t condition,
-                                        const V3<typename Spu::simd>& points, uint32_t lanes,
-                                        uint32_t reflected) {
+[[gnu::noinline]] uint32_t
+csg_accepted(SceneAccess<Spu>& scene, uint32_t condition, const V3<typename Spu::simd>& origins,
+             const V3<typename Spu::simd>& points, uint32_t lanes, uint32_t reflected) {
   using S = typename Spu::simd;
   using I = typename S::I;
   const auto word = [](uint32_t value) { return I::splat(static_cast<int32_t>(value)); };
@@ -59,7 +66,7 @@ template <class Spu>
       if (here == 0) continue;
       Kept<Spu, CsgStep> step = *scene.csg_step(level.steps + i * static_cast<uint32_t>(sizeof(CsgStep)));
       const uint32_t inside = step.unseen_by != 0 ? here & ~blind_lanes(step.unseen_by, reflected)
-                                                  : inside_solid(scene, step.solid, points, here);
+                                                  : inside_solid(scene, step.solid, origins, points, here);
       place = S::select(S::M::from_bits(inside), word(step.if_inside), place);
       place = S::select(S::M::from_bits(here & ~inside), word(step.if_outside), place);
     }

@@ -122,7 +122,7 @@ private:
   }
   /// Whether all shadow rays toward a light are walked; otherwise those are that have to be, or none.
   bool walks_all(const LightRecord& light) const {
-    return walk_ != nullptr && (!kKeepsCrossings<Spu> || is_dimmed(light));
+    return walk_ != nullptr && (!kKeepsCrossings<Spu> || is_dimmed(light) || restarts_shadows(frame_));
   }
   /// Whether what surfaces let through depends on where rays come from: it is found surface by surface.
   bool lists_crossings() const { return walks_translucent(frame_) && !walks_for_fading(frame_); }

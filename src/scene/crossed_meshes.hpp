@@ -1,0 +1,29 @@
+// Meshes without an inside vector in CSG, of which POV-Ray does not find all crossings of a ray: their
+// triangles in a tree of boxes, as the kernel wants it.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/records.hpp"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace celltrace {
+
+/// The trees of all such meshes of a scene, one for each mesh. Indices become offsets in the scene image.
+class CrossedMeshes {
+public:
+  /// Returns the index of the first record of a mesh's tree. The mesh has a triangle with an area, and has to
+  /// stay.
+  std::uint32_t of(const Mesh& mesh);
+
+  /// `next` is an index.
+  const std::vector<kernel::CrossedMeshRecord>& records() const { return records_; }
+
+private:
+  std::unordered_map<const Mesh*, std::uint32_t> first_;
+  std::vector<kernel::CrossedMeshRecord> records_;
+};
+
+} // namespace celltrace
