@@ -60,9 +60,9 @@ constexpr CodeModule kAreas = {"areas", 15, 1, 9472};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 6528};
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 6912};
+constexpr CodeModule kTextures = {"textures", 9, 1, 7104};
 /// The maps of textures: which of them count where.
-constexpr CodeModule kMaps = {"maps", 27, 1, 6784};
+constexpr CodeModule kMaps = {"maps", 27, 1, 7168};
 constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
 
 /// What few finishes do with light, light from behind, and the materials of surfaces that look different from

@@ -233,6 +233,9 @@ constexpr uint32_t at_features = 0x10000;    ///< of noise: at the nearest of th
 constexpr uint32_t shifted = 0x20000;        ///< a ShiftedPattern that has turbulence
 constexpr uint32_t uv_mapping = 0x40000;     ///< `to_space` is from surface coordinates (u, v, 0)
 constexpr uint32_t never_repeats = 0x80000;  ///< values above 1 stay what they are
+/// Of a map that is in no other one: everything in it is at points of this pattern's own space, not of the
+/// world, so that maps which differ by their space alone share what is in them.
+constexpr uint32_t relative = 0x100000;
 } // namespace pattern_flag
 /// What becomes of a pattern's values: POV-Ray's wave forms. `none`: they stay, frequency and phase mean
 /// nothing.

@@ -152,7 +152,7 @@ private:
     const PatternRecord& r = patterns_[pattern];
     if (!is_pigment(r)) return true;
     return (r.kind_and_flags & pattern_flag::nested) != 0 && patterns_.find(r.table) < pattern &&
-           depth_inside(pattern) != 0;
+           !is_relative(patterns_.find(r.table)) && depth_inside(pattern) != 0;
   }
   std::uint32_t depth_of(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
@@ -164,11 +164,16 @@ private:
       if (child == kNoOffset) continue;
       if ((r.kind_and_flags & pattern_flag::nested) == 0) return 0;
       const std::uint32_t nested = patterns_.find(child);
-      if (nested >= pattern || pigment_depth_[nested] == 0 || pigment_depth_[nested] == kDeepestMapWalk)
+      if (nested >= pattern || is_relative(nested) || pigment_depth_[nested] == 0 ||
+          pigment_depth_[nested] == kDeepestMapWalk)
         return 0;
       deepest = std::max(deepest, pigment_depth_[nested]);
     }
     return deepest + 1;
+  }
+  /// Then it is in no other map.
+  bool is_relative(std::uint32_t pattern) const {
+    return (patterns_[pattern].kind_and_flags & pattern_flag::relative) != 0;
   }
   std::uint32_t child_of(const PatternRecord& r, std::uint32_t entry) const {
     return entries_[entries_.find(r.entries) + entry].child;
@@ -180,7 +185,7 @@ private:
     const std::uint32_t pattern = patterns_.find(r.pattern);
     std::uint32_t depth = 0;
     if (pattern == patterns_.count) return false;
-    if (!inside_is_sound(pattern)) return false;
+    if (!inside_is_sound(pattern) || is_relative(pattern)) return false;
     bool asks = pattern_asks(pattern);
     depth = depth_inside(pattern);
     if (r.is_mapped != 0)
@@ -213,7 +218,8 @@ private:
       if (mapped) material_depth_[material] = depth_inside(pattern) + 1;
       for (std::uint32_t i = 0; mapped && i < patterns_[pattern].entry_count; ++i) {
         const std::uint32_t child = materials_.find(child_of(patterns_[pattern], i));
-        if (child == materials_.count || child <= material) return false;
+        if (child == materials_.count || child <= material || is_relative_map(materials_[child]))
+          return false;
         material_depth_[material] = std::max(material_depth_[material], material_depth_[child] + 1);
         asks = asks || material_asks_[child];
       }
@@ -237,6 +243,10 @@ private:
     layers_[material] = layers_[below] + 1;
     material_asks_[material] = asks || material_asks_[below];
     return layers_[material] <= kMostLayers;
+  }
+
+  bool is_relative_map(const MaterialRecord& r) const {
+    return (r.flags & material_flag::mapped) != 0 && is_relative(patterns_.find(r.pattern));
   }
 
   /// Patterns are asked at more than points only where this is found out: on objects that say so, and in

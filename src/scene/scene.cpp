@@ -275,8 +275,7 @@ void validate_all_but_objects(const Scene& scene) {
   for (std::size_t i = scene.objects.size(); i < with_projectors.scene().objects.size(); ++i)
     check_object(with_projectors.scene(), with_projectors.scene().objects[i],
                  {"projector", i - scene.objects.size()}, 0);
-  for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    validate_texture(scene.materials[i], Name{"material", i}.text());
+  validate_textures(scene.materials);
   validate_sky(scene);
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)
     check(scene.interiors[i], {"interior", i});

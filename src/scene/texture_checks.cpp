@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace celltrace {
@@ -26,7 +27,11 @@ static_assert(kDeepestMap == kDeepestMapWalk);
 class Check {
 public:
   /// `has_surface`: of something in the scene.
-  explicit Check(const std::string& name, bool has_surface = true) : name_(name), has_surface_(has_surface) {}
+  explicit Check(std::string name, bool has_surface = true)
+      : name_(std::move(name)), has_surface_(has_surface) {}
+
+  /// Goes on with another texture. Maps that it shares with the ones before need no second look.
+  void rename(std::string name) { name_ = std::move(name); }
 
   void material(const Material& m, int depth, int layers) {
     if (m.inside) {
@@ -168,15 +173,19 @@ private:
     }
   }
 
-  const std::string name_;
+  std::string name_;
   bool has_surface_;
   std::map<const void*, int> seen_; ///< maps, with the depth at which they were looked at
 };
 
 } // namespace
 
-void validate_texture(const Material& material, const std::string& name) {
-  Check(name).material(material, 0, 1);
+void validate_textures(const std::vector<Material>& materials) {
+  Check check("");
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    check.rename("material " + std::to_string(i));
+    check.material(materials[i], 0, 1);
+  }
 }
 
 void validate_sky(const Scene& scene) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include <glm/geometric.hpp>
@@ -119,6 +120,11 @@ PatternSpace space_inside(const Pattern& pattern, const PatternSpace& outer) {
   return inside;
 }
 
+std::size_t hash_of(const Vec3& vector) {
+  const std::hash<double> hash;
+  return (hash(vector.x) * 31 + hash(vector.y)) * 31 + hash(vector.z);
+}
+
 template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table) {
   if (index != kNoOffset) index = table + index * static_cast<std::uint32_t>(sizeof(Record));
 }
@@ -177,11 +183,11 @@ void TextureTables::Traits::add(const Traits& other) {
   nodes = std::max(nodes, other.nodes);
 }
 
-TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
+TextureTables::TextureTables(const Scene& scene) : scene_(scene), sharing_(scene.materials) {
   materials.resize(scene.materials.size());
   object_flags.reserve(scene.materials.size());
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {});
+    const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {}, Place::root);
     object_flags.push_back(
         (traits.opaque ? object_flag::opaque : 0) | (traits.spawns ? object_flag::spawns : 0) |
         (traits.textured ? object_flag::textured : 0) | (traits.disturbed ? object_flag::disturbed : 0) |
@@ -195,7 +201,7 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
     else
       unmapped_nodes_ = std::max(unmapped_nodes_, traits.nodes);
   }
-  sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
+  sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}, Place::root).index;
   for (const Rainbow& rainbow : scene.rainbows)
     if (is_visible(rainbow)) add_rainbow(rainbow);
 }
@@ -207,19 +213,19 @@ std::uint32_t TextureTables::most_nodes(bool has_blends) const {
 }
 
 TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
-                                                   const PatternSpace& outer) {
+                                                   const PatternSpace& outer, Place place) {
   MaterialRecord r{};
   r.pattern = r.normal = r.below = r.finish = r.inside = kNoOffset;
   Traits traits;
   std::uint32_t inside = kNoOffset;
   Traits inside_traits;
   if (material.inside) {
-    const Known known = add_material(*material.inside, outer);
+    const Known known = add_material(*material.inside, outer, Place::root);
     inside = known.index;
     inside_traits = known.traits;
   }
   if (material.map) {
-    const Known map = add_map(material.map, outer);
+    const Known map = add_map(material.map, outer, place);
     r.flags = material_flag::mapped;
     r.pattern = map.index;
     traits = map.traits;
@@ -232,7 +238,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       finishes.push_back(make_record(material.finish, scene_));
     }
     if (material.pigment.map) {
-      const Known map = add_map(material.pigment.map, outer);
+      const Known map = add_map(material.pigment.map, outer, Place::root);
       r.flags |= material_flag::patterned;
       r.pattern = map.index;
       traits.add(map.traits);
@@ -251,7 +257,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       traits.by_surface = traits.by_surface || normal.traits.by_surface;
     }
     if (material.below) {
-      const Known below = add_material(*material.below, outer);
+      const Known below = add_material(*material.below, outer, Place::inside);
       r.flags |= material_flag::layered;
       r.below = below.index;
       // What comes through a layer stays inside, but a Fresnel mirror asks what rays are inside of.
@@ -275,12 +281,51 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
   return traits;
 }
 
-TextureTables::Known TextureTables::add_material(const Material& material, const PatternSpace& outer) {
+TextureTables::Known TextureTables::add_material(const Material& material, const PatternSpace& outer,
+                                                 Place place) {
   const auto index = static_cast<std::uint32_t>(materials.size());
   make_room(materials, 1, "layers");
   materials.emplace_back();
-  const Traits traits = fill_material(index, material, outer);
+  const Traits traits = fill_material(index, material, outer, place);
   return {index, traits};
+}
+
+/// Adds a material of a relative map, or finds an equal one.
+TextureTables::Known TextureTables::add_shared_material(const Material& material) {
+  const auto words = {hash_of(material.pigment.rgb), hash_of(material.finish.ambient),
+                      std::hash<const void*>()(material.map.get()),
+                      std::hash<const void*>()(material.below.get())};
+  std::size_t hash = 0;
+  for (const std::size_t word : words)
+    hash = hash * 31 + word;
+  const auto [first, last] = known_materials_.equal_range(hash);
+  const auto known =
+      std::find_if(first, last, [&](const auto& one) { return *one.second.first == material; });
+  if (known != last) return known->second.second;
+  const Known added = add_material(material, {}, Place::inside);
+  known_materials_.emplace(hash, std::pair(&material, added));
+  return added;
+}
+
+/// Where equal entries are, which may be these; then these are taken back if they are the last ones.
+std::uint32_t TextureTables::share_entries(const EntryBlock& block) {
+  const auto bytes_of = [this](const EntryBlock& one) {
+    return std::string_view(reinterpret_cast<const char*>(entries.data() + one.first),
+                            one.count * sizeof(MapEntryRecord));
+  };
+  if (block.first + block.count != entries.size()) return block.first;
+  const std::size_t hash = std::hash<std::string_view>()(bytes_of(block));
+  const auto [first, last] = blocks_.equal_range(hash);
+  const auto known = std::find_if(first, last, [&](const auto& one) {
+    return children_[one.second.first] == children_[block.first] && bytes_of(one.second) == bytes_of(block);
+  });
+  if (known == last) {
+    blocks_.emplace(hash, block);
+    return block.first;
+  }
+  entries.resize(block.first);
+  children_.resize(block.first);
+  return known->second.first;
 }
 
 TextureTables::Traits TextureTables::fill(MapEntryRecord& entry, const Pigment& pigment) {
@@ -295,18 +340,21 @@ TextureTables::Traits TextureTables::fill(MapEntryRecord& entry, const Pigment& 
 
 template <class T>
 TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternMap<T>>& map,
-                                            const PatternSpace& outer) {
+                                            const PatternSpace& outer, Place place) {
   const bool is_shared = outer.is_scene() || (std::is_same_v<T, Pigment> && map->pattern.uv_mapping);
+  const std::pair<const void*, Place> key(map.get(), sharing_.is_needed() ? place : Place::inside);
   if (is_shared)
-    if (const auto known = known_.find(map.get()); known != known_.end()) return known->second;
+    if (const auto known = known_.find(key); known != known_.end()) return known->second;
   if (!map->is_average && blends_list(map->pattern)) {
     const auto list = without_wave(*map);
     made_.push_back(list);
-    const Known known = add_map(list, outer);
-    if (is_shared) known_[map.get()] = known;
+    const Known known = add_map(list, outer, place);
+    if (is_shared) known_[key] = known;
     return known;
   }
-  const PatternSpace inside = space_inside(map->pattern, outer);
+  const bool is_relative = sharing_.is_needed() && place == Place::root && sharing_.may_be_relative(*map);
+  const PatternSpace composed = space_inside(map->pattern, outer);
+  const PatternSpace inside = is_relative ? PatternSpace() : composed;
   const std::size_t count = map->entries.size();
   make_room(entries, count, "entries of maps");
   const auto first = static_cast<std::uint32_t>(entries.size());
@@ -341,7 +389,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
       children_[first + i] = Child::pattern;
       Traits own = fill(entry, from.value);
       if (from.value.map) {
-        const Known nested = add_map(from.value.map, inside);
+        const Known nested = add_map(from.value.map, inside, Place::inside);
         entry.child = nested.index;
         is_nested = true;
         own = nested.traits;
@@ -354,20 +402,22 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
       traits.add(normal.traits);
     } else {
       children_[first + i] = Child::material;
-      const Known material = add_material(from.value, inside);
+      const Known material =
+          is_relative ? add_shared_material(from.value) : add_material(from.value, inside, Place::inside);
       entry.child = material.index;
       traits.add(material.traits);
       nodes.push_back(material.traits.nodes);
     }
     entries[first + i] = entry;
   }
-  const auto [pattern, of_pattern] = add_pattern(map->pattern, outer, inside, map->is_average, count);
-  patterns[pattern].entries = first;
+  const auto [pattern, of_pattern] = add_pattern(map->pattern, outer, composed, map->is_average, count);
+  patterns[pattern].entries = sharing_.is_needed() ? share_entries({first, count}) : first;
+  if (is_relative) patterns[pattern].kind_and_flags |= pattern_flag::relative;
   if (is_nested) patterns[pattern].kind_and_flags |= pattern_flag::nested;
   traits.by_surface = traits.by_surface || of_pattern.by_surface;
   // Where they are not averaged, two count in each lane.
   traits.nodes = sum_of_greatest(nodes, map->is_average ? count : 2 * kSimdLanes);
-  if (is_shared) known_[map.get()] = {pattern, traits};
+  if (is_shared) known_[key] = {pattern, traits};
   return {pattern, traits};
 }
 
@@ -375,7 +425,7 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
   NormalRecord r{};
   Traits traits;
   if (normal.map) {
-    const Known map = add_map(normal.map, outer);
+    const Known map = add_map(normal.map, outer, Place::inside);
     r.is_mapped = 1;
     r.pattern = map.index;
     traits = map.traits;
@@ -458,12 +508,12 @@ void TextureTables::add_rainbow(const Rainbow& rainbow) {
 
 /// The index of the pattern whose map a pigment is.
 TextureTables::Known TextureTables::add_pigment(const Pigment& pigment, const PatternSpace& outer) {
-  if (pigment.map) return add_map(pigment.map, outer);
+  if (pigment.map) return add_map(pigment.map, outer, Place::inside);
   auto map = std::make_shared<PatternMap<Pigment>>();
   map->is_average = true;
   map->entries = {{1, pigment}};
   made_.push_back(map);
-  return add_map<Pigment>(map, outer);
+  return add_map<Pigment>(map, outer, Place::inside);
 }
 
 TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const PatternSpace& outer,

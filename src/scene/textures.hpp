@@ -4,10 +4,13 @@
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
 #include "scene/patterns.hpp"
+#include "scene/texture_sharing.hpp"
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace celltrace {
@@ -70,20 +73,30 @@ private:
     std::uint32_t nodes = 0; ///< that a surface pushes, at most, for rays that go on by themselves
     void add(const Traits& other);
   };
+  /// The entries of a map.
+  struct EntryBlock {
+    std::uint32_t first;
+    std::size_t count;
+  };
   struct Known {
     std::uint32_t index; ///< of a material, or of the pattern whose map it is
     Traits traits;
   };
   enum class Child : std::uint8_t { pattern, normal, material, none };
+  /// Where a map is: in another one, or in none.
+  enum class Place : std::uint8_t { inside, root };
 
   /// `inside`: what a pigment is in that is the pattern.
   Known add_pattern(const Pattern& pattern, const PatternSpace& outer, const PatternSpace& inside,
                     bool is_average, std::size_t entry_count);
   Known add_pigment(const Pigment& pigment, const PatternSpace& outer);
-  Traits fill_material(std::uint32_t index, const Material& material, const PatternSpace& outer);
+  /// `place`: where the material is, if it is a map.
+  Traits fill_material(std::uint32_t index, const Material& material, const PatternSpace& outer, Place place);
   template <class T>
-  Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const PatternSpace& outer);
-  Known add_material(const Material& material, const PatternSpace& outer);
+  Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const PatternSpace& outer, Place place);
+  Known add_material(const Material& material, const PatternSpace& outer, Place place);
+  Known add_shared_material(const Material& material);
+  std::uint32_t share_entries(const EntryBlock& block);
   Known add_normal(const Normal& normal, const PatternSpace& outer);
   void add_table(PatternTable table);
   void add_steps(kernel::PatternRecord& r, const std::vector<SpaceStep>& space);
@@ -97,7 +110,12 @@ private:
   std::vector<std::uint32_t> mapped_nodes_; ///< and of each that is
   std::vector<Child> children_;             ///< by entry, what its child is
   std::vector<PatternTable> tables_;        ///< by pattern, what it reads
-  std::map<const void*, Known> known_;      ///< maps that several share, by address
+  TextureSharing sharing_;
+  /// Maps that several share, by address; where sharing is needed, those that are in others apart.
+  std::map<std::pair<const void*, Place>, Known> known_;
+  std::unordered_multimap<std::size_t, std::pair<const Material*, Known>>
+      known_materials_;                                     ///< entries of relative maps, by a hash
+  std::unordered_multimap<std::size_t, EntryBlock> blocks_; ///< entries of maps, by a hash
   std::vector<std::shared_ptr<const void>>
       made_; ///< maps that are not the scene's, so that no other has their address
 };

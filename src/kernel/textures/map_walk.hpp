@@ -79,7 +79,9 @@ public:
 
   /// `points` stay where they are.
   MapWalk(SceneAccess<Spu>& scene, const PatternPoints<S>& points, MapOf of = MapOf::pigments)
-      : scene_(scene), of_(of), points_(&points) {}
+      : scene_(scene), of_(of), points_(&points) {
+    if constexpr (!kIsPart) inside_ = kNoOffset;
+  }
   MapWalk(SceneAccess<Spu>&, const PatternPoints<S>&&, MapOf = MapOf::pigments) = delete;
 
   /// Starts at a pattern, whose leaves share `weight`.
@@ -164,6 +166,7 @@ private:
     level.count = r.entry_count;
     level.next = 0;
     if ((r.kind_and_flags & pattern_flag::average) != 0) {
+      if (is_relative(r)) enter_space(r, level);
       level.state = State::average;
       return;
     }
@@ -185,6 +188,7 @@ private:
     } else {
       value = value_of(r, level.lanes);
     }
+    if (is_relative(r)) enter_space(r, level);
     level.state = State::placed;
     if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask]) {
       level.upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
@@ -210,7 +214,8 @@ private:
       F value;
       by_parts<Spu>(
           value,
-          [&](const PatternPoints<Part>& points) {
+          [&](const PatternPoints<Part>& of_packet) {
+            const PatternPoints<Part> points = in_space(of_packet, lanes);
             if (is_pigment(r)) {
               MapWalk<Spu, kStage> walk(scene_, points);
               return in_wave<Part>(r,
@@ -221,6 +226,28 @@ private:
           *points_);
       return value;
     }
+  }
+
+  static bool is_relative(const PatternRecord& r) {
+    return kStage != TextureStage::normals && (r.kind_and_flags & pattern_flag::relative) != 0;
+  }
+  /// What is in a relative map is asked in the space of its pattern. A whole packet has no room on an SPU's
+  /// stack for points there: they are found anew, part by part.
+  void enter_space(const PatternRecord& r, const Level& level) {
+    if constexpr (kIsPart) {
+      inside_ = to_pattern_space<kStage>(scene_, r, *points_, level.lanes);
+      points_ = &inside_;
+    } else {
+      inside_ = level.pattern;
+    }
+  }
+  PatternPoints<Part> in_space(const PatternPoints<Part>& points, uint32_t lanes) {
+    if constexpr (!kIsPart)
+      if (inside_ != kNoOffset) {
+        Kept<Spu, PatternRecord> r = *scene_.pattern(inside_);
+        return to_pattern_space<kStage>(scene_, r, points, lanes);
+      }
+    return points;
   }
 
   /// The pattern whose map an entry is; kNoOffset: it is a leaf.
@@ -241,6 +268,8 @@ private:
   SceneAccess<Spu>& scene_;
   MapOf of_;
   const PatternPoints<S>* points_;
+  /// Of a relative map: points in its space, or the offset of its pattern.
+  std::conditional_t<kIsPart, PatternPoints<S>, uint32_t> inside_;
   F* grey_ = nullptr; ///< what leaves add to, where they are parts of a pattern
   uint32_t depth_ = 0;
   uint32_t ground_ = 0; ///< the depth at which next() ends
