@@ -101,8 +101,8 @@ struct SceneChanges {
 };
 
 struct RenderOptions {
-  int width = 640;  ///< pixels, 1..65520
-  int height = 480; ///< pixels, 1..65520
+  int width = 640;  ///< pixels, 1..kMaxImageSide
+  int height = 480; ///< pixels, 1..kMaxImageSide; kMaxImagePixels in all, unless `rows_at_once`
   Backend backend = Backend::native;
   /// Number of SPEs, up to 256; 0: on native one per CPU that the calling thread may use, on the
   /// others `emulation.timing.spes`. On native, as many SPEs as such CPUs keep to one each.
@@ -142,6 +142,11 @@ struct RenderOptions {
   /// `antialiasing`, `colours`, `alpha`, `first_hits` and `finished_block`. encode_blocks() is for other
   /// pictures.
   bool blocks = false;
+  /// Most rows that Renderer::render_rows() is asked for at once, a multiple of Renderer::kRowStep or all of
+  /// them: memory then has room for as many rows of the region and no more, and results have the pixels that
+  /// were rendered alone, the first of them at (0, 0). So pictures of any number of pixels can be rendered.
+  /// 0: memory has the whole picture, and so have results. Not with `blocks`.
+  int rows_at_once = 0;
   /// Of cell_emu and cell_sim; native knows none of it, and nothing is recorded on cell_sim. The trace is
   /// complete when the renderer is gone.
   EmulationConfig emulation;
@@ -319,18 +324,19 @@ public:
   RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress = {});
 
   /// From the next frame on pictures have the size, region, antialiasing, colours, alpha, first_hits, blocks,
-  /// finished_block and work_map of `options`, whose other members mean nothing. The scene and its
-  /// accelerator stay. Throws InputError for options out of range; then nothing has changed.
+  /// finished_block, rows_at_once and work_map of `options`, whose other members mean nothing. The scene and
+  /// its accelerator stay. Throws InputError for options out of range; then nothing has changed.
   void set_picture(const RenderOptions& options);
 
   /// What render(scene) does before the first pixel. False: RenderOptions::build_progress cancelled, and
   /// there is no scene. Throws as render() does.
   bool prepare(const Scene& scene);
   /// Rows [top, bottom) of the picture, or of its region, as it would be rendered as a whole, by the scene
-  /// and camera that were prepared or rendered last; the rest is opaque black. Both are multiples of
-  /// kRowStep, or the last is the height. Pictures can so be rendered part by part; the statistics of the
-  /// first part have what preparing took. Of models other than `shared` all rows at once. Throws InputError
-  /// for other rows and where no scene is prepared, else as render() does.
+  /// and camera that were prepared or rendered last; the rest is opaque black, or left out by
+  /// RenderOptions::rows_at_once. Both are multiples of kRowStep, or the last is the height. Pictures can so
+  /// be rendered part by part; the statistics of the first part have what preparing took. Of models other
+  /// than `shared` all rows at once. Throws InputError for other rows and where no scene is prepared, else as
+  /// render() does.
   RenderResult render_rows(int top, int bottom, const Progress& progress = {});
   static constexpr int kRowStep = 32;
 

@@ -802,7 +802,10 @@ struct alignas(128) FrameBlock {
 
   uint32_t width, height; ///< pixels, or points of the grid
   uint32_t packet_columns, packet_rows;
-  uint32_t bundle_columns, bundle_rows;
+  uint32_t bundle_columns;
+  /// Rows of packets that `surface` and `grid_points` have room for, which may be a part of the picture's,
+  /// and the first one of them.
+  uint16_t surface_row, surface_rows;
   uint32_t surface_pitch;
   uint32_t work_entries;
   uint32_t ray_stack_nodes;

@@ -20,7 +20,7 @@ FirstHits read_first_hits(const AlignedBlock& grid_points, const FrameBlock& fra
   hits.normal.assign(3 * pixels, 0);
   hits.object.assign(pixels, 0);
   const std::byte* const table =
-      grid_points.data() + std::size_t{frame.packet_columns} * frame.packet_rows * kGridPacketBytes;
+      grid_points.data() + std::size_t{frame.packet_columns} * frame.surface_rows * kGridPacketBytes;
   for (int y = grid.region.top; y < grid.region.bottom; ++y)
     for (int x = grid.region.left; x < grid.region.right; ++x) {
       if (picture.pixel(x, y)[3] == 0) continue;

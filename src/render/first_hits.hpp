@@ -11,7 +11,7 @@
 
 namespace celltrace {
 
-/// The pixels that are asked for, and which point of the grid the first of them is.
+/// The pixels that are asked for, and which point of the grid that is in memory the first of them is.
 struct GridAtPicture {
   PictureRegion region;
   std::uint32_t first_column, first_row;

@@ -29,19 +29,20 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock:
           &FrameBlock::ray_stack, &FrameBlock::grid_points, &FrameBlock::sample_store,
           &FrameBlock::work_memory, &FrameBlock::prepare_spes, &FrameBlock::prepare_step, &FrameBlock::width,
           &FrameBlock::height, &FrameBlock::packet_columns, &FrameBlock::packet_rows,
-          &FrameBlock::bundle_columns, &FrameBlock::bundle_rows, &FrameBlock::surface_pitch,
-          &FrameBlock::work_entries, &FrameBlock::ray_stack_nodes, &FrameBlock::object_offset,
-          &FrameBlock::object_count, &FrameBlock::light_offset, &FrameBlock::light_count,
-          &FrameBlock::max_trace_level, &FrameBlock::adc_bailout, &FrameBlock::gamma_encoding,
-          &FrameBlock::assumed_gamma, &FrameBlock::background, &FrameBlock::epoch, &FrameBlock::cache_ways,
-          &FrameBlock::cache_sets, &FrameBlock::cache_replacement, &FrameBlock::cache_enabled,
-          &FrameBlock::unit_count, &FrameBlock::exchange_parameter, &FrameBlock::camera_interior_count,
-          &FrameBlock::accelerator, &FrameBlock::camera_interiors, &FrameBlock::group_offset,
-          &FrameBlock::group_count, &FrameBlock::longest_group, &FrameBlock::prototype_offset,
-          &FrameBlock::units_per_word, &FrameBlock::wide_leaves, &FrameBlock::far_nodes,
-          &FrameBlock::unbounded_count, &FrameBlock::sky, &FrameBlock::light_places, &FrameBlock::purpose,
-          &FrameBlock::sampling, &FrameBlock::fog_offset, &FrameBlock::fog_count, &FrameBlock::light_ways,
-          &FrameBlock::rainbow_offset, &FrameBlock::rainbow_count, &FrameBlock::background_clear>
+          &FrameBlock::bundle_columns, &FrameBlock::surface_row, &FrameBlock::surface_rows,
+          &FrameBlock::surface_pitch, &FrameBlock::work_entries, &FrameBlock::ray_stack_nodes,
+          &FrameBlock::object_offset, &FrameBlock::object_count, &FrameBlock::light_offset,
+          &FrameBlock::light_count, &FrameBlock::max_trace_level, &FrameBlock::adc_bailout,
+          &FrameBlock::gamma_encoding, &FrameBlock::assumed_gamma, &FrameBlock::background,
+          &FrameBlock::epoch, &FrameBlock::cache_ways, &FrameBlock::cache_sets,
+          &FrameBlock::cache_replacement, &FrameBlock::cache_enabled, &FrameBlock::unit_count,
+          &FrameBlock::exchange_parameter, &FrameBlock::camera_interior_count, &FrameBlock::accelerator,
+          &FrameBlock::camera_interiors, &FrameBlock::group_offset, &FrameBlock::group_count,
+          &FrameBlock::longest_group, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
+          &FrameBlock::wide_leaves, &FrameBlock::far_nodes, &FrameBlock::unbounded_count, &FrameBlock::sky,
+          &FrameBlock::light_places, &FrameBlock::purpose, &FrameBlock::sampling, &FrameBlock::fog_offset,
+          &FrameBlock::fog_count, &FrameBlock::light_ways, &FrameBlock::rainbow_offset,
+          &FrameBlock::rainbow_count, &FrameBlock::background_clear>
 fields_of(const FrameBlock&);
 
 FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of(const UnitRecord&);

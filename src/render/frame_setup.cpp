@@ -25,7 +25,6 @@ namespace {
 /// Of the 112 KB that a program of this size leaves of a local store, 39 KB are the ray stack's and the
 /// packets'.
 constexpr std::uint32_t kMaxCacheBytes = 70 * 1024;
-constexpr int kMaxEdge = 65520; // rows of packets fit the balancer's words
 /// Bits of light_way that pictures ask for; scenes have the others.
 constexpr std::uint32_t kWaysOfPictures = light_way::alpha | light_way::first_hits;
 
@@ -125,6 +124,28 @@ void check(const Antialiasing& antialiasing, Model model) {
     throw InputError("the gamma of antialiasing has to be above 0");
 }
 
+/// Pixels that are in memory at a time.
+void check_memory(const RenderOptions& options) {
+  const PictureRegion region = region_of(options);
+  const int height = region.bottom - region.top;
+  if (options.rows_at_once == 0) {
+    if (std::int64_t{options.width} * options.height <= kMaxImagePixels) return;
+    throw InputError("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
+                     " pixels is too large to be in memory as a whole: " + std::to_string(kMaxImagePixels) +
+                     " pixels are the limit. RenderOptions::rows_at_once is for larger ones");
+  }
+  if (options.rows_at_once < 0 ||
+      (options.rows_at_once % Renderer::kRowStep != 0 && options.rows_at_once < height))
+    throw InputError("the rows to render at once have to be a multiple of " +
+                     std::to_string(Renderer::kRowStep));
+  if (std::int64_t{region.right - region.left} * std::min(options.rows_at_once, height) > kMaxImagePixels)
+    throw InputError("the rows to render at once have to have at most " + std::to_string(kMaxImagePixels) +
+                     " pixels");
+  if (options.model != Model::shared && options.rows_at_once < height)
+    throw InputError("rows are rendered one after the other by the shared programming model only");
+  if (options.blocks) throw InputError("a picture in blocks is rendered as a whole");
+}
+
 /// How far samples are moved, in pixels.
 double jitter_of(const Antialiasing& antialiasing) {
   const bool fixed = antialiasing.method == Antialiasing::Method::fixed;
@@ -156,11 +177,10 @@ void set_comparison(FrameBlock& frame, const RenderOptions& options) {
 void check(const RenderOptions& options) {
   if (options.model == Model::pipeline_split && options.accelerator == Accelerator::bvh)
     throw InputError("the split pipeline finds objects by the grid");
-  if (options.width < 1 || options.width > kMaxEdge || options.height < 1 || options.height > kMaxEdge)
-    throw InputError("the picture's width and height have to be 1 to " + std::to_string(kMaxEdge) +
+  if (options.width < 1 || options.width > kMaxImageSide || options.height < 1 ||
+      options.height > kMaxImageSide)
+    throw InputError("the picture's width and height have to be 1 to " + std::to_string(kMaxImageSide) +
                      " pixels");
-  if (std::int64_t{options.width} * options.height > kMaxImagePixels)
-    throw InputError("the picture has to have at most " + std::to_string(kMaxImagePixels) + " pixels");
   if (!options.cache.valid())
     throw InputError("the cache has to have a power of two of ways and a power of two of sets, and at most " +
                      std::to_string(CacheConfig::kMaxLines) + " lines");
@@ -177,6 +197,7 @@ void check(const RenderOptions& options) {
   if (region.left < 0 || region.left >= region.right || region.right > options.width || region.top < 0 ||
       region.top >= region.bottom || region.bottom > options.height)
     throw InputError("the region to render has no pixels, or some that are not in the picture");
+  check_memory(options);
   if (options.antialiasing) check(*options.antialiasing, options.model);
   if (options.colours && options.model != Model::shared)
     throw InputError("colours as numbers are for the shared programming model");
@@ -220,7 +241,6 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
   frame.packet_columns = blocks(frame.width, kPacketEdge);
   frame.packet_rows = blocks(frame.height, kPacketEdge);
   frame.bundle_columns = blocks(frame.packet_columns, edge);
-  frame.bundle_rows = blocks(frame.packet_rows, edge);
   frame.surface_pitch = frame.packet_columns * kPacketEdge * 4;
   if (options.blocks) frame.surface_pitch = (frame.packet_columns + 1) / 2 * 16;
   if (brings_colours(options))
@@ -296,6 +316,7 @@ RenderOptions with_picture_of(RenderOptions options, const RenderOptions& given)
   options.blocks = given.blocks;
   options.work_map = given.work_map;
   options.finished_block = given.finished_block;
+  options.rows_at_once = given.rows_at_once;
   return options;
 }
 

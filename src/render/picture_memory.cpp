@@ -25,16 +25,28 @@ AlignedBlock make_list_target(std::size_t bytes) {
   return block;
 }
 
+/// Rows of packets that render_rows() may need at a time: all of whole bundles.
+std::uint32_t rows_in_memory(const RenderOptions& options, const FrameBlock& frame,
+                             std::uint32_t bundle_edge) {
+  if (options.rows_at_once == 0) return frame.packet_rows;
+  const std::uint32_t lines =
+      static_cast<std::uint32_t>(options.rows_at_once) + (options.antialiasing ? 1 : 0);
+  const std::uint32_t height = bundle_edge * kPacketEdge;
+  return std::min(frame.packet_rows, (lines + height - 1) / height * bundle_edge);
+}
+
 } // namespace
 
 void PictureMemory::make_room(unsigned spes, std::uint32_t bundle_edge) {
+  frame_.surface_row = 0;
+  frame_.surface_rows = static_cast<std::uint16_t>(rows_in_memory(options_, frame_, bundle_edge));
   surface_ = make_list_target(std::size_t{frame_.surface_pitch + frame_.sampling.colours_pitch} *
-                              frame_.packet_rows * kPacketEdge);
+                              frame_.surface_rows * kPacketEdge);
   frame_.surface = to_ea(surface_.data());
   grid_points_ = AlignedBlock();
   if (options_.antialiasing || brings_colours(options_))
     grid_points_ = AlignedBlock::uninitialised(
-        std::size_t{frame_.packet_columns} * frame_.packet_rows *
+        std::size_t{frame_.packet_columns} * frame_.surface_rows *
             (kGridPacketBytes + (options_.first_hits ? sizeof(FirstHitRecord) : 0)),
         Pages::normal);
   frame_.grid_points = to_ea(grid_points_.data());
@@ -48,14 +60,51 @@ void PictureMemory::make_room_for_samples(unsigned spes, std::uint32_t bundle_ed
   frame_.sample_store = to_ea(sample_store_.data());
 }
 
+void PictureMemory::begin_at(const RowRange& rows, std::uint32_t kept) {
+  if (has_whole_picture()) return;
+  const std::uint32_t first = static_cast<std::uint32_t>(rows.top), row = first / kPacketEdge;
+  if (kept > first) {
+    const std::uint32_t packet_rows = (kept - first) / kPacketEdge;
+    std::memmove(surface_.data(), line_of_surface(first), std::size_t{frame_.surface_pitch} * (kept - first));
+    if (grid_points_.size() != 0)
+      std::memmove(grid_points_.data(), row_of_points(row),
+                   std::size_t{kGridPacketBytes} * frame_.packet_columns * packet_rows);
+    if (options_.first_hits) {
+      const std::size_t row_bytes = sizeof(FirstHitRecord) * frame_.packet_columns;
+      std::byte* const table =
+          grid_points_.data() + std::size_t{kGridPacketBytes} * frame_.packet_columns * frame_.surface_rows;
+      std::memmove(table, table + row_bytes * (row - frame_.surface_row), row_bytes * packet_rows);
+    }
+  }
+  frame_.surface_row = static_cast<std::uint16_t>(row);
+}
+
 RowRange PictureMemory::rows() const {
   const PictureRegion region = region_of(options_);
   return {0, region.bottom - region.top};
 }
 
+bool PictureMemory::has_whole_picture() const {
+  return frame_.surface_rows == frame_.packet_rows;
+}
+std::uint32_t PictureMemory::first_line() const {
+  return frame_.surface_row * kPacketEdge;
+}
+std::byte* PictureMemory::line_of_surface(std::uint32_t line) const {
+  return surface_.data() + std::size_t{frame_.surface_pitch} * (line - first_line());
+}
+std::byte* PictureMemory::line_of_colours(std::uint32_t line) const {
+  return surface_.data() + std::size_t{frame_.surface_pitch} * frame_.surface_rows * kPacketEdge +
+         std::size_t{frame_.sampling.colours_pitch} * (line - first_line());
+}
+std::byte* PictureMemory::row_of_points(std::uint32_t packet_row) const {
+  return grid_points_.data() +
+         std::size_t{kGridPacketBytes} * frame_.packet_columns * (packet_row - frame_.surface_row);
+}
+
 void PictureMemory::clear_from(std::uint32_t line) {
-  const std::size_t kept = std::size_t{frame_.surface_pitch} * line;
-  std::memset(surface_.data() + kept, 0, surface_.size() - kept);
+  std::byte* const begin = line_of_surface(std::max(line, first_line()));
+  std::memset(begin, 0, static_cast<std::size_t>(surface_.data() + surface_.size() - begin));
 }
 
 bool PictureMemory::begins_before_picture() const {
@@ -84,21 +133,16 @@ BlockGrid PictureMemory::blocks(std::uint32_t bundle_edge) const {
 void PictureMemory::tell_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const {
   const PictureRegion picture = region_of(options_);
   for (const PictureRegion& region : regions)
-    options_.finished_block(
-        {region,
-         first_pixel() +
-             std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(region.top - picture.top) +
-             std::size_t{4} * static_cast<std::size_t>(region.left - picture.left),
-         frame_.surface_pitch, spe});
+    options_.finished_block({region,
+                             first_pixel(region.top - picture.top) +
+                                 std::size_t{4} * static_cast<std::size_t>(region.left - picture.left),
+                             frame_.surface_pitch, spe});
 }
 
-const std::uint8_t* PictureMemory::first_pixel() const {
-  const auto* first = reinterpret_cast<const std::uint8_t*>(surface_.data());
-  return begins_before_picture() ? first + frame_.surface_pitch + 4 : first;
-}
-
-std::byte* PictureMemory::rows_of_colours() {
-  return surface_.data() + std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge;
+const std::uint8_t* PictureMemory::first_pixel(int row) const {
+  const std::uint32_t before = begins_before_picture() ? 1 : 0;
+  return reinterpret_cast<const std::uint8_t*>(line_of_surface(static_cast<std::uint32_t>(row) + before)) +
+         std::size_t{4} * before;
 }
 
 void PictureMemory::keep_colours(const RowRange& rows) {
@@ -106,14 +150,13 @@ void PictureMemory::keep_colours(const RowRange& rows) {
   constexpr std::uint32_t kPoints = kPacketEdge * kPacketEdge;
   const std::uint32_t first = static_cast<std::uint32_t>(rows.top) / kPacketEdge;
   const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
-  const std::byte* from = grid_points_.data() + std::size_t{first} * frame_.packet_columns * kGridPacketBytes;
+  const std::byte* from = row_of_points(first);
   for (std::uint32_t row = first; row < (lines + kPacketEdge - 1) / kPacketEdge; ++row)
     for (std::uint32_t column = 0; column < frame_.packet_columns; ++column, from += kGridPacketBytes)
       for (std::uint32_t point = 0; point < kPoints; ++point) {
         const std::uint32_t x = column * kPacketEdge + point % kPacketEdge;
         const std::uint32_t y = row * kPacketEdge + point / kPacketEdge;
-        std::byte* const to =
-            rows_of_colours() + std::size_t{y} * frame_.sampling.colours_pitch + x * sizeof(ColourRecord);
+        std::byte* const to = line_of_colours(y) + x * sizeof(ColourRecord);
         for (std::size_t channel = 0; channel < 4; ++channel)
           std::memcpy(to + channel * sizeof(float), from + (channel * kPoints + point) * sizeof(float),
                       sizeof(float));
@@ -137,18 +180,31 @@ void PictureMemory::copy(const RowRange& rows, const SceneImage& image, RenderRe
   if (options_.colours) result.colours = std::move(colours);
 }
 
+PictureRegion PictureMemory::place_in_result(const RowRange& rows) const {
+  PictureRegion place = region_of(options_);
+  if (options_.rows_at_once != 0) return {0, place.right - place.left, 0, rows.bottom - rows.top};
+  place.bottom = place.top + rows.bottom;
+  place.top += rows.top;
+  return place;
+}
+
+template <class Picture> Picture PictureMemory::make_picture(const RowRange& rows) const {
+  if (options_.rows_at_once == 0) return Picture(options_.width, options_.height);
+  const PictureRegion place = place_in_result(rows);
+  return Picture(place.right, place.bottom);
+}
+
 GridAtPicture PictureMemory::grid_at_picture(const RowRange& rows) const {
   GridAtPicture grid;
-  const PictureRegion region = region_of(options_);
-  grid.region = {region.left, region.right, region.top + rows.top, region.top + rows.bottom};
+  grid.region = place_in_result(rows);
   grid.first_column = begins_before_picture() ? 1 : 0;
-  grid.first_row = grid.first_column + static_cast<std::uint32_t>(rows.top);
+  grid.first_row = grid.first_column + static_cast<std::uint32_t>(rows.top) - first_line();
   return grid;
 }
 
 /// Where the picture has not been rendered, so have the colours not.
 ColourImage PictureMemory::copy_colours(const Image& picture, const RowRange& rows) {
-  ColourImage colours(picture.width, picture.height);
+  auto colours = make_picture<ColourImage>(rows);
   if (options_.alpha)
     for (std::size_t alpha = 3; alpha < colours.rgba.size(); alpha += 4)
       colours.rgba[alpha] = 0;
@@ -156,19 +212,20 @@ ColourImage PictureMemory::copy_colours(const Image& picture, const RowRange& ro
     colours.gamma = std::nullopt;
   else
     colours.gamma = static_cast<double>(frame_.assumed_gamma);
-  const PictureRegion region = region_of(options_);
+  const PictureRegion place = place_in_result(rows);
   const std::size_t pitch = frame_.sampling.colours_pitch;
-  const std::byte* from = rows_of_colours() + pitch * static_cast<std::size_t>(rows.top);
-  if (begins_before_picture()) from += pitch + sizeof(ColourRecord);
-  for (int y = region.top + rows.top; y < region.top + rows.bottom; ++y, from += pitch)
-    for (int x = region.left; x < region.right; ++x) {
+  const std::uint32_t before = begins_before_picture() ? 1 : 0;
+  const std::byte* from =
+      line_of_colours(static_cast<std::uint32_t>(rows.top) + before) + before * sizeof(ColourRecord);
+  for (int y = place.top; y < place.bottom; ++y, from += pitch)
+    for (int x = place.left; x < place.right; ++x) {
       float* const pixel = colours.pixel(x, y);
       if (picture.pixel(x, y)[3] == 0) {
         pixel[3] = 0;
         continue;
       }
       float channels[4];
-      std::memcpy(channels, from + static_cast<std::size_t>(x - region.left) * sizeof(ColourRecord),
+      std::memcpy(channels, from + static_cast<std::size_t>(x - place.left) * sizeof(ColourRecord),
                   sizeof channels);
       reorder(channels, order_);
       std::copy_n(channels, 3, pixel);
@@ -178,21 +235,20 @@ ColourImage PictureMemory::copy_colours(const Image& picture, const RowRange& ro
 }
 
 Image PictureMemory::copy_picture(const RowRange& rows) const {
-  const std::uint8_t* from =
-      first_pixel() + std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(rows.top);
-  const PictureRegion region = region_of(options_);
-  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(region.right - region.left);
-  if (options_.region || rows != this->rows()) {
+  const std::uint8_t* from = first_pixel(rows.top);
+  const PictureRegion place = place_in_result(rows);
+  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(place.right - place.left);
+  if (options_.rows_at_once == 0 && (options_.region || rows != this->rows())) {
     Image image(options_.width, options_.height);
-    for (int y = rows.top; y < rows.bottom; ++y, from += frame_.surface_pitch)
-      std::memcpy(image.pixel(region.left, region.top + y), from, row);
+    for (int y = place.top; y < place.bottom; ++y, from += frame_.surface_pitch)
+      std::memcpy(image.pixel(place.left, y), from, row);
     return image;
   }
   Image image;
-  image.width = options_.width;
-  image.height = options_.height;
-  image.rgba.reserve(row * static_cast<std::size_t>(options_.height));
-  for (int y = 0; y < options_.height; ++y, from += frame_.surface_pitch)
+  image.width = place.right - place.left;
+  image.height = place.bottom - place.top;
+  image.rgba.reserve(row * static_cast<std::size_t>(image.height));
+  for (int y = place.top; y < place.bottom; ++y, from += frame_.surface_pitch)
     image.rgba.insert(image.rgba.end(), from, from + row);
   return image;
 }

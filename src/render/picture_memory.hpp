@@ -31,9 +31,13 @@ public:
 
   /// What the options need; the frame block is told where it lies. What was there is lost.
   void make_room(unsigned spes, std::uint32_t bundle_edge);
+  /// Makes the memory begin with these rows, if it has room for a part of the picture only. Points of the
+  /// grid from there to line `kept` (excluded) stay, if there are any.
+  void begin_at(const RowRange& rows, std::uint32_t kept);
   /// All of them.
   RowRange rows() const;
-  /// Makes points from this line of the grid on transparent black, and all colours.
+  /// Makes points from this line of the grid on transparent black, and all colours. Lines before those that
+  /// the memory has count as its first one.
   void clear_from(std::uint32_t line);
   /// How this frame's blocks lie in the picture.
   BlockGrid blocks(std::uint32_t bundle_edge) const;
@@ -46,11 +50,20 @@ public:
 
 private:
   void make_room_for_samples(unsigned spes, std::uint32_t bundle_edge);
+  bool has_whole_picture() const;
+  /// The grid's line that is the first one in memory.
+  std::uint32_t first_line() const;
+  std::byte* line_of_surface(std::uint32_t line) const;
+  std::byte* line_of_colours(std::uint32_t line) const;
+  std::byte* row_of_points(std::uint32_t packet_row) const;
+  /// Where rows of the region go to: in pictures of the whole, or of these rows alone.
+  PictureRegion place_in_result(const RowRange& rows) const;
+  /// A picture for the result, opaque black.
+  template <class Picture> Picture make_picture(const RowRange& rows) const;
   /// Whether the grid begins to the upper left of the picture, as that of the fixed method does.
   bool begins_before_picture() const;
-  /// Of the region.
-  const std::uint8_t* first_pixel() const;
-  std::byte* rows_of_colours();
+  /// Of a row of the region.
+  const std::uint8_t* first_pixel(int row) const;
   /// Where the rows are in the picture and in the grid.
   GridAtPicture grid_at_picture(const RowRange& rows) const;
   ColourImage copy_colours(const Image& picture, const RowRange& rows);

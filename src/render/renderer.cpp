@@ -71,6 +71,7 @@ public:
   }
 
   RenderResult render(const Scene& scene, const Progress& progress) {
+    check_room_for_all();
     if (!prepare(scene, progress)) return no_frame();
     return reporting_failures([&] { return render_frame(picture_.rows(), progress); });
   }
@@ -89,10 +90,13 @@ public:
         throw InputError("the rows to render are not whole blocks of the picture's");
       if (options_.model != Model::shared && (top != 0 || bottom != picture.bottom))
         throw InputError("rows are rendered one after the other by the shared programming model only");
+      if (options_.rows_at_once != 0 && bottom - top > options_.rows_at_once)
+        throw InputError("the rows to render are more than RenderOptions::rows_at_once");
       return render_frame({top, bottom}, progress);
     });
   }
   RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
+    check_room_for_all();
     is_edited_ = true;
     const bool prepared = while_wanted(progress, scene, [&](const Scene& wanted, const Progress& go_on) {
       return prepare_changes(wanted, changes, go_on);
@@ -153,7 +157,9 @@ private:
     picture_.make_room(machine_->spe_count(), bundle_edge(machine_->direct_memory()));
     frame_.reports = reports_.ea();
     planned_ = {0, 0};
-    plan_rows(picture_.rows());
+    RowRange rows = picture_.rows();
+    if (options_.rows_at_once != 0) rows.bottom = std::min(rows.bottom, options_.rows_at_once);
+    plan_rows(rows);
   }
 
   template <class Work> std::invoke_result_t<Work> reporting_failures(Work work) {
@@ -278,10 +284,16 @@ private:
 
   RenderResult render_camera(const Camera& camera, const Progress& progress) {
     if (!has_scene_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
+    check_room_for_all();
     validate(camera);
     prepared_ = nothing_prepared();
     enter_camera(camera);
     return render_frame(picture_.rows(), progress);
+  }
+  /// Throws InputError if memory has no room for all rows.
+  void check_room_for_all() const {
+    if (options_.rows_at_once != 0 && picture_.rows().bottom > options_.rows_at_once)
+      throw InputError("the picture has more rows than RenderOptions::rows_at_once: render_rows() is for it");
   }
   void enter_camera(const Camera& camera) {
     camera_ = camera;
@@ -368,12 +380,17 @@ private:
     const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
     return {static_cast<std::uint32_t>(rows.top) / height, (lines + height - 1) / height};
   }
+  /// The first line of a row of bundles.
+  std::uint32_t line_of(std::uint32_t bundle_row) const {
+    return bundle_row * bundle_edge(machine_->direct_memory()) * kPacketEdge;
+  }
   /// Plans that have learned stay as long as the rows do.
   void plan_rows(const RowRange& rows) {
     BundleRows grid = grid_rows_of(rows);
     // Points between these rows and those before are there.
-    if (traced_.begin <= grid.begin && grid.begin < traced_.end && traced_.end < grid.end)
-      grid.begin = traced_.end;
+    const bool goes_on = traced_.begin <= grid.begin && grid.begin < traced_.end && traced_.end < grid.end;
+    if (goes_on) grid.begin = traced_.end;
+    picture_.begin_at(rows, goes_on ? line_of(grid.begin) : 0);
     if (planned_ == rows && planned_grid_ == grid) return;
     const unsigned spes = machine_->spe_count();
     // The frame block has the columns of the plan that was carried out last, which may be of samples.
@@ -396,7 +413,7 @@ private:
   /// Lines of the grid that the plan leaves out: pixels, which came with the rows before.
   std::uint32_t kept_lines() const {
     if (planned_grid_.begin == grid_rows_of(planned_).begin) return 0;
-    return planned_grid_.begin * bundle_edge(machine_->direct_memory()) * kPacketEdge;
+    return line_of(planned_grid_.begin);
   }
 
   static Progress part_of(const Progress& progress, double begin, double end) {

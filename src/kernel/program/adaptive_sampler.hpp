@@ -11,11 +11,11 @@ template <class Spu, uint32_t kChannels>
 class AdaptiveSampler : public PixelSampler<Spu, SamplingMethod::adaptive, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::adaptive, kChannels>;
   using Base::arrive, Base::ask, Base::asked_, Base::channel_from, Base::column_, Base::differing,
-      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch, Base::frame_,
-      Base::gather_colours, Base::go_to_block, Base::height_, Base::kEdge, Base::kHasAlpha,
-      Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_, Base::row_mask, Base::scratch_,
-      Base::send, Base::smaller_of, Base::store_, Base::take_channels, Base::take_points, Base::takes_points,
-      Base::under_way_, Base::wants_colours, Base::width_;
+      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch,
+      Base::first_line, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_, Base::kEdge,
+      Base::kHasAlpha, Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_, Base::row_mask,
+      Base::scratch_, Base::send, Base::smaller_of, Base::store_, Base::take_channels, Base::take_points,
+      Base::takes_points, Base::under_way_, Base::wants_colours, Base::width_;
   using typename Base::F, typename Base::Points, typename Base::R;
 
   using Square = SampleSquare<kChannels>;
@@ -230,7 +230,7 @@ private:
   CELLTRACE_ONE_COPY void write_rows() {
     for (uint32_t y = 0; y < rows_; ++y) {
       encode_pixels_of(sums_.row[y], scratch().words);
-      const ea_t to = frame_.surface + (row_ * kSampledEdge + first_row_ + y) * frame_.surface_pitch +
+      const ea_t to = frame_.surface + (first_line() + first_row_ + y) * frame_.surface_pitch +
                       column_ * kSampledEdge * static_cast<uint32_t>(sizeof(uint32_t));
       send(scratch().words, to, (width_ + 3) / 4 * 16);
       if (wants_colours()) {

@@ -272,7 +272,7 @@ private:
   /// Puts to main memory what the primary rays of a member hit.
   CELLTRACE_ONE_COPY void put_first_hits(Member& member) {
     scene_.spu().run_in_module(modules::kFirstHits);
-    const ea_t table = frame_.grid_points + frame_.packet_columns * frame_.packet_rows * kGridPacketBytes;
+    const ea_t table = frame_.grid_points + frame_.packet_columns * frame_.surface_rows * kGridPacketBytes;
     const HitPoints<S>& points = store_.points;
     if (member.hit != 0) find_hit_points(scene_, rays_of(member), member.hits, member.hit, store_.points);
     FirstHitRecord& record = store_.first_hits;
@@ -287,8 +287,8 @@ private:
       points.normal.z.store(record.normal[2]);
     }
     constexpr auto kBytes = static_cast<uint32_t>(sizeof(FirstHitRecord));
-    scene_.spu().put(&record, table + (member.row * frame_.packet_columns + member.column) * kBytes, kBytes,
-                     kFirstHitTag);
+    const uint32_t packet = (member.row - frame_.surface_row) * frame_.packet_columns + member.column;
+    scene_.spu().put(&record, table + packet * kBytes, kBytes, kFirstHitTag);
     scene_.spu().wait_all(1u << kFirstHitTag);
   }
 

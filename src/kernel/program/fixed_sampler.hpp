@@ -15,11 +15,11 @@ template <class Spu, uint32_t kChannels>
 class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
   using Base::arrive, Base::asked_, Base::channel_from, Base::column_, Base::differing, Base::encode,
-      Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::found_at, Base::frame_,
-      Base::go_to_block, Base::height_, Base::kColourBytes, Base::kSamples, Base::packet_of_points,
-      Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask, Base::scratch_, Base::send_object,
-      Base::smaller_of, Base::store_, Base::take_channels, Base::take_points, Base::takes_points,
-      Base::under_way_, Base::wants_colours, Base::width_;
+      Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::first_line, Base::found_at,
+      Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kSamples,
+      Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
+      Base::scratch_, Base::send_object, Base::smaller_of, Base::store_, Base::take_channels,
+      Base::take_points, Base::takes_points, Base::under_way_, Base::wants_colours, Base::width_;
   using typename Base::Colour, typename Base::F, typename Base::Points, typename Base::R;
   using W = typename Base::S::F;
 
@@ -400,7 +400,7 @@ private:
           Base::S::select(take, channels[axis], W(0.0f)).store(scratch().channels[axis] + x);
       }
       encode_pixels_of(scratch().channels, scratch().words);
-      const ea_t row = frame_.surface + (row_ * kSampledEdge + y + 1) * frame_.surface_pitch +
+      const ea_t row = frame_.surface + (first_line() + y + 1) * frame_.surface_pitch +
                        (column_ * kSampledEdge + 1) * static_cast<uint32_t>(sizeof(uint32_t));
       for_each_lane(sampled, [&](uint32_t x) {
         // A word has the same place in its quadword on both sides of a transfer.

@@ -193,10 +193,14 @@ protected:
     if constexpr (!kReadsInPlace<Spu>) spu_.wait_all(1u << kTag);
   }
 
+  /// The block's first line, counted from that of the surface.
+  uint32_t first_line() const { return row_ * kSampledEdge - frame_.surface_row * kPacketEdge; }
+
   // --- the grid ---
 
   ea_t packet_of_points(uint32_t column, uint32_t row) const {
-    return frame_.grid_points + (row * frame_.packet_columns + column) * kGridPacketBytes;
+    return frame_.grid_points +
+           ((row - frame_.surface_row) * frame_.packet_columns + column) * kGridPacketBytes;
   }
 
   void store_points(uint32_t column, uint32_t row) {
@@ -344,8 +348,8 @@ protected:
   bool wants_colours() const { return frame_.sampling.colours_pitch != 0; }
   /// Puts some of the colours where they are wanted: x and y count from the block's first point on.
   CELLTRACE_ONE_COPY void put_colours(const Colour* colours, uint32_t count, uint32_t x, uint32_t y) {
-    const ea_t to = frame_.surface + frame_.packet_rows * kPacketEdge * frame_.surface_pitch +
-                    (row_ * kSampledEdge + y) * frame_.sampling.colours_pitch +
+    const ea_t to = frame_.surface + frame_.surface_rows * kPacketEdge * frame_.surface_pitch +
+                    (first_line() + y) * frame_.sampling.colours_pitch +
                     (column_ * kSampledEdge + x) * kColourBytes;
     send(colours, to, count * kColourBytes);
   }

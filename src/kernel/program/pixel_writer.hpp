@@ -159,7 +159,8 @@ private:
   }
 
   ea_t corner_of_run() const {
-    return frame_.surface + row_ * kPacketEdge * frame_.surface_pitch + column_ * kPacketRowBytes;
+    return frame_.surface + (row_ - frame_.surface_row) * kPacketEdge * frame_.surface_pitch +
+           column_ * kPacketRowBytes;
   }
 
   /// Asks for the lines that a run will be written to: another processor may have read the last picture.
