@@ -8,8 +8,10 @@
 #include "cli/interrupt.hpp"
 #include "cli/output_files.hpp"
 #include "cli/picture_job.hpp"
+#include "cli/poster.hpp"
 #include "cli/pov_report.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/resume_state.hpp"
 #include "cli/scene_reading.hpp"
 #include "image/file.hpp"
 
@@ -95,6 +97,7 @@ private:
     bool complete = true;
     try {
       RenderOptions options = request_.options;
+      options.rows_at_once = rows_at_once(request_);
       reports.attach(options);
       FrameSource source(request_, options, frames_);
       while (complete && !source.is_at_end())
@@ -116,26 +119,24 @@ private:
     print_messages(frame.messages);
     if (!frame.is_prepared || interrupted()) return false;
     if (done_ == 0 && !request_.resume) state_.remove();
-    PartialPicture image(request_.options);
-    if (request_.resume) state_.load_rows(frame.number, frame.read.files, image);
-    RowKeeper keeper(state_, frame.number, frame.read.files, image);
+    RowsFile kept = state_.rows_of(frame.number, frame.read.files);
+    const std::filesystem::path file = is_film() ? std::filesystem::path() : picture(frame.number);
     line_.set_job("frame " + std::to_string(frame.number) + ", ");
     report_.begin_rendering(request_.options);
-    RenderResult result = render_remaining(
-        *frame.renderer, request_.options, image,
+    const PictureOutcome result = render_picture(
+        *frame.renderer, request_, file, kept,
         [&](double fraction) {
           report_.update(fraction);
           line_.update((static_cast<double>(done_) + fraction) / static_cast<double>(frames_.size()));
           return !interrupted();
         },
-        [&] { keeper.save(interrupted()); });
+        [&](const Image& image) {
+          if (film_) add_to_film(image);
+        });
     report_.finish(result.statistics.render_seconds);
     reports.print_diagnostics();
-    if (film_ && result.complete) add_to_film(image.image());
-    const std::filesystem::path file = is_film() ? std::filesystem::path() : picture(frame.number);
-    if (!file.empty()) save_picture(request_, file, image, result.statistics);
     if (!result.complete) {
-      missing_rows_ = image.missing_rows();
+      is_frame_cut_ = true;
       return false;
     }
     state_.finish_frame(frame.number, file);
@@ -184,7 +185,7 @@ private:
       std::cerr << ", " << request_.options.width << 'x' << request_.options.height << ", "
                 << summary_of(*sum_, parse_seconds_);
     std::cerr << '\n';
-    if (complete || !state_.is_kept() || (done_ == 0 && missing_rows_ < 0 && !request_.resume)) return;
+    if (complete || !state_.is_kept() || (done_ == 0 && !is_frame_cut_ && !request_.resume)) return;
     std::cerr << "the same command with +C goes on with the " << frames_.size() - done_
               << " frames that are missing\n";
   }
@@ -195,9 +196,9 @@ private:
   ProgressLine line_;
   PovReport report_;
   std::unique_ptr<Film> film_;
-  std::size_t done_ = 0;  ///< frames
-  int missing_rows_ = -1; ///< of the frame that was broken off
-  std::string messages_;  ///< that were printed last
+  std::size_t done_ = 0;      ///< frames
+  bool is_frame_cut_ = false; ///< a frame was broken off between its first pixel and its last
+  std::string messages_;      ///< that were printed last
   RenderStatistics last_;
   std::optional<RenderStatistics> sum_;
   double parse_seconds_ = 0;

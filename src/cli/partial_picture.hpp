@@ -1,12 +1,12 @@
-// A picture whose rows are rendered bit by bit, and what is kept of one that is stopped in between.
+// A picture in memory whose rows are rendered bit by bit, and what is kept of one that is stopped in between.
 #pragma once
 
 #include "celltrace/image.hpp"
 #include "celltrace/render.hpp"
+#include "cli/picture_rows.hpp"
+#include "cli/rows_file.hpp"
 
 #include <functional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace celltrace::cli {
@@ -18,10 +18,11 @@ public:
   /// Nothing is finished.
   explicit PartialPicture(const RenderOptions& options);
 
-  const Image& image() const { return image_; }
-  const ColourImage& colours() const { return colours_; }     ///< empty unless RenderOptions::colours
-  const FirstHits& first_hits() const { return first_hits_; } ///< empty unless RenderOptions::first_hits
-  const BlockImage& blocks() const { return blocks_; }        ///< empty unless RenderOptions::blocks
+  const Image& image() const { return pictures_.image; }
+  const ColourImage& colours() const { return pictures_.colours; } ///< empty unless RenderOptions::colours
+  /// Empty unless RenderOptions::first_hits.
+  const FirstHits& first_hits() const { return pictures_.first_hits; }
+  const BlockImage& blocks() const { return pictures_.blocks; } ///< empty unless RenderOptions::blocks
   int height() const { return region_.bottom - region_.top; }
   bool is_complete() const;
   bool is_empty() const; ///< not a single block is finished
@@ -36,20 +37,18 @@ public:
   /// that were reached then stay as they are.
   void take(const RenderResult& result, const Rows& rows, bool keeps_parts);
 
-  /// The finished rows, as bytes that this computer understands.
-  std::string to_bytes() const;
-  /// False, and nothing happens: they are not those of such a picture.
-  bool take_bytes(std::string_view bytes);
+  /// Appends the finished rows that are not in the file yet.
+  void append_to(RowsFile& file) const;
+  /// Takes the rows of a file that are those of such a picture.
+  void take(RowsFile& file);
 
 private:
   Rows block_rows(std::size_t block) const;
-  bool has_all_pixels(const Image& image, const Rows& rows) const;
+  /// Where rows of the region are in the picture.
+  PictureRegion place_of(const Rows& rows) const;
 
   PictureRegion region_;
-  Image image_;
-  ColourImage colours_;
-  FirstHits first_hits_;
-  BlockImage blocks_;
+  PictureRows pictures_;
   std::vector<bool> finished_; ///< by block
 };
 

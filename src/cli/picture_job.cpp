@@ -4,6 +4,8 @@
 #include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/poster.hpp"
+#include "cli/row_keeper.hpp"
 
 #include <cstdio>
 #include <iostream>
@@ -35,14 +37,6 @@ void RunReports::finish() {
   cache_.finish();
 }
 
-void RowKeeper::save(bool at_once) {
-  constexpr std::chrono::seconds kInterval(10);
-  const Clock::time_point now = Clock::now();
-  if (picture_.is_empty() || picture_.is_complete() || (!at_once && now - last_ < kInterval)) return;
-  state_.save_rows(frame_, files_, picture_);
-  last_ = Clock::now();
-}
-
 namespace {
 
 template <class... Picture>
@@ -71,6 +65,30 @@ void save_picture(const RenderRequest& request, const std::filesystem::path& pat
   } else {
     write(request, path, picture.image());
   }
+}
+
+namespace {
+
+PictureOutcome render_whole(Renderer& renderer, const RenderRequest& request,
+                            const std::filesystem::path& path, RowsFile& kept, const Progress& progress,
+                            const std::function<void(const Image&)>& use_image) {
+  PartialPicture picture(request.options);
+  picture.take(kept);
+  RowKeeper keeper(kept);
+  RenderResult result = render_remaining(renderer, request.options, picture, progress,
+                                         [&] { keeper.save(picture, interrupted()); });
+  if (use_image && result.complete) use_image(picture.image());
+  if (!path.empty()) save_picture(request, path, picture, result.statistics);
+  return {std::move(result.statistics), result.complete, picture.missing_rows()};
+}
+
+} // namespace
+
+PictureOutcome render_picture(Renderer& renderer, const RenderRequest& request,
+                              const std::filesystem::path& path, RowsFile& kept, const Progress& progress,
+                              const std::function<void(const Image&)>& use_image) {
+  if (rows_at_once(request) != 0) return render_poster(renderer, request, path, kept, progress);
+  return render_whole(renderer, request, path, kept, progress, use_image);
 }
 
 void print_dropped_rays(const RenderStatistics& statistics) {

@@ -4,9 +4,10 @@
 #include "cli/command_line.hpp"
 #include "cli/output_files.hpp"
 #include "cli/partial_picture.hpp"
-#include "cli/resume_state.hpp"
+#include "cli/rows_file.hpp"
 
-#include <chrono>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,24 +37,20 @@ private:
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// Keeps the rows of a picture now and then, while it is rendered.
-class RowKeeper {
-public:
-  RowKeeper(ResumeState& state, int frame, const Settings& files, const PartialPicture& picture)
-      : state_(state), frame_(frame), files_(files), picture_(picture) {}
-
-  /// After some rows more. `at_once`: there will be no more.
-  void save(bool at_once);
-
-private:
-  using Clock = std::chrono::steady_clock;
-
-  ResumeState& state_;
-  int frame_;
-  const Settings& files_;
-  const PartialPicture& picture_;
-  Clock::time_point last_ = Clock::now();
+/// What became of a picture.
+struct PictureOutcome {
+  RenderStatistics statistics; ///< of all that was rendered now
+  bool complete = true;
+  int rows_to_go = 0; ///< that a run which goes on has to render
 };
+
+/// Renders the scene that is prepared to `path`, which may be empty, but for the rows that `kept` has, and
+/// adds others to these. `renderer` has RenderOptions::rows_at_once as rows_at_once() says. If `progress`
+/// breaks it off, the rest of the picture is blank. `use_image` is for pictures that are complete and in
+/// memory whole.
+PictureOutcome render_picture(Renderer& renderer, const RenderRequest& request,
+                              const std::filesystem::path& path, RowsFile& kept, const Progress& progress,
+                              const std::function<void(const Image&)>& use_image = {});
 
 /// To a file or, where `path` is kStandardOutput, to stdout. Of a picture that becomes blocks only now,
 /// `statistics` get what these are worth.

@@ -5,15 +5,18 @@
 #include "cli/animation.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_files.hpp"
+#include "cli/partial_picture.hpp"
 #include "cli/picture_job.hpp"
+#include "cli/poster.hpp"
 #include "cli/pov_report.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/resume_state.hpp"
 #include "cli/scene_reading.hpp"
 #include "image/file.hpp"
 
 #include <chrono>
-#include <csignal>
 #include <iostream>
+#include <optional>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -38,12 +41,23 @@ ReadScene read_with_progress(const RenderRequest& request) {
       [&](double fraction) { line.update(fraction); });
 }
 
-/// What of `picture` is missing.
-RenderResult render_with_progress(const ReadScene& read, const RenderRequest& request, RunReports& reports,
-                                  PovReport& report, ResumeState& state, PartialPicture& picture) {
+/// A picture that was broken off before its scene was ready: it has the rows that are kept.
+PictureOutcome save_kept(Renderer& renderer, const RenderRequest& request, const Scene& scene,
+                         RowsFile& kept) {
+  PartialPicture picture(request.options);
+  picture.take(kept);
+  RenderStatistics statistics = renderer.render(scene).statistics; // which is broken off, too
+  if (!request.output.empty()) save_picture(request, request.output, picture, statistics);
+  return {statistics, false, picture.missing_rows()};
+}
+
+/// Renders what is missing of the picture, and writes it. None: there is not a pixel of it.
+std::optional<PictureOutcome> render_with_progress(const ReadScene& read, const RenderRequest& request,
+                                                   RunReports& reports, PovReport& report, RowsFile& kept) {
   const bool visible = !request.quiet && stderr_is_terminal();
   ProgressLine building(std::cerr, visible, "building ", std::chrono::milliseconds(500));
   RenderOptions options = request.options;
+  options.rows_at_once = rows_at_once(request);
   reports.attach(options);
   options.build_progress = [&building](double fraction) {
     building.update(fraction);
@@ -51,18 +65,26 @@ RenderResult render_with_progress(const ReadScene& read, const RenderRequest& re
     return !interrupted();
   };
   Renderer renderer(options);
-  if (!renderer.prepare(*read.scene)) return renderer.render(*read.scene); // which is broken off, too
+  if (!renderer.prepare(*read.scene)) {
+    if (options.rows_at_once != 0) return std::nullopt;
+    return save_kept(renderer, request, *read.scene, kept);
+  }
   ProgressLine line(std::cerr, visible);
-  RowKeeper keeper(state, kStill, read.files, picture);
   report.begin_rendering(options);
-  return render_remaining(
-      renderer, options, picture,
-      [&](double fraction) {
-        line.update(fraction);
-        report.update(fraction);
-        return !interrupted();
-      },
-      [&] { keeper.save(interrupted()); });
+  return render_picture(renderer, request, request.output, kept, [&](double fraction) {
+    line.update(fraction);
+    report.update(fraction);
+    return !interrupted();
+  });
+}
+
+int height_of(const RenderOptions& options) {
+  return options.region ? options.region->bottom - options.region->top : options.height;
+}
+
+int interrupted_early() {
+  std::cerr << "interrupted before the first pixel\n";
+  return 2;
 }
 
 void write_statistics(const std::string& where, const RenderStatistics& statistics, double parse_seconds) {
@@ -77,7 +99,6 @@ int run_render(const RenderRequest& request) {
   if (request.animation.is_on() || request.film != FilmFormat::none) return run_animation(request);
   if (request.output == kStandardOutput) {
     check_standard_output_is_open();
-    std::signal(SIGPIPE, SIG_IGN); // a reader that is gone is an error like others
   } else if (!request.output.empty()) {
     check_image_path(request.output, request.format);
   }
@@ -99,43 +120,41 @@ int run_render(const RenderRequest& request) {
   PovReport report(std::cerr, report_parts(request, stderr_is_terminal()));
   report.begin_parsing();
   const ReadScene read = read_with_progress(request);
-  if (!read.scene || interrupted()) {
-    std::cerr << "interrupted before the first pixel\n";
-    return 2;
-  }
-  PartialPicture picture(request.options);
-  if (!request.resume)
-    state.remove();
-  else if (state.load_rows(kStill, read.files, picture) && !request.quiet)
-    std::cerr << name << ": " << picture.missing_rows() << " of " << picture.height() << " rows to go\n";
+  if (!read.scene || interrupted()) return interrupted_early();
+  if (!request.resume) state.remove();
+  RowsFile kept = state.rows_of(kStill, read.files);
+  const int height = height_of(request.options);
+  if (kept.count() > 0 && !request.quiet)
+    std::cerr << name << ": " << height - kept.count() << " of " << height << " rows to go\n";
 
   RunReports reports(request);
-  RenderResult result;
+  std::optional<PictureOutcome> rendered;
   try {
-    result = render_with_progress(read, request, reports, report, state, picture);
+    rendered = render_with_progress(read, request, reports, report, kept);
   } catch (const std::exception& error) {
     reports.print_diagnostics(error.what());
     throw;
   }
-  report.finish(result.statistics.render_seconds);
+  report.finish(rendered ? rendered->statistics.render_seconds : 0);
   reports.print_diagnostics();
-  if (!request.output.empty()) save_picture(request, request.output, picture, result.statistics);
-  if (result.complete && request.resume)
+  if (!rendered) return interrupted_early();
+  const PictureOutcome& outcome = *rendered;
+  if (outcome.complete && request.resume)
     state.finish_frame(kStill, request.output);
-  else if (result.complete)
+  else if (outcome.complete)
     state.remove();
   reports.finish();
-  if (!request.stats.empty()) write_statistics(request.stats, result.statistics, read.seconds);
+  if (!request.stats.empty()) write_statistics(request.stats, outcome.statistics, read.seconds);
   if (!request.quiet) {
-    const RenderStatistics& s = result.statistics;
+    const RenderStatistics& s = outcome.statistics;
     print_dropped_rays(s);
-    std::cerr << name << ": " << (result.complete ? "" : "interrupted, partial, ") << s.width << 'x'
-              << picture.height() << ", " << summary_of(s, read.seconds) << '\n';
-    if (!result.complete && state.is_kept() && !picture.is_empty())
-      std::cerr << "the same command with +C goes on with the " << picture.missing_rows()
+    std::cerr << name << ": " << (outcome.complete ? "" : "interrupted, partial, ") << s.width << 'x'
+              << height << ", " << summary_of(s, read.seconds) << '\n';
+    if (!outcome.complete && state.is_kept() && outcome.rows_to_go < height)
+      std::cerr << "the same command with +C goes on with the " << outcome.rows_to_go
                 << " rows that are missing\n";
   }
-  return result.complete ? 0 : 2;
+  return outcome.complete ? 0 : 2;
 }
 
 } // namespace celltrace::cli

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -19,7 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kJournalTitle = "celltrace resume 1\n";
-constexpr std::string_view kRowsTitle = "celltrace rows 1\n";
 
 std::string text_of(const Settings& settings) {
   std::string text;
@@ -68,21 +66,6 @@ bool take_front(std::string_view& text, std::string_view front) {
 std::string read_all(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Fowler, Noll and Vo's FNV-1a, by words of 8 bytes: a file that a disk has lost part of is not taken for
-/// whole.
-std::uint64_t checksum(std::string_view bytes) {
-  constexpr std::uint64_t kPrime = 0x100000001B3;
-  std::uint64_t hash = 0xCBF29CE484222325;
-  while (!bytes.empty()) {
-    std::uint64_t word = 0;
-    const std::size_t size = std::min(sizeof word, bytes.size());
-    std::memcpy(&word, bytes.data(), size);
-    hash = (hash ^ word) * kPrime;
-    bytes.remove_prefix(size);
-  }
-  return hash;
 }
 
 /// Complete lines "frame N BYTES". A line that is cut off was the last one.
@@ -154,33 +137,18 @@ void ResumeState::finish_frame(int frame, const fs::path& picture) {
   fs::remove(rows_, ignored);
 }
 
-void ResumeState::save_rows(int frame, const Settings& files, const PartialPicture& picture) {
-  if (!is_kept()) return;
-  std::string bytes = std::string(kRowsTitle) + text_of(settings_) + text_of(files) + std::to_string(frame) +
-                      '\n' + picture.to_bytes();
-  const std::uint64_t sum = checksum(bytes);
-  bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
-  OutputFile file(rows_);
-  file.stream()->write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.finish();
-}
-
-bool ResumeState::load_rows(int frame, const Settings& files, PartialPicture& picture) const {
-  std::error_code error;
-  if (!is_kept() || !fs::exists(rows_, error)) return false;
-  const std::string bytes = read_all(rows_);
-  std::string_view text = bytes;
-  std::uint64_t sum = 0;
-  if (text.size() < sizeof sum) return false;
-  std::memcpy(&sum, text.data() + text.size() - sizeof sum, sizeof sum);
-  text.remove_suffix(sizeof sum);
-  if (checksum(text) != sum || !take_front(text, kRowsTitle)) return false;
-  Settings before, files_before;
-  if (!take_settings(text, before) || !take_settings(text, files_before)) return false;
-  check_same(rows_, before, settings_);
-  if (!take_front(text, std::to_string(frame) + '\n')) return false; // of another frame
-  check_same(rows_, files_before, files);
-  return picture.take_bytes(text);
+RowsFile ResumeState::rows_of(int frame, const Settings& files) const {
+  if (!is_kept()) return {};
+  const std::string of_frame = std::to_string(frame) + '\n';
+  if (const std::optional<std::string> head = RowsFile::head_of(rows_)) {
+    std::string_view text = *head;
+    Settings before, files_before;
+    if (take_settings(text, before) && take_settings(text, files_before)) {
+      check_same(rows_, before, settings_);
+      if (text == of_frame) check_same(rows_, files_before, files);
+    }
+  }
+  return {rows_, text_of(settings_) + text_of(files) + of_frame};
 }
 
 void ResumeState::remove() {

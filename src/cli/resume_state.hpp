@@ -1,9 +1,9 @@
 // What a run leaves for one that goes on where it was stopped: beside the picture FILE, FILE.resume says by
 // which settings it rendered and which frames are finished, and FILE.rows has the finished rows of the next
-// one. Both are there whole or not at all, whenever the run ends.
+// one. Whenever the run ends, what was written by then counts.
 #pragma once
 
-#include "cli/partial_picture.hpp"
+#include "cli/rows_file.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -27,13 +27,12 @@ public:
   /// What an earlier run left. Throws InputError if that had other settings.
   void load();
   bool has_frame(int frame, const std::filesystem::path& picture) const;
-  /// Those rows of a frame that an earlier run left. False: none. Throws InputError if files that the frame
-  /// is read from are others than then.
-  bool load_rows(int frame, const Settings& files, PartialPicture& picture) const;
+  /// The rows of a frame that an earlier run left, and where to append those of this run. Throws InputError
+  /// if settings, or files that the frame is read from, are others than then.
+  RowsFile rows_of(int frame, const Settings& files) const;
 
   /// Its picture is written. Its rows are not needed any more.
   void finish_frame(int frame, const std::filesystem::path& picture);
-  void save_rows(int frame, const Settings& files, const PartialPicture& picture);
   /// All is done, and nobody is to go on.
   void remove();
 

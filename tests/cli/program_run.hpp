@@ -15,6 +15,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,6 +25,7 @@ struct Outcome {
   int exit_code = -1;
   std::string out;
   std::string err;
+  long peak_kilobytes = 0; ///< most memory that it had at a time
 };
 
 /// The name that the program is started by, and variables of the environment ("NAME=VALUE") besides the
@@ -80,9 +82,10 @@ public:
 
   Outcome finish() {
     int status = 0;
-    waitpid(pid_, &status, 0);
+    rusage usage{};
+    wait4(pid_, &status, 0, &usage);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-            read_bytes(folder_ / "stdout.txt"), read_bytes(folder_ / "stderr.txt")};
+            read_bytes(folder_ / "stdout.txt"), read_bytes(folder_ / "stderr.txt"), usage.ru_maxrss};
   }
 
 private:

@@ -1,6 +1,7 @@
 #include "cli/resume_state.hpp"
 
 #include "celltrace/error.hpp"
+#include "cli/partial_picture.hpp"
 #include "files.hpp"
 
 #include <catch2/catch.hpp>
@@ -84,55 +85,114 @@ TEST_CASE("rows come back as they were") {
   const bool colours = GENERATE(false, true);
   const TemporaryFolder folder;
   const PartialPicture picture = with_rows(32, 70, colours);
-  ResumeState(folder / "p.png", kSettings).save_rows(3, kFiles, picture);
+  const ResumeState first(folder / "p.png", kSettings);
+  RowsFile written = first.rows_of(3, kFiles);
+  CHECK(written.is_kept());
+  CHECK(written.count() == 0);
+  picture.append_to(written);
+  picture.append_to(written); // nothing is new
+  CHECK(written.count() == 38);
   ResumeState state(folder / "p.png", kSettings);
   state.load();
+  CHECK(state.rows_of(2, kFiles).count() == 0);
+  RowsFile read = state.rows_of(3, kFiles);
+  CHECK(read.count() == 38);
   PartialPicture loaded(options(colours));
-  CHECK_FALSE(state.load_rows(2, kFiles, loaded));
-  REQUIRE(state.load_rows(3, kFiles, loaded));
+  loaded.take(read);
   CHECK(loaded.missing_rows() == 32);
   CHECK(loaded.image() == picture.image());
   CHECK(loaded.colours() == picture.colours());
   PartialPicture other(options(!colours));
-  CHECK_FALSE(state.load_rows(3, kFiles, other));
+  other.take(read);
+  CHECK(other.is_empty());
   state.remove();
   CHECK(std::filesystem::is_empty(folder.path()));
 }
 
-TEST_CASE("rows of other settings and of files that changed are refused") {
-  const TemporaryFolder folder;
-  ResumeState(folder / "p.png", kSettings).save_rows(0, kFiles, with_rows(0, 32));
-  PartialPicture picture(options());
-  CHECK_THROWS_WITH(
-      ResumeState(folder / "p.png", {{"width", "6"}, {"height", "70"}}).load_rows(0, kFiles, picture),
-      Contains("p.png.rows: ") && Contains("width was 5 and is 6"));
-  CHECK_THROWS_WITH(
-      ResumeState(folder / "p.png", kSettings).load_rows(0, {{"a.pov", "1"}, {"b.inc", "2"}}, picture),
-      Contains("b.inc was none and is 2"));
-  CHECK_THROWS_WITH(ResumeState(folder / "p.png", kSettings).load_rows(0, {{"a.pov", "2"}}, picture),
-                    Contains("a.pov was 1 and is 2"));
-  CHECK(picture.is_empty());
-}
-
-TEST_CASE("rows that are damaged or cut off are none") {
+TEST_CASE("a run that goes on appends to the rows of the one before") {
   const TemporaryFolder folder;
   const ResumeState state(folder / "p.png", kSettings);
-  ResumeState(folder / "p.png", kSettings).save_rows(0, kFiles, with_rows(0, 64));
+  {
+    RowsFile file = state.rows_of(0, kFiles);
+    with_rows(0, 32).append_to(file);
+  }
+  const auto before = std::filesystem::file_size(folder / "p.png.rows");
+  {
+    RowsFile file = state.rows_of(0, kFiles);
+    with_rows(0, 64).append_to(file);
+  }
+  const std::string both = read_bytes(folder / "p.png.rows");
+  CHECK(both.size() < 2 * before);
+  RowsFile file = state.rows_of(0, kFiles);
+  CHECK(file.count() == 64);
+  REQUIRE(file.next(1));
+  CHECK(file.next(1)->top == 32);
+  CHECK(file.next(1)->bottom == 64);
+  CHECK_FALSE(file.next(33));
+  // Those of another frame take its place.
+  RowsFile other = state.rows_of(1, kFiles);
+  CHECK(other.count() == 0);
+  with_rows(0, 32).append_to(other);
+  CHECK(state.rows_of(0, kFiles).count() == 0);
+  CHECK(state.rows_of(1, kFiles).count() == 32);
+}
+
+TEST_CASE("rows of other settings and of files that changed are refused") {
+  const TemporaryFolder folder;
+  RowsFile file = ResumeState(folder / "p.png", kSettings).rows_of(0, kFiles);
+  with_rows(0, 32).append_to(file);
+  CHECK_THROWS_WITH(ResumeState(folder / "p.png", {{"width", "6"}, {"height", "70"}}).rows_of(0, kFiles),
+                    Contains("p.png.rows: ") && Contains("width was 5 and is 6"));
+  CHECK_THROWS_WITH(ResumeState(folder / "p.png", kSettings).rows_of(0, {{"a.pov", "1"}, {"b.inc", "2"}}),
+                    Contains("b.inc was none and is 2"));
+  CHECK_THROWS_WITH(ResumeState(folder / "p.png", kSettings).rows_of(0, {{"a.pov", "2"}}),
+                    Contains("a.pov was 1 and is 2"));
+}
+
+TEST_CASE("of rows that are damaged or cut off the others count") {
+  const TemporaryFolder folder;
+  const ResumeState state(folder / "p.png", kSettings);
+  {
+    RowsFile file = state.rows_of(0, kFiles);
+    with_rows(0, 64).append_to(file);
+  }
   const std::string good = read_bytes(folder / "p.png.rows");
-  PartialPicture picture(options());
-  const auto loads = [&](const std::string& bytes) {
+  const PartialPicture expected = with_rows(0, 64);
+  const auto load = [&](const std::string& bytes) {
     write_bytes(folder / "p.png.rows", bytes);
-    return state.load_rows(0, kFiles, picture);
+    RowsFile file = state.rows_of(0, kFiles);
+    PartialPicture picture(options());
+    picture.take(file);
+    return picture;
   };
-  for (std::size_t size = 0; size < good.size(); size += 13)
-    CHECK_FALSE(loads(good.substr(0, size)));
+  const auto is_right = [&](const PartialPicture& picture) {
+    bool right = true;
+    for (int y = 0; y < 64; ++y) // missing rows are clear, or whatever was there: they are rendered again
+      right = right && (picture.missing_rows() > 6 ||
+                        std::equal(picture.image().pixel(0, y), picture.image().pixel(0, y) + 4 * kWidth,
+                                   expected.image().pixel(0, y)));
+    return right;
+  };
+  for (std::size_t size = 0; size < good.size(); size += 13) {
+    const PartialPicture picture = load(good.substr(0, size));
+    CHECK((picture.missing_rows() == 70 || picture.missing_rows() == 38));
+  }
+  int damaged = 0;
   for (std::size_t at = 0; at < good.size(); at += 31) {
     std::string bad = good;
     bad[at] = static_cast<char>(bad[at] ^ 4);
-    CHECK_FALSE(loads(bad));
+    const PartialPicture picture = load(bad);
+    CHECK(picture.missing_rows() >= 38);
+    damaged += picture.missing_rows() == 38 ? 1 : 0;
   }
-  CHECK(picture.is_empty());
-  CHECK(loads(good));
+  CHECK(damaged > 0); // one of two parts is whole
+  CHECK(is_right(load(good)));
+  // What was cut off is rendered and appended again.
+  write_bytes(folder / "p.png.rows", good.substr(0, good.size() - 7));
+  RowsFile file = state.rows_of(0, kFiles);
+  CHECK(file.count() == 32);
+  expected.append_to(file);
+  CHECK(read_bytes(folder / "p.png.rows") == good);
 }
 
 TEST_CASE("finished frames are known as long as their files are what they were") {
@@ -173,7 +233,9 @@ TEST_CASE("nothing is kept beside what is no file") {
     CHECK_FALSE(state.is_kept());
     state.load();
     state.finish_frame(0, name);
-    state.save_rows(0, kFiles, with_rows(0, 32));
+    RowsFile rows = state.rows_of(0, kFiles);
+    with_rows(0, 32).append_to(rows);
+    CHECK_FALSE(rows.is_kept());
     state.remove();
   }
 }

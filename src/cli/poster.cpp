@@ -1,0 +1,174 @@
+#include "cli/poster.hpp"
+
+#include "cli/band_height.hpp"
+#include "cli/picture_rows.hpp"
+#include "cli/row_keeper.hpp"
+#include "cli/row_output.hpp"
+#include "image/file.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace celltrace::cli {
+
+namespace {
+
+/// Pictures of more pixels are posters: in memory as a whole they may take 100 bytes a pixel.
+constexpr std::int64_t kMostPixelsOfWhole = std::int64_t{1} << 24;
+/// Pixels of a poster's band, unless the least number of rows has more.
+constexpr std::int64_t kPixelsOfBand = std::int64_t{1} << 20;
+/// Rows are kept if rendering them took longer than writing their bytes at this rate: others are rendered
+/// again as fast as they were read.
+constexpr double kBytesToKeepPerSecond = 50e6;
+
+PictureRegion region_of(const RenderOptions& options) {
+  return options.region.value_or(PictureRegion{0, options.width, 0, options.height});
+}
+
+/// Room for rows of the region, in each form that goes out.
+PictureRows make_rows(const RenderOptions& options, int count) {
+  const PictureRegion region = region_of(options);
+  const int width = region.right - region.left;
+  PictureRows rows;
+  if (options.colours)
+    rows.colours = ColourImage(width, count);
+  else
+    rows.image = Image(width, count);
+  if (options.first_hits) {
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(count);
+    rows.first_hits = {width, count, {}, {}, {}};
+    rows.first_hits.depth.resize(pixels);
+    rows.first_hits.normal.resize(3 * pixels);
+    rows.first_hits.object.resize(pixels);
+  }
+  return rows;
+}
+
+class PosterRun {
+public:
+  PosterRun(Renderer& renderer, const RenderRequest& request, const std::filesystem::path& path,
+            RowsFile& kept, const Progress& progress)
+      : renderer_(renderer), options_(request.options), region_(region_of(options_)),
+        width_(region_.right - region_.left), height_(region_.bottom - region_.top), kept_(kept),
+        keeps_all_(request.resume), keeper_(kept), progress_(progress), output_(request, path) {
+    options_.rows_at_once = rows_at_once(request);
+  }
+
+  PictureOutcome run() {
+    BandHeight bands(options_);
+    for (int top = 0; top < height_;) {
+      if (const std::optional<RowsFile::Rows> part = kept_.next(top);
+          part && part->top == top && take_kept(*part)) {
+        top = part->bottom;
+        continue;
+      }
+      const std::optional<RowsFile::Rows> later = kept_.next(top + 1);
+      const int gap = (later ? std::min(later->top, height_) : height_) - top;
+      if (!result_.complete) {
+        output_.write_blank(gap);
+        top += gap;
+        continue;
+      }
+      const int rows = bands.of(gap, height_);
+      bands.learn(rows, render(top, top + rows));
+      top += rows;
+    }
+    output_.finish();
+    result_.rows_to_go = height_ - kept_.count();
+    return std::move(result_);
+  }
+
+private:
+  /// False: there are no such rows.
+  bool take_kept(const RowsFile::Rows& part) {
+    const int count = part.bottom - part.top;
+    const bool is_band = part.bottom <= height_ && count <= options_.rows_at_once;
+    const std::optional<std::string> bytes = is_band ? kept_.read(part.top) : std::nullopt;
+    if (!bytes) return false;
+    PictureRows rows = make_rows(options_, count);
+    if (!take_bytes(*bytes, rows, {0, width_, 0, count})) return false;
+    output_.write(rows);
+    return true;
+  }
+
+  /// Returns how many seconds it took.
+  double render(int top, int bottom) {
+    RenderResult result = renderer_.render_rows(
+        top, bottom, [&](double fraction) { return progress_((top + fraction * (bottom - top)) / height_); });
+    const double seconds = result.statistics.render_seconds;
+    if (has_statistics_)
+      add_rows(result_.statistics, result.statistics);
+    else
+      result_.statistics = result.statistics;
+    has_statistics_ = true;
+    result_.complete = result.complete;
+    const std::vector<PictureRegion> finished = finished_parts(result, bottom - top);
+    if (options_.colours) result.image = Image();
+    const PictureRows rows = rows_of(std::move(result));
+    output_.write(rows);
+    for (const PictureRegion& part : finished)
+      keep(rows, part, top, seconds);
+    return seconds;
+  }
+
+  /// Rows that no render has to bring again: all, or of a band that was broken off those blocks that are
+  /// final. With antialiasing a pixel that is there may be its first ray's only.
+  std::vector<PictureRegion> finished_parts(const RenderResult& result, int rows) const {
+    if (result.complete) return {{0, width_, 0, rows}};
+    std::vector<PictureRegion> parts;
+    if (options_.antialiasing) return parts;
+    for (int top = 0; top < rows; top += Renderer::kRowStep) {
+      const PictureRegion part = {0, width_, top, std::min(top + Renderer::kRowStep, rows)};
+      if (has_all_pixels(result.image, part)) parts.push_back(part);
+    }
+    return parts;
+  }
+
+  void keep(const PictureRows& rows, const PictureRegion& part, int top, double seconds) {
+    if (!kept_.is_kept()) return;
+    const std::string bytes = bytes_of(rows, part);
+    if (!keeps_all_ && seconds * kBytesToKeepPerSecond < static_cast<double>(bytes.size())) return;
+    keeper_.keep([&](RowsFile& file) { file.append(top + part.top, top + part.bottom, bytes); });
+  }
+
+  Renderer& renderer_;
+  RenderOptions options_;
+  PictureRegion region_;
+  int width_, height_; ///< of the region
+  RowsFile& kept_;
+  bool keeps_all_; ///< however fast rows were rendered
+  RowKeeper keeper_;
+  const Progress& progress_;
+  RowOutput output_;
+  PictureOutcome result_;
+  bool has_statistics_ = false;
+};
+
+} // namespace
+
+int rows_at_once(const RenderRequest& request) {
+  const RenderOptions& options = request.options;
+  const bool is_whole = request.film != FilmFormat::none || options.model != Model::shared ||
+                        (!request.output.empty() && request.format == ImageFormat::dds);
+  if (is_whole) return 0;
+  const PictureRegion region = region_of(options);
+  const int height = region.bottom - region.top;
+  const bool is_large = std::int64_t{options.width} * options.height > kMostPixelsOfWhole;
+  if (!is_large) {
+    const bool is_read = request.output == kStandardOutput || image::is_stream(request.output);
+    return is_read && options.backend == Backend::native ? height : 0;
+  }
+  const std::int64_t steps = kPixelsOfBand / (region.right - region.left) / Renderer::kRowStep;
+  return static_cast<int>(
+      std::min<std::int64_t>(std::max<std::int64_t>(steps, 1) * Renderer::kRowStep, height));
+}
+
+PictureOutcome render_poster(Renderer& renderer, const RenderRequest& request,
+                             const std::filesystem::path& path, RowsFile& kept, const Progress& progress) {
+  return PosterRun(renderer, request, path, kept, progress).run();
+}
+
+} // namespace celltrace::cli

@@ -1,0 +1,21 @@
+// Pictures that are never in memory whole: bands of rows go out when they are finished, and are forgotten.
+#pragma once
+
+#include "celltrace/render.hpp"
+#include "cli/command_line.hpp"
+#include "cli/picture_job.hpp"
+#include "cli/rows_file.hpp"
+
+#include <filesystem>
+
+namespace celltrace::cli {
+
+/// RenderOptions::rows_at_once of a picture that is large, or that somebody reads while it is rendered; 0 of
+/// others, which are in memory whole. Films, surfaces in blocks and models other than `shared` are always.
+int rows_at_once(const RenderRequest& request);
+
+/// As render_picture(), row by row.
+PictureOutcome render_poster(Renderer& renderer, const RenderRequest& request,
+                             const std::filesystem::path& path, RowsFile& kept, const Progress& progress);
+
+} // namespace celltrace::cli

@@ -1,0 +1,40 @@
+// Keeps finished rows of a picture while it is rendered.
+#pragma once
+
+#include "celltrace/error.hpp"
+#include "cli/partial_picture.hpp"
+#include "cli/rows_file.hpp"
+
+#include <chrono>
+
+namespace celltrace::cli {
+
+/// Keeps finished rows in a file. If that cannot be written, it says so once and keeps no more: the picture
+/// matters more.
+class RowKeeper {
+public:
+  explicit RowKeeper(RowsFile& file) : file_(file) {}
+
+  /// After some rows more of a picture in memory: now and then. `at_once`: there will be no more.
+  void save(const PartialPicture& picture, bool at_once);
+  /// Calls append(file).
+  template <class Append> void keep(Append append) {
+    if (has_failed_) return;
+    try {
+      append(file_);
+    } catch (const InputError& error) {
+      fail(error);
+    }
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void fail(const InputError& error);
+
+  RowsFile& file_;
+  bool has_failed_ = false;
+  Clock::time_point last_ = Clock::now();
+};
+
+} // namespace celltrace::cli

@@ -1,0 +1,48 @@
+// A picture that goes out while it is rendered: to a file, which appears in the end, or to a stream.
+#pragma once
+
+#include "cli/command_line.hpp"
+#include "cli/picture_rows.hpp"
+#include "image/file.hpp"
+#include "image/row_writer.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace celltrace::cli {
+
+/// The rows of the picture that is asked for, from the top of the region on; what surrounds the region is
+/// blank: black, or clear in pictures with alpha. Errors are InputErrors with the name of the file.
+class RowOutput {
+public:
+  /// Opens the file, or nothing if `path` is empty. Rows above the region are written with the first ones.
+  RowOutput(const RenderRequest& request, const std::filesystem::path& path);
+
+  /// Appends all of `rows`, as wide as the region.
+  void write(const PictureRows& rows);
+  /// Appends rows in which nothing is.
+  void write_blank(int count);
+  /// Writes what is below the region; a file takes its name.
+  void finish();
+
+private:
+  template <class Work> void naming_the_file(Work work);
+  void open(const std::optional<double>& gamma);
+  void put(const PictureRows& rows);
+  /// Rows of the whole width.
+  void put_blank(int count);
+  void make_blank_row();
+
+  const RenderRequest& request_;
+  std::filesystem::path path_;
+  PictureRegion region_;
+  std::optional<image::OutputFile> file_; ///< none: stdout, or nothing
+  std::FILE* stream_ = nullptr;           ///< null: nothing is written
+  bool flows_ = false;                    ///< what is written should arrive at once
+  std::unique_ptr<image::RowWriter> writer_;
+  PictureRows blank_; ///< one row
+};
+
+} // namespace celltrace::cli
