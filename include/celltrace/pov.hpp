@@ -29,19 +29,19 @@ namespace celltrace {
 /// Bounds on what a scene may cost; passing one is a SceneError. Any may be raised: what has to end for other
 /// reasons, such as objects inside objects, has limits of its own.
 struct ParseLimits {
-  std::uint64_t file_bytes = 1u << 30;        ///< of one file, at most 2^31 - 16
-  std::uint64_t include_depth = 64;           ///< files open at once
-  std::uint64_t macro_depth = 1000;           ///< macro calls open at once
-  std::uint64_t nesting = 256;                ///< brackets open at once
-  std::uint64_t loop_iterations = 10'000'000; ///< of all #while and #for loops together
-  std::uint64_t recorded_tokens = 4'000'000;  ///< in macro and loop bodies, 56 bytes each
-  std::uint64_t tokens = 2'000'000'000;       ///< read in all, replays included
+  std::uint64_t file_bytes = 1u << 30;           ///< of one file, at most 2^31 - 16
+  std::uint64_t include_depth = 64;              ///< files open at once
+  std::uint64_t macro_depth = 1000;              ///< macro calls open at once
+  std::uint64_t nesting = 256;                   ///< brackets open at once
+  std::uint64_t loop_iterations = 1'000'000'000; ///< of all #while and #for loops together
+  std::uint64_t recorded_tokens = 4'000'000;     ///< in macro and loop bodies, 56 bytes each
+  std::uint64_t tokens = 50'000'000'000;         ///< read in all, replays included
   std::uint64_t array_elements = 1'200'000; ///< of all arrays that there are at a time, about 100 bytes each
   std::uint64_t list_entries = 32'000'000;  ///< of one list, such as a mesh's vertices
   std::uint64_t string_bytes = 1u << 20;    ///< of one string
   std::uint64_t text_bytes = 256u << 20;    ///< of all strings made or declared
   std::uint64_t memory = std::uint64_t{2} << 30; ///< bytes of all objects and textures declared, not placed
-  std::uint64_t seconds = 60;                    ///< of the parsing thread's processor time
+  std::uint64_t seconds = 600;                   ///< of the parsing thread's processor time
   std::uint64_t open_files = 64;                 ///< by #fopen, at a time
   std::uint64_t written_bytes = 256u << 20;      ///< by #write, to all files
   std::uint64_t objects = 4'000'000;             ///< placed in the scene

@@ -31,6 +31,13 @@ double list_count(Session& session, const std::vector<ListEntry>& list, const Lo
   return count.v.x;
 }
 
+/// Exporters write meshes whose triangles are all degenerate.
+void warn_if_empty(Session& session, const Mesh& mesh, const Location& where) {
+  if (mesh.triangles.empty())
+    session.diagnostics.warn_once(where,
+                                  "this mesh has no triangle with an area: there is nothing to see of it");
+}
+
 std::shared_ptr<ObjectDefinition> make_object(std::shared_ptr<MeshDefinition> mesh) {
   auto object = std::make_shared<ObjectDefinition>();
   object->shape = std::move(mesh);
@@ -78,6 +85,21 @@ Quantity divided(Session& session, const Quantity& a, const Quantity& b, const L
   return a / b;
 }
 
+namespace {
+
+/// POV-Ray makes a scale by 1 of a column that is zero, as exporters write it for flat parts.
+void replace_zero_columns(double (&values)[12], Session& session, const Location& where) {
+  constexpr double kZero = 1e-10;
+  for (std::size_t column = 0; column < 3; ++column) {
+    const auto is_zero = [&](std::size_t row) { return std::fabs(values[3 * row + column]) < kZero; };
+    if (!is_zero(0) || !is_zero(1) || !is_zero(2)) continue;
+    session.diagnostics.warn_once(where, "a matrix with a column of zeros: it counts as a scale by 1");
+    values[3 * column + column] = 1;
+  }
+}
+
+} // namespace
+
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where) {
   if (numbers.size() != 12)
     session.fail(where, "a matrix has 12 numbers, not " + std::to_string(numbers.size()));
@@ -86,6 +108,7 @@ Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const 
     const ListEntry& entry = numbers[i];
     values[i] = session.number(entry.is_float ? Quantity(entry.v.x) : Quantity::vector(entry.v), where);
   }
+  replace_zero_columns(values, session, where);
   return Transform::matrix(values);
 }
 
@@ -139,7 +162,15 @@ SplinePtr finished(Session& session, const std::shared_ptr<Spline>& spline, cons
 }
 
 void set_assumed_gamma(Session& session, double gamma, const Location& where) {
-  session.builder.set_assumed_gamma(positive(session, gamma, "assumed_gamma", where));
+  set_assumed_gamma(session, std::optional(positive(session, gamma, "assumed_gamma", where)), where);
+}
+
+void set_assumed_gamma(Session& session, std::optional<double> gamma, const Location& where) {
+  if (session.builder.gamma_is_given())
+    session.diagnostics.warn_once(where,
+                                  "this assumed_gamma is ignored: the first one of a scene is its gamma");
+  else
+    session.builder.set_assumed_gamma(gamma);
 }
 
 void set_max_trace_level(Session& session, double level, const Location& where) {
@@ -194,11 +225,16 @@ PatternChange fractal(Session& session, double magnet, const Quantity* constant,
     fractal.c[0] = c.x;
     fractal.c[1] = c.y;
   }
-  constexpr double kMostIterations = 65535;
-  if (!(iterations >= 1 && iterations < kMostIterations + 1))
-    session.fail(where, "a fractal has 1 to 65535 iterations");
-  fractal.iterations = static_cast<int>(iterations);
+  fractal.iterations = fractal_iterations(session, iterations, where);
   return [=](Session&, PatternDefinition& pattern) { choose(pattern, fractal); };
+}
+
+int fractal_iterations(Session& session, double number, const Location& where) {
+  constexpr double kMost = 65535;
+  if (!(number >= 1)) session.fail(where, "a fractal has at least one iteration");
+  if (number >= kMost + 1)
+    session.diagnostics.warn_once(where, "this fractal has 65535 iterations, which is the most there is");
+  return static_cast<int>(std::min(number, kMost));
 }
 
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
@@ -219,28 +255,36 @@ void set_range(double& from, double& to, double least, double most) {
   to = least == most ? 1 : most;
 }
 
-PatternChange set_fractal(int pattern::Fractal::*member, double value, int least, int most,
-                          const Location& where) {
+PatternChange set_fractal(int pattern::Fractal::*member, double value, int most, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
     if (!std::holds_alternative<pattern::Fractal>(pattern.value().kind))
       session.fail(where, "this word means something to fractals only");
-    if (!(value >= least && value < most + 1))
-      session.fail(where,
-                   "this number must lie between " + std::to_string(least) + " and " + std::to_string(most));
+    if (!(value >= 0 && value < most + 1))
+      session.fail(where, "this number must lie between 0 and " + std::to_string(most));
     std::get<pattern::Fractal>(pattern.own().kind).*member = static_cast<int>(value);
+  };
+}
+
+PatternChange fractal_exponent(double value, const Location& where) {
+  return [=](Session& session, PatternDefinition& pattern) {
+    constexpr int kLeast = 2, kMost = 33;
+    const bool is_known = value >= kLeast && value < kMost + 1;
+    if (!is_known)
+      session.diagnostics.warn_once(where, "a fractal's exponent is one of 2 to 33: this one counts as 2");
+    set_fractal(&pattern::Fractal::exponent, is_known ? value : kLeast, kMost, where)(session, pattern);
   };
 }
 
 PatternChange exterior(double type, double factor, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
-    set_fractal(&pattern::Fractal::exterior, type, 0, 6, where)(session, pattern);
+    set_fractal(&pattern::Fractal::exterior, type, 6, where)(session, pattern);
     std::get<pattern::Fractal>(pattern.own().kind).exterior_factor = factor;
   };
 }
 
 PatternChange interior(double type, double factor, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
-    set_fractal(&pattern::Fractal::interior, type, 0, 6, where)(session, pattern);
+    set_fractal(&pattern::Fractal::interior, type, 6, where)(session, pattern);
     std::get<pattern::Fractal>(pattern.own().kind).interior_factor = factor;
   };
 }
@@ -259,7 +303,13 @@ PatternChange unsupported_change(const UnsupportedPtr& unsupported) {
 }
 
 PatternChange warp(const SpaceStep& warp, const Location& where) {
-  return [=](Session& session, PatternDefinition& pattern) { bend(session, pattern, warp, where); };
+  return [=](Session& session, PatternDefinition& pattern) {
+    const auto* hole = std::get_if<warp::BlackHole>(&warp);
+    if (hole == nullptr || hole->radius > 0)
+      bend(session, pattern, warp, where);
+    else
+      session.diagnostics.warn_once(where, "a black hole whose radius is not above 0 bends nothing");
+  };
 }
 
 void keep_apart(Session& session, warp::BlackHole& hole, const Location& where) {
@@ -382,8 +432,10 @@ void set_quick_colour(Session& session, PigmentDefinition& pigment, const Pigmen
 }
 
 bool is_ground_fog(Session& session, double type, const Location& where) {
-  if (type != 1 && type != 2) session.fail(where, "there are fogs of type 1 and 2");
-  return type == 2;
+  const double whole = std::trunc(type);
+  if (whole != 1 && whole != 2)
+    session.diagnostics.warn_once(where, "there are fogs of type 1 and 2: this is one of type 1");
+  return whole == 2;
 }
 
 void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, const Location& where) {
@@ -402,17 +454,20 @@ void transform(Fog& fog, const Transform& next) {
   if (const double length = glm::length(turned); length > 0) fog.up = turned / length;
 }
 
-Vec3 direction(Session& session, const Quantity& vector, const Location& where) {
-  const Vec3 v = session.vector(vector, where);
-  const double length = glm::length(v);
-  if (!(length > 0)) session.fail(where, "this vector has no direction");
-  return v / length;
+void set_up(Session& session, Fog& fog, const Quantity& up, const Location& where) {
+  const Vec3 v = session.vector(up, where);
+  if (const double length = glm::length(v); length > 0)
+    fog.up = v / length;
+  else
+    session.diagnostics.warn_once(where, "an 'up' without a direction is ignored");
 }
 
 std::shared_ptr<RainbowDefinition> new_rainbow() {
   // POV-Ray takes its default for radians.
   constexpr double kEndless = 360 * 180 / std::numbers::pi;
+  constexpr double kFarthest = 1e7;
   auto rainbow = std::make_shared<RainbowDefinition>();
+  rainbow->value.distance = kFarthest;
   rainbow->value.direction = Vec3(0);
   rainbow->value.arc_angle = rainbow->value.falloff_angle = kEndless;
   return rainbow;
@@ -485,22 +540,35 @@ void set_reflection(Finish& finish, const Vec3& colour) {
 double roughness(Session& session, double value, const Location& where) {
   // As in POV-Ray, where it becomes an exponent of 0.
   constexpr double kSameEverywhere = 1e30;
-  if (value == 0) session.diagnostics.warn_once(where, "with a roughness of 0 the highlight is everywhere");
-  if (value == 0) return kSameEverywhere;
-  return positive(session, value, "roughness", where);
+  if (value > 0) return value;
+  session.diagnostics.warn_once(where, value == 0 ? "with a roughness of 0 the highlight is everywhere"
+                                                  : "with a negative roughness the highlight is everywhere");
+  return kSameEverywhere;
 }
 
 double exponent(Session& session, double value, const Location& where) {
-  return positive(session, value, "the reflection's exponent", where);
+  // The colour's power is its inverse.
+  constexpr double kNothingBelowWhite = 1e-6;
+  if (value != 0) return value;
+  session.diagnostics.warn_once(where, "with an exponent of 0 nothing but white is reflected");
+  return kNothingBelowWhite;
 }
 
 double accuracy(Session& session, double value, const Location& where) {
   if (value == 0) session.fail(where, "accuracy must not be 0");
-  return value;
+  return std::fabs(value);
 }
 
 double ior(Session& session, double value, const Location& where) {
-  return positive(session, value, "ior", where);
+  if (value != 0) return value;
+  session.diagnostics.warn_once(where, "an ior of 0 counts as 1: nothing is refracted");
+  return 1;
+}
+
+std::optional<double> ior_of_finish(Session& session, double value, const Location& where) {
+  if (value > 0) return value;
+  session.diagnostics.warn_once(where, "an ior that is not above 0 is ignored in a finish");
+  return std::nullopt;
 }
 
 void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& part, const Location& where) {
@@ -693,13 +761,15 @@ Vec3 inside_vector(const Session& session, const Quantity& vector, const Locatio
 }
 
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where) {
+  if (builder.is_unused()) session.fail(where, "this mesh has no triangles");
   auto definition = builder.finish();
-  if (definition->mesh.triangles.empty()) session.fail(where, "this mesh has no triangles");
+  warn_if_empty(session, definition->mesh, where);
   return make_object(std::move(definition));
 }
 
 std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& definition,
                                         const Location& where) {
+  if (definition.face_indices.empty()) session.fail(where, "this mesh has no triangles");
   std::shared_ptr<MeshDefinition> mesh;
   try {
     mesh = make_mesh(std::move(definition), session.tokens);
@@ -708,7 +778,7 @@ std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& defin
   } catch (const InputError& error) {
     session.fail(where, error.what());
   }
-  if (mesh->mesh.triangles.empty()) session.fail(where, "this mesh has no triangles");
+  warn_if_empty(session, mesh->mesh, where);
   session.builder.count_triangles(mesh->mesh.triangles.size(), where);
   return make_object(std::move(mesh));
 }

@@ -58,7 +58,8 @@ std::shared_ptr<Array> make_array(Session& session, const std::vector<std::size_
 std::shared_ptr<Array> filled_array(Session& session, const std::vector<std::size_t>& dimensions,
                                     const std::shared_ptr<Array>& elements, const Location& where);
 int dimensions(const Array& array);
-double dimension_size(Session& session, const Array& array, double dimension, const Location& where);
+/// 0 of dimensions that it does not have.
+double dimension_size(const Array& array, double dimension);
 
 // ---- Functions and splines ----
 
@@ -74,6 +75,8 @@ SplinePtr finished(Session& session, const std::shared_ptr<Spline>& spline, cons
 // ---- Scene ----
 
 void set_assumed_gamma(Session& session, double gamma, const Location& where);
+/// Without a gamma colours are encoded as sRGB. As in POV-Ray, the first one of a scene counts.
+void set_assumed_gamma(Session& session, std::optional<double> gamma, const Location& where);
 void set_max_trace_level(Session& session, double level, const Location& where);
 void set_noise_generator(Session& session, double number, const Location& where);
 void set_number_of_waves(Session& session, double number, const Location& where);
@@ -96,6 +99,8 @@ PatternChange option(int number, const Quantity& value, const Location& where);
 /// `constant`: Julia's, or null for the Mandelbrot set. `magnet`: 0, 1 or 2.
 PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
                       const Location& where);
+/// As many as can be counted; fails below 1.
+int fractal_iterations(Session& session, double number, const Location& where);
 /// Of the magnet's kind, `pattern` being the Mandelbrot set.
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
                      const Location& where);
@@ -103,9 +108,10 @@ PatternChange magnet(Session& session, double kind, int pattern, const Quantity&
 PatternChange slope(Session& session, const pattern::Slope& slope, const Location& where);
 /// Sets a range of a slope; without a width it stays the one from 0 to 1.
 void set_range(double& from, double& to, double least, double most);
-/// What only fractals understand; fails unless the number is one of `least` to `most`.
-PatternChange set_fractal(int pattern::Fractal::*member, double value, int least, int most,
-                          const Location& where);
+/// What only fractals understand; fails unless the number is one of 0 to `most`.
+PatternChange set_fractal(int pattern::Fractal::*member, double value, int most, const Location& where);
+/// The power of a fractal: 2, as in POV-Ray, if it is none of 2 to 33.
+PatternChange fractal_exponent(double value, const Location& where);
 PatternChange exterior(double type, double factor, const Location& where);
 PatternChange interior(double type, double factor, const Location& where);
 /// The grey of a pigment.
@@ -157,8 +163,22 @@ bool is_ground_fog(Session& session, double type, const Location& where);
 void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, const Location& where);
 /// As in POV-Ray, only the direction of its heights turns.
 void transform(Fog& fog, const Transform& next);
-/// Of length 1.
-Vec3 direction(Session& session, const Quantity& vector, const Location& where);
+/// Ignores one without a direction.
+void set_up(Session& session, Fog& fog, const Quantity& up, const Location& where);
+
+// Textures as they were before version 3.0 (old_textures.cpp)
+
+/// A mere number is how grainy the texture is.
+TexturePtr with_old_colour(Session& session, const TexturePtr& texture, const Quantity& colour);
+/// Gives the texture's normal, or else its pigment, the pattern of a word. `number`: what stands behind it,
+/// as the depth of bumps.
+TexturePtr with_old_pattern(Session& session, const TexturePtr& texture, int pattern,
+                            std::optional<double> number);
+/// Changes the pattern of the texture's pigment.
+TexturePtr with_old_pattern(Session& session, const TexturePtr& texture, const PatternChange& change);
+/// Changes the waves of the texture's normal.
+TexturePtr with_old_waves(Session& session, const TexturePtr& texture, const PatternChange& change);
+TexturePtr with_old_finish(const TexturePtr& texture, const std::function<void(FinishDefinition&)>& change);
 
 // Maps and lists (maps.cpp)
 
@@ -180,6 +200,8 @@ void add(Session& session, std::vector<SlopePoint>& map, double position, const 
 std::vector<SlopePoint> ascending(std::vector<SlopePoint> map);
 
 void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where);
+/// As before version 3.0 the pattern may follow the map.
+void set_old_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where);
 void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where);
 TexturePtr with_map(Session& session, const TexturePtr& texture, const TextureMap& map,
                     const Location& where);
@@ -226,7 +248,10 @@ void set_reflection(Finish& finish, const Vec3& colour);
 double roughness(Session& session, double value, const Location& where);
 double exponent(Session& session, double value, const Location& where);
 double accuracy(Session& session, double value, const Location& where);
+/// 1 for 0, as in POV-Ray; negative ones are taken.
 double ior(Session& session, double value, const Location& where);
+/// Nothing unless it is positive.
+std::optional<double> ior_of_finish(Session& session, double value, const Location& where);
 
 // ---- Objects ----
 
@@ -253,7 +278,7 @@ void ignore_colour(Session& session, const Location& where);
 /// such a modifier where the shape is complete.
 void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
-/// With POV-Ray's defaults: no direction, and an arc without an end.
+/// With POV-Ray's defaults: no direction, as far away as can be, and an arc without an end.
 std::shared_ptr<RainbowDefinition> new_rainbow();
 void set_colours(Rainbow& rainbow, const PigmentMap& map);
 /// What a rainbow has to have.

@@ -101,11 +101,11 @@ int dimensions(const Array& array) {
   return 1 + (inner ? dimensions(*inner) : 0);
 }
 
-double dimension_size(Session& session, const Array& array, double dimension, const Location& where) {
+double dimension_size(const Array& array, double dimension) {
   const Array* level = &array;
   for (double i = 1; level && i < dimension; ++i)
     level = as_array(level->elements.front());
-  if (!level || dimension < 1) session.fail(where, "the array has no such dimension");
+  if (!level || dimension < 1) return 0; // as in POV-Ray
   return static_cast<double>(level->elements.size());
 }
 

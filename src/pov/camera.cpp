@@ -181,6 +181,10 @@ void set_look_at(Session& session, CameraDefinition& camera, const Vec3& point, 
   camera.look_at = point;
   camera.look_at_where = where;
   if (!camera.acts_at_once) return;
+  if (glm::distance(point, camera.location) < kTiny) {
+    session.diagnostics.warn_once(where, "this 'look_at' is ignored: the camera is there, up to here");
+    return;
+  }
   warn_of_sky(session, camera);
   Camera view = view_of(camera);
   turn(view, point, camera.sky);

@@ -2,24 +2,12 @@
 #include "pov/data_files.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "celltrace/error.hpp"
 #include "pov/session.hpp"
 #include "pov/token_stream.hpp"
 
 namespace celltrace::pov {
-
-namespace {
-
-/// As printf's %g, whatever the locale.
-std::string short_text(double number) {
-  char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, 6);
-  return {buffer, result.ptr};
-}
-
-} // namespace
 
 // ---- Reading ----
 

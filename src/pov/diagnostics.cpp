@@ -38,9 +38,11 @@ std::string Diagnostics::place(const Location& where) const {
   return sources_.name(where.file) + ':' + std::to_string(where.line) + ':' + std::to_string(where.column);
 }
 
-void Diagnostics::fail(const Location& where, const std::string& what) const {
+void Diagnostics::fail(const Location& where, const std::string& what,
+                       const std::vector<std::string>& details) const {
   Finding error = finding(Finding::Severity::error, where, what);
   error.reached_by = stack();
+  error.reached_by.insert(error.reached_by.begin(), details.begin(), details.end());
   keep(error);
   refuse();
 }

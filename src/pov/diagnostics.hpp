@@ -31,7 +31,9 @@ public:
   std::string place(const Location& where) const;
 
   /// Throws SceneError: what was not supported so far, then the place, the text and how it was reached.
-  [[noreturn]] void fail(const Location& where, const std::string& what) const;
+  /// `details`: further lines about the fault.
+  [[noreturn]] void fail(const Location& where, const std::string& what,
+                         const std::vector<std::string>& details = {}) const;
 
   /// Throws SceneError: `who`, such as "the loops run", passes a limit, counted in `unit`.
   [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::*limit, const std::string& who,

@@ -1,11 +1,11 @@
 // TokenStream: the directives that define, include and say something.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "celltrace/error.hpp"
 #include "pov/actions.hpp"
 #include "pov/session.hpp"
+#include "pov/standard_includes.hpp"
 #include "pov/token_stream.hpp"
 
 namespace celltrace::pov {
@@ -211,7 +211,7 @@ bool TokenStream::is_defined() {
   if (name.kind != Token::Kind::word) session_.fail(name.where, "expected a name");
   const std::vector<std::size_t> subscripts = read_subscripts();
   expect(')', "after a name");
-  if (session_.names[name.name].token != 0) return true;
+  if (session_.names[name.name].token != 0) return false; // as in POV-Ray, words of its own are not declared
   const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
   return slot && !std::holds_alternative<std::monostate>(element(slot->value, subscripts, name.where));
 }
@@ -226,9 +226,8 @@ void TokenStream::set_version(const Token& directive) {
   skip_semicolon();
   constexpr double kNewest = 3.7;
   if (std::floor(version * 100 + 0.5) > kNewest * 100) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", version);
-    session_.fail(where, std::string("this scene needs version ") + text + " of POV-Ray's language, not 3.7");
+    session_.fail(where,
+                  "this scene needs version " + short_text(version) + " of POV-Ray's language, not 3.7");
   }
   session_.builder.set_version(version);
 }
@@ -241,6 +240,19 @@ std::string TokenStream::read_file_name(Location& where) {
     return session_.names.text(name.name); // backslashes of Windows paths are no escapes
   session_.input.unread(name);
   return std::get<std::string>(evaluate(Start::text));
+}
+
+void TokenStream::fail_to_find(const std::string& what, const std::string& wanted,
+                               const Location& where) const {
+  const std::filesystem::path name = portable_path(wanted);
+  std::vector<std::string> details;
+  if (name.is_relative())
+    details.push_back("looked for in " + session_.sources.folders_searched(current_folder()) +
+                      "; -L FOLDER adds a folder");
+  if (is_standard_include(name.filename().string()))
+    details.push_back(std::string("it comes with POV-Ray; on Debian it is in the package '") +
+                      kStandardIncludesPackage + "'");
+  session_.diagnostics.fail(where, "cannot find the " + what + ' ' + quoted_name(wanted), details);
 }
 
 /// The file that the scene calls `wanted`: where it is, and its text.
@@ -256,7 +268,7 @@ TokenStream::read_file(const std::string& what, const std::string& wanted, const
     }
   }
   const auto file = session_.sources.find_file(wanted, current_folder());
-  if (!file) session_.fail(where, "cannot find the " + what + ' ' + quoted_name(wanted));
+  if (!file) fail_to_find(what, wanted, where);
   if (!file->may_be_read)
     session_.fail(where, what + ' ' + quoted_name(wanted) +
                              " lies outside of the scene's folder and the library path: --allow DIR lets the "

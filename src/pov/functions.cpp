@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "pov/characters.hpp"
 #include "pov/function_operations.hpp"
 #include "scene/noise.hpp"
 
@@ -86,17 +87,21 @@ Quantity random(const Call& call) {
 
 Quantity value_of(const Call& call) {
   const std::string& text = call.text(0);
-  const std::size_t start = std::min(text.find_first_not_of(" \t+"), text.size());
+  const char* at = text.data() + std::min(text.find_first_not_of(" \t+"), text.size());
+  const char* const end = text.data() + text.size();
   double value = 0;
-  std::from_chars(text.data() + start, text.data() + text.size(), value);
+  const bool is_hexadecimal = end - at > 2 && at[0] == '0' && (at[1] == 'x' || at[1] == 'X');
+  if (is_hexadecimal)
+    std::from_chars(at + 2, end, value, std::chars_format::hex);
+  else
+    std::from_chars(at, end, value);
   return value;
 }
 
 /// v turned about an axis by an angle in degrees: Rodrigues' formula.
 Quantity rotate_about(const Call& call) {
   const Vec3 v = call.vector(0);
-  const double length = glm::length(call.vector(1));
-  call.require(length != 0, "the axis has no direction");
+  const double length = glm::length(call.vector(1)); // of 0: as in POV-Ray, the result is no number
   const Vec3 axis = call.vector(1) / length;
   const double angle = call.number(2) / kDegreesPerRadian;
   return Quantity::vector(v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
@@ -142,8 +147,8 @@ std::string number_text(const Call& call) {
 }
 
 std::string vector_text(const Call& call) {
-  const int count = call.whole(0, 2, 5);
-  const Quantity vector = call.quantity(1).promoted(count);
+  const int count = std::clamp(call.whole(0, -1e9, 1e9), 2, 5);
+  const Quantity& vector = call.quantity(1); // what a float or a shorter vector lacks is 0
   std::string result;
   for (int i = 0; i < count; ++i)
     result += (i > 0 ? call.text(2) : std::string()) +
@@ -166,6 +171,7 @@ std::string substring(const Call& call) {
   const double size = static_cast<double>(text.size());
   const double first = call.number(1);
   const double length = call.number(2);
+  if (first >= 0 && first < 1 && length <= size) return {}; // as in POV-Ray
   call.require(first >= 1 && length >= 0 && first + length - 1 <= size,
                "substr() reaches outside its string");
   return text.substr(static_cast<std::size_t>(first) - 1, static_cast<std::size_t>(length));
@@ -245,7 +251,7 @@ const Function kFunctions[] = {
     {"abs", "n", CELLTRACE_NUMERIC(std::fabs(c.number(0)))},
     {"acos", "n", CELLTRACE_NUMERIC(std::acos(std::clamp(c.number(0), -1.0, 1.0)))},
     {"acosh", "n", CELLTRACE_NUMERIC(std::acosh(c.number(0)))},
-    {"asc", "s", CELLTRACE_NUMERIC(c.text(0).empty() ? 0 : static_cast<unsigned char>(c.text(0)[0]))},
+    {"asc", "s", CELLTRACE_NUMERIC(first_code(c.text(0)))},
     {"asin", "n", CELLTRACE_NUMERIC(std::asin(std::clamp(c.number(0), -1.0, 1.0)))},
     {"asinh", "n", CELLTRACE_NUMERIC(std::asinh(c.number(0)))},
     {"atan", "n", CELLTRACE_NUMERIC(std::atan(c.number(0)))},
@@ -289,7 +295,7 @@ const Function kFunctions[] = {
     {"vnormalize", "v", CELLTRACE_NUMERIC(normalize(c))},
     {"vrotate", "vv",
      CELLTRACE_NUMERIC(Quantity::vector(Transform::rotate(c.vector(1)).direction(c.vector(0))))},
-    {"chr", "n", CELLTRACE_TEXT(1, static_cast<char>(c.whole(0, 0, 255)))},
+    {"chr", "n", CELLTRACE_TEXT(character(static_cast<unsigned>(c.whole(0, 0, 65535))))},
     {"concat", "s+", CELLTRACE_TEXT(concatenate(c))},
     {"datetime", "ns?", CELLTRACE_TEXT(date_text(c))},
     {"str", "nnn", CELLTRACE_TEXT(number_text(c))},

@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before. Among an object's modifiers a colour's name is one only where no number can be.
-%expect 124
+%expect 343
 
 %code requires {
 #include "pov/actions.hpp"
@@ -87,6 +87,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token <NameId> UNSUPPORTED UNSUPPORTED_ARGUMENT UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT READ_APART
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
+%token OLD_PLUS OLD_MINUS // of a value of its own: before version 1.5 they join no two
 
 %left '+' '-'
 %left '*' '/'
@@ -100,6 +101,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token MATERIAL MATRIX MAX_INTERSECTIONS MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP PIGMENT_PATTERN POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
+%token OLD_TEXTURE // before version 3.0
 %token ALBEDO ARC_ANGLE DOUBLE_ILLUMINATE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP
 %token MEDIA_ATTENUATION MEDIA_INTERACTION PROJECTED_THROUGH RADIOSITY RAINBOW WIDTH
 %token ALTITUDE SLOPE
@@ -112,12 +114,13 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS WARP
 %token BLACK_HOLE DIST_EXP EXTERIOR FLIP JULIA MAGNET MAJOR_RADIUS ORIENTATION REPEAT SLOPE_MAP STRENGTH TOROIDAL
 
-%nterm <Quantity> quantity choice operand vector vector_items comparison logic value_in_brackets
-%nterm <Quantity> colour named_colour repeated_colour colour_value colour_base
+%nterm <Quantity> quantity choice bare_choice truth operand vector vector_items comparison logic value_in_brackets
+%nterm <Quantity> colour named_colour repeated_colour colour_value colour_base colour_or_black
 %nterm <ColourModel> srgb_model
+%nterm <Relation> relation
 %nterm <Signs> signs
 %nterm <std::string> text
-%nterm <std::vector<Value>> arguments
+%nterm <std::vector<Value>> arguments given_arguments
 %nterm <Value> argument declarable element
 %nterm <std::vector<Quantity>> numbers
 %nterm <std::vector<ListEntry>> counted_list entries literals
@@ -127,7 +130,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <WrittenTransform> transform_items
 %nterm <std::shared_ptr<PigmentDefinition>> pigment_base pigment_parts pigment_body
 %nterm <std::shared_ptr<NormalDefinition>> normal_start normal_base declared_normal normal_parts normal_body
-%nterm <PatternChange> pattern pattern_change
+%nterm <PatternChange> pattern pattern_change wave_change other_change
 %nterm <Limit> pattern_object
 %nterm <pattern::Slope> slope facing
 %nterm <Turbulence> turbulent_warp
@@ -141,7 +144,8 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <TextureMap> textures texture_entries texture_map
 %nterm <std::shared_ptr<FinishDefinition>> finish_parts finish_body
 %nterm <ReflectionDefinition> reflection_body
-%nterm <TexturePtr> texture texture_parts texture_body layers
+%nterm <TexturePtr> texture texture_parts texture_body old_texture_parts layers
+%nterm <double Finish::*> finish_number
 %nterm <std::shared_ptr<SkySphereDefinition>> sky_sphere sky_sphere_body
 %nterm <std::shared_ptr<FogDefinition>> fog fog_body
 %nterm <std::shared_ptr<RainbowDefinition>> rainbow rainbow_body
@@ -191,7 +195,7 @@ scene
   : %empty
   | scene object                    { session.builder.place($2, @2); }
   | scene camera                    { session.builder.set_camera($2); }
-  | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.light($4, @4)); }
+  | scene BACKGROUND '{' colour_or_black '}' { session.builder.set_background(session.light($4, @4)); }
   | scene sky_sphere                { session.builder.set_sky_sphere(*$2, @2); }
   | scene fog                       { session.builder.add_fog(*$2, @2); }
   | scene rainbow                   { session.builder.add_rainbow(*$2, @2); }
@@ -207,12 +211,12 @@ scene
 settings
   : %empty
   | settings ASSUMED_GAMMA number   { set_assumed_gamma(session, $3, @3); }
-  | settings ASSUMED_GAMMA SRGB     { session.builder.set_assumed_gamma(std::nullopt); }
+  | settings ASSUMED_GAMMA SRGB     { set_assumed_gamma(session, std::nullopt, @2); }
   | settings MAX_TRACE_LEVEL number { set_max_trace_level(session, $3, @3); }
   | settings ADC_BAILOUT number     { session.builder.set_adc_bailout($3); }
-  | settings AMBIENT_LIGHT colour_value { session.builder.set_ambient_light(session.light($3, @3).rgb); }
+  | settings AMBIENT_LIGHT colour_or_black { session.builder.set_ambient_light(session.light($3, @3).rgb); }
   | settings NOISE_GENERATOR number { set_noise_generator(session, $3, @3); }
-  | settings IRID_WAVELENGTH colour_value { session.builder.set_irid_wavelength(session.colour($3, @3).rgb); }
+  | settings IRID_WAVELENGTH colour_or_black { session.builder.set_irid_wavelength(session.colour($3, @3).rgb); }
   | settings NUMBER_OF_WAVES number { set_number_of_waves(session, $3, @3); }
   | settings MAX_INTERSECTIONS number
   | settings IGNORED_NUMBER colour_value
@@ -274,18 +278,18 @@ operand
   | FUNCTION '(' arguments ')'     { $$ = call_numeric(session, $1, $3, @1); }
   | FUNCTION_ID '(' arguments ')'  { $$ = call(session, *$1, $3, @1); }
   | SPLINE_ID '(' number ')'       { $$ = $1->value($3); }
-  | SPLINE_ID '(' number ',' SPLINE_KIND ')' { $$ = $1->value($3, Spline::Kind($5)); }
-  | TRACE '(' object ',' quantity ',' quantity ')' { $$ = trace(session, *$3, $5, $7, std::nullopt, @1); }
-  | TRACE '(' object ',' quantity ',' quantity ',' variable ')' {
+  | SPLINE_ID '(' number optional_comma SPLINE_KIND ')' { $$ = $1->value($3, Spline::Kind($5)); }
+  | TRACE '(' object optional_comma quantity optional_comma quantity ')' { $$ = trace(session, *$3, $5, $7, std::nullopt, @1); }
+  | TRACE '(' object optional_comma quantity optional_comma quantity ',' variable ')' {
       $$ = trace(session, *$3, $5, $7, $9, @1);
     }
-  | INSIDE '(' object ',' quantity ')' {
+  | INSIDE '(' object optional_comma quantity ')' {
       $$ = double(contains(session, *$3, session.vector($5, @5), @1));
     }
   | MIN_EXTENT '(' object ')'      { $$ = Quantity::vector(extent_of(session, *$3, @1).min); }
   | MAX_EXTENT '(' object ')'      { $$ = Quantity::vector(extent_of(session, *$3, @1).max); }
   | DIMENSIONS '(' ARRAY_ID ')'    { $$ = double(dimensions(*$3)); }
-  | DIMENSION_SIZE '(' ARRAY_ID ',' number ')' { $$ = dimension_size(session, *$3, $5, @5); }
+  | DIMENSION_SIZE '(' ARRAY_ID optional_comma number ')' { $$ = dimension_size(*$3, $5); }
   ;
 
 variable // to write to, whatever it is by now
@@ -295,6 +299,8 @@ variable // to write to, whatever it is by now
 signs
   : '-'                  { $$.add('-'); }
   | '+'                  { $$.add('+'); }
+  | OLD_MINUS            { $$.add('-'); }
+  | OLD_PLUS             { $$.add('+'); }
   | '!'                  { $$.add('!'); }
   | signs '-'            { $$ = $1; $$.add('-'); }
   | signs '+'            { $$ = $1; }
@@ -349,8 +355,12 @@ comparison
 
 arguments
   : %empty                 { }
-  | argument               { $$.push_back($1); }
-  | arguments ',' argument { $$ = std::move($1); append(session, $$, $3, @3); }
+  | given_arguments        { $$ = std::move($1); }
+  ;
+
+given_arguments
+  : argument                                { $$.push_back($1); }
+  | given_arguments optional_comma argument { $$ = std::move($1); append(session, $$, $3, @3); }
   ;
 
 argument
@@ -394,7 +404,8 @@ colour // with a keyword: distinct from a mere number
   ;
 
 named_colour
-  : COLOUR choice                { $$ = $2.promoted(5); $$.is_colour = true; }
+  : COLOUR                       { $$ = Quantity::colour({0, 0, 0}); } // POV-Ray starts from black
+  | COLOUR choice                { $$ = $2.promoted(5); $$.is_colour = true; }
   | COLOUR COLOUR_MODEL choice   { $$ = make_colour(ColourModel($2), $3); }
   | COLOUR srgb_model choice     { $$ = decoded(session, make_colour($2, $3), @2); }
   | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
@@ -411,20 +422,45 @@ srgb_model
   | SRGB_MODEL { $$ = ColourModel($1); }
   ;
 
-// Where POV-Ray asks for a colour it takes a whole expression, which has brackets around it elsewhere.
+// Behind a colour's keyword POV-Ray takes a whole expression, which has brackets around it elsewhere.
 choice
+  : bare_choice
+  | truth
+  | truth '?' choice ':' choice    { $$ = is_true(session.number($1, @1)) ? $3 : $5; }
+  ;
+
+bare_choice // no comparison: two vectors can stand side by side
   : quantity
   | quantity '?' choice ':' choice { $$ = is_true(session.any_number($1, @1)) ? $3 : $5; }
   ;
 
+truth
+  : quantity relation quantity     { $$ = compare($2, $1, $3); }
+  | truth relation quantity        { $$ = compare($2, $1, $3); }
+  ;
+
+relation
+  : '<'           { $$ = Relation::less; }
+  | LESS_EQUAL    { $$ = Relation::less_equal; }
+  | '='           { $$ = Relation::equal; }
+  | NOT_EQUAL     { $$ = Relation::not_equal; }
+  | GREATER_EQUAL { $$ = Relation::greater_equal; }
+  | '>'           { $$ = Relation::greater; }
+  ;
+
 colour_base
-  : choice
+  : bare_choice
   | colour_base CHANNEL number   { $$ = with_channel($1, Channel($2), $3); }
   ;
 
 colour_value
   : colour_base
   | colour
+  ;
+
+colour_or_black // a keyword alone is one with black, as in POV-Ray
+  : %empty       { $$ = Quantity::colour({0, 0, 0}); }
+  | colour_value
   ;
 
 // ---- Transformations ----
@@ -482,7 +518,7 @@ pigment_parts // what it is, and then what changes that
   | pigment_parts PIGMENT_MAP pigment_map  { $$ = $1; set_map(session, *$$, $3, @2); }
   | pigment_parts pattern_change           { $$ = $1; change(session, $$->pattern, $2); }
   | pigment_parts transformation           { $$ = $1; move(session, $$->pattern, $2, @2); }
-  | pigment_parts QUICK_COLOUR colour_value { $$ = $1; set_quick_colour(session, *$$, session.surface($3)); }
+  | pigment_parts QUICK_COLOUR colour_or_black { $$ = $1; set_quick_colour(session, *$$, session.surface($3)); }
   | pigment_parts unsupported_pattern      { $$ = $1; mark($$->pattern.unsupported, $2); }
   ;
 
@@ -585,18 +621,26 @@ second_number // 0 if not there
   ;
 
 pattern_change
+  : wave_change
+  | other_change
+  ;
+
+wave_change
+  : FREQUENCY number        { $$ = set(&Pattern::frequency, $2); }
+  | PHASE number            { $$ = set(&Pattern::phase, $2); }
+  ;
+
+other_change
   : TURBULENCE quantity     { $$ = set(&Turbulence::amount, session.vector($2, @2)); }
   | OCTAVES number          { $$ = set(&Turbulence::octaves, octaves($2)); }
   | OMEGA number            { $$ = set(&Turbulence::omega, $2); }
   | LAMBDA number           { $$ = set(&Turbulence::lambda, $2); }
-  | FREQUENCY number        { $$ = set(&Pattern::frequency, $2); }
-  | PHASE number            { $$ = set(&Pattern::phase, $2); }
   | WAVE                    { $$ = set(&Pattern::wave, Pattern::Wave($1)); }
   | POLY_WAVE optional_number { $$ = poly_wave($2); }
   | NOISE_GENERATOR number  { $$ = set(&Pattern::noise_generator, noise_generator(session, $2, @2)); }
   | PATTERN_OPTION quantity { $$ = option($1, $2, @1); }
   | PATTERN_FLAG            { $$ = option($1, 0, @1); }
-  | EXPONENT number         { $$ = set_fractal(&pattern::Fractal::exponent, $2, 2, 33, @1); }
+  | EXPONENT number         { $$ = fractal_exponent($2, @1); }
   | EXTERIOR number optional_comma number { $$ = exterior($2, $4, @1); }
   | INTERIOR number optional_comma number { $$ = interior($2, $4, @1); }
   | WARP '{' bend '}'       { $$ = warp($3, @1); }
@@ -616,7 +660,7 @@ repeat_warp
   ;
 
 hole_warp
-  : BLACK_HOLE quantity optional_comma number { $$.centre = session.vector($2, @2); $$.radius = positive(session, $4, "the radius", @4); }
+  : BLACK_HOLE quantity optional_comma number { $$.centre = session.vector($2, @2); $$.radius = $4; }
   | hole_warp FALLOFF number       { $$ = $1; $$.falloff = $3; }
   | hole_warp STRENGTH number      { $$ = $1; $$.strength = $3; }
   | hole_warp INVERSE              { $$ = $1; $$.is_inverse = true; }
@@ -680,7 +724,7 @@ colour_entries
   ;
 
 colour_entry // the old form has both ends of a blend
-  : '[' number optional_comma colour_value ']' { add_colour(session, $$, $2, $4, @4); }
+  : '[' number optional_comma colour_or_black ']' { add_colour(session, $$, $2, $4, @4); }
   | '[' number optional_comma colour_base optional_comma colour optional_comma colour ']' {
       add_colour(session, $$, $2, $6, @6);
       add_colour(session, $$, session.number($4, @4), $8, @8);
@@ -752,8 +796,8 @@ finish_parts
       $$ = std::make_shared<FinishDefinition>(session.base_texture->finish);
     }
   | finish_parts FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
-  | finish_parts AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.light($3, @3).rgb; }
-  | finish_parts EMISSION colour_value      { $$ = $1; $$->value.emission = session.light($3, @3).rgb; }
+  | finish_parts AMBIENT colour_or_black     { $$ = $1; $$->value.ambient = session.light($3, @3).rgb; }
+  | finish_parts EMISSION colour_or_black    { $$ = $1; $$->value.emission = session.light($3, @3).rgb; }
   | finish_parts DIFFUSE albedo number      { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
   | finish_parts DIFFUSE albedo number ','  { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
   | finish_parts DIFFUSE albedo number optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
@@ -764,15 +808,15 @@ finish_parts
   | finish_parts ROUGHNESS number           { $$ = $1; $$->value.roughness = roughness(session, $3, @3); }
   | finish_parts METALLIC optional_number   { $$ = $1; $$->value.metallic = $3; }
   | finish_parts CONSERVE_ENERGY flag       { $$ = $1; $$->value.conserve_energy = $3 != 0; }
-  | finish_parts REFLECTION colour_value    { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
+  | finish_parts REFLECTION colour_or_black  { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
   | finish_parts REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
   | finish_parts REFLECTION_EXPONENT number {
       $$ = $1;
       $$->value.reflection_exponent = exponent(session, $3, @3);
     }
-  | finish_parts IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
+  | finish_parts IOR number                 { $$ = $1; $$->ior = ior_of_finish(session, $3, @3); }
   | finish_parts REFRACTION number          { $$ = $1; $$->refraction = $3; }
-  | finish_parts CRAND number               { $$ = $1; $$->value.crand = $3; }
+  | finish_parts CRAND number               { $$ = $1; $$->value.crand = std::max($3, 0.0); }
   | finish_parts CAUSTICS number            { $$ = $1; $$->caustics = $3; }
   | finish_parts FADE_DISTANCE number       { $$ = $1; $$->fade_distance = $3; }
   | finish_parts FADE_POWER number          { $$ = $1; $$->fade_power = $3; }
@@ -793,7 +837,8 @@ irid_items // of the finish that is being read
   ;
 
 reflection_body
-  : colour_value optional_comma              { $$.set(session.colour($1, @1).rgb); }
+  : %empty                                   { $$.set(Vec3(0)); }
+  | colour_value optional_comma              { $$.set(session.colour($1, @1).rgb); }
   | colour_value optional_comma colour_value {
       $$.set(session.colour($1, @1).rgb, session.colour($3, @3).rgb);
     }
@@ -806,6 +851,80 @@ reflection_body
 texture
   : TEXTURE '{' texture_body '}' { $$ = std::move($3); }
   | TEXTURE '{' TEXTURE_ID '}'   { $$ = std::move($3); } // without the rules for parts: what most objects have
+  | OLD_TEXTURE '{' old_texture_parts '}' { check(session, $3, @1); $$ = std::move($3); }
+  ;
+
+// What pigment, normal and finish consist of may stand in a texture without their braces before version 3.0.
+old_texture_parts
+  : %empty                           { $$ = session.builder.default_texture; }
+  | old_texture_parts TEXTURE_ID     { $$ = $2; }
+  | old_texture_parts PIGMENT '{' { session.base_texture = $1; } pigment_body '}' { $$ = with_pigment($1, *$5); }
+  | old_texture_parts NORMAL '{' { session.base_texture = $1; } normal_body '}' { $$ = with_normal($1, $5); }
+  | old_texture_parts FINISH '{' { session.base_texture = $1; } finish_body '}' { $$ = with_finish($1, *$5); }
+  | old_texture_parts PIGMENT_ID     { $$ = with_pigment($1, *$2); }
+  | old_texture_parts NORMAL_ID      { $$ = with_normal($1, $2); }
+  | old_texture_parts FINISH_ID      { $$ = with_finish($1, *$2); }
+  | old_texture_parts colour_value   { $$ = with_old_colour(session, $1, $2); }
+  | old_texture_parts PATTERN        { $$ = with_old_pattern(session, $1, $2, std::nullopt); }
+  | old_texture_parts PATTERN number { $$ = with_old_pattern(session, $1, $2, $3); }
+  | old_texture_parts ARGUED_PATTERN quantity {
+      $$ = with_old_pattern(session, $1, chosen($2, $3, @3));
+    }
+  | old_texture_parts LIST_PATTERN colours {
+      PigmentDefinition pigment = $1->pigment;
+      set_colours(session, pigment, $2, $3, @2);
+      $$ = with_pigment($1, pigment);
+    }
+  | old_texture_parts LIST_PATTERN textures { $$ = with_list(session, $1, $2, $3, @2); }
+  | old_texture_parts TILES '{' layers TILE2 layers '}' { $$ = with_tiles(session, $1, $4, $6, @2); }
+  | old_texture_parts COLOUR_MAP colour_map {
+      PigmentDefinition pigment = $1->pigment;
+      set_old_map(session, pigment, $3, @2);
+      $$ = with_pigment($1, pigment);
+    }
+  | old_texture_parts QUICK_COLOUR colour_or_black {
+      PigmentDefinition pigment = $1->pigment;
+      set_quick_colour(session, pigment, session.surface($3));
+      $$ = with_pigment($1, pigment);
+    }
+  | old_texture_parts wave_change    { $$ = with_old_waves(session, $1, $2); }
+  | old_texture_parts other_change   { $$ = with_old_pattern(session, $1, $2); }
+  | old_texture_parts transformation { $$ = transformed(session, $1, $2, @2); }
+  | old_texture_parts AMBIENT colour_or_black {
+      const Vec3 light = session.light($3, @3).rgb;
+      $$ = with_old_finish($1, [&](FinishDefinition& finish) { finish.value.ambient = light; });
+    }
+  | old_texture_parts REFLECTION colour_or_black {
+      const Vec3 light = session.colour($3, @3).rgb;
+      $$ = with_old_finish($1, [&](FinishDefinition& finish) { set_reflection(finish.value, light); });
+    }
+  | old_texture_parts finish_number number {
+      $$ = with_old_finish($1, [&](FinishDefinition& finish) { finish.value.*$2 = $3; });
+    }
+  | old_texture_parts ROUGHNESS number {
+      const double value = roughness(session, $3, @3);
+      $$ = with_old_finish($1, [&](FinishDefinition& finish) { finish.value.roughness = value; });
+    }
+  | old_texture_parts METALLIC optional_number {
+      $$ = with_old_finish($1, [&](FinishDefinition& finish) { finish.value.metallic = $3; });
+    }
+  | old_texture_parts IOR number {
+      const auto value = ior_of_finish(session, $3, @3);
+      $$ = with_old_finish($1, [&](FinishDefinition& finish) { finish.ior = value; });
+    }
+  | old_texture_parts REFRACTION number {
+      $$ = with_old_finish($1, [&](FinishDefinition& finish) { finish.refraction = $3; });
+    }
+  | old_texture_parts unsupported_pattern { $$ = with_pattern(session, $1, unsupported_change($2)); }
+  ;
+
+finish_number
+  : DIFFUSE    { $$ = &Finish::diffuse; }
+  | BRILLIANCE { $$ = &Finish::brilliance; }
+  | PHONG      { $$ = &Finish::phong; }
+  | PHONG_SIZE { $$ = &Finish::phong_size; }
+  | SPECULAR   { $$ = &Finish::specular; }
+  | CRAND      { $$ = &Finish::crand; }
   ;
 
 texture_parts
@@ -882,7 +1001,7 @@ fog_body
   | fog_body repeated_colour    { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
   | fog_body FOG_OFFSET number  { $$ = $1; $$->value.offset = $3; }
   | fog_body FOG_ALT number     { $$ = $1; $$->value.altitude = $3; }
-  | fog_body UP quantity        { $$ = $1; $$->value.up = direction(session, $3, @3); }
+  | fog_body UP quantity        { $$ = $1; set_up(session, $$->value, $3, @3); }
   | fog_body TURBULENCE quantity { $$ = $1; $$->value.turbulence.amount = session.vector($3, @3); }
   | fog_body TURB_DEPTH number  { $$ = $1; $$->value.turbulence_depth = $3; }
   | fog_body OCTAVES number     { $$ = $1; $$->value.turbulence.octaves = octaves($3); }
@@ -925,7 +1044,7 @@ interior_body // changes what is there
   | interior_body CAUSTICS number    { $$ = $1; $$.caustics = $3; }
   | interior_body FADE_DISTANCE number { $$ = $1; $$.fade_distance = $3; }
   | interior_body FADE_POWER number  { $$ = $1; $$.fade_power = $3; }
-  | interior_body FADE_COLOUR colour_value { $$ = $1; $$.fade_colour = session.colour($3, @3).rgb; }
+  | interior_body FADE_COLOUR colour_or_black { $$ = $1; $$.fade_colour = session.colour($3, @3).rgb; }
   | interior_body DISPERSION number {
       $$ = $1;
       mark($$.unsupported, unless_zero("'dispersion'", $3 - 1, @2));
@@ -1312,8 +1431,7 @@ declarable
   | TRANSFORM '{' transform_items '}' { $$ = complete(session, $3, @1); }
   | UNSUPPORTED_BLOCK { $$ = make_unsupported(quoted(session, $1), @1); session.tokens.skip_group(); }
   | ARRAY dimensions  { $$ = make_array(session, $2, 0, @1); }
-  | ARRAY dimensions '{' elements '}' { $$ = filled_array(session, $2, $4, @3); }
-  | ARRAY dimensions '{' elements ',' '}' { $$ = filled_array(session, $2, $4, @3); }
+  | ARRAY dimensions '{' elements optional_comma '}' { $$ = filled_array(session, $2, $4, @3); }
   ;
 
 spline
@@ -1340,7 +1458,7 @@ elements
 
 element
   : declarable
-  | '{' elements '}'          { $$ = $2; }
+  | '{' elements optional_comma '}' { $$ = $2; }
   ;
 
 // ---- What is not supported: what belongs to it is passed over ----

@@ -63,6 +63,12 @@ template <class T> std::shared_ptr<const MapDefinition<T>> ascending(MapDefiniti
   return std::make_shared<const MapDefinition<T>>(std::move(map));
 }
 
+/// The weights of an average's entries together.
+template <class T> double total_weight(const MapDefinition<T>& map) {
+  return std::accumulate(map.entries.begin(), map.entries.end(), 0.0,
+                         [](double sum, const auto& entry) { return sum + entry.position; });
+}
+
 /// The map as `pattern` needs it.
 template <class T>
 std::shared_ptr<const MapDefinition<T>> map_for(Session& session, const PatternDefinition& pattern,
@@ -71,9 +77,7 @@ std::shared_ptr<const MapDefinition<T>> map_for(Session& session, const PatternD
   if (!pattern.exists()) session.fail(where, "a map needs a pattern in front of it");
   if (pattern.list_length() > 0) session.fail(where, "this pattern takes a list, not a map");
   if (!pattern.is_average()) return ascending(map);
-  const double total = std::accumulate(map.entries.begin(), map.entries.end(), 0.0,
-                                       [](double sum, const auto& entry) { return sum + entry.position; });
-  if (total == 0) session.fail(where, "the weights of this average add up to 0");
+  if (total_weight(map) == 0) session.fail(where, "the weights of this average add up to 0");
   return std::make_shared<const MapDefinition<T>>(map);
 }
 
@@ -142,12 +146,23 @@ std::vector<SlopePoint> ascending(std::vector<SlopePoint> map) {
 }
 
 void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where) {
+  if (pigment.pattern.is_average() && total_weight(map) == 0) {
+    session.diagnostics.warn_once(where, "an average whose weights add up to 0 is black");
+    return set_colour(pigment, {});
+  }
   if (!pigment.pattern.exists() && !pigment.pattern.unsupported && pigment.value == Pigment()) {
     session.diagnostics.warn_once(where, "a map without a pattern in front of it leaves this pigment black");
     return;
   }
   pigment.map = map_for(session, pigment.pattern, map, where);
   if (!pigment.map) pigment.value = map.entries.front().value; // of a pattern that is left out
+}
+
+void set_old_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where) {
+  if (pigment.pattern.exists())
+    set_map(session, pigment, map, where);
+  else
+    pigment.map = ascending(map);
 }
 
 void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -51,14 +50,17 @@ bool are_smooth(const Vec3& a, const Vec3& b, const Vec3& c) {
   return !(a == b && b == c);
 }
 
+/// All digits of a number that has not too many of them.
+std::string whole_text(double number) {
+  constexpr double kMost = 1e15;
+  return std::fabs(number) < kMost ? std::to_string(static_cast<long long>(number)) : short_text(number);
+}
+
 Index to_index(double value, std::size_t count, const char* what) {
   const double whole = std::trunc(value);
-  if (!(whole >= 0 && whole < static_cast<double>(count))) {
-    char number[400]; // as long as a double can be
-    std::snprintf(number, sizeof number, "%.0f", whole);
-    throw InputError(std::string("mesh2 has no ") + what + ' ' + number + ", there are " +
+  if (!(whole >= 0 && whole < static_cast<double>(count)))
+    throw InputError(std::string("mesh2 has no ") + what + ' ' + whole_text(whole) + ", there are " +
                      std::to_string(count));
-  }
   return static_cast<Index>(whole);
 }
 
@@ -166,6 +168,7 @@ bool TriangleDefinition::is_shown_alone() const {
 }
 
 void MeshBuilder::add(const TriangleDefinition& triangle) {
+  is_unused_ = false;
   const auto& corners = triangle.vertices;
   if (is_degenerate(corners[0], corners[1], corners[2])) return;
   const std::array<Vec3, 3> normals{unit(triangle.normals[0]), unit(triangle.normals[1]),

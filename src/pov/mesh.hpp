@@ -18,6 +18,8 @@ class MeshBuilder {
 public:
   void add(const TriangleDefinition& triangle);
   void set_inside_vector(const Vec3& direction) { mesh_->mesh.inside_vector = direction; }
+  /// Whether it has been given none at all.
+  bool is_unused() const { return is_unused_; }
   std::shared_ptr<MeshDefinition> finish() { return std::move(mesh_); }
 
 private:
@@ -25,6 +27,7 @@ private:
 
   std::shared_ptr<MeshDefinition> mesh_ = std::make_shared<MeshDefinition>();
   std::unordered_map<const TextureDefinition*, Index> texture_indices_;
+  bool is_unused_ = true;
 };
 
 /// The entries of a list that its count leads. The count stays where it was read: taking it out would move

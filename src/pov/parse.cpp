@@ -43,7 +43,8 @@ Scene parse(std::string text, const ParseOptions& options, const std::string& na
   } catch (const pov::LimitPassed& passed) {
     session.exceed(session.tokens.last_place(), passed.limit, passed.who, passed.unit);
   }
-  if (session.tokens.is_empty()) pov::refuse_scene(name, "the scene is empty", options);
+  if (session.tokens.is_empty())
+    session.diagnostics.warn({0, 1, 1}, "the scene is empty: its picture is black");
   Scene scene = session.builder.finish(name);
   session.diagnostics.require_supported();
   return scene;

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "pov/actions.hpp"
 #include "pov/session.hpp"
 
 namespace celltrace::pov {
@@ -28,17 +29,19 @@ struct Colour {
 /// What is behind an option's or a pattern's word, checked and put into the pattern's kind.
 class Argument {
 public:
-  Argument(const Session& session, const Quantity& value, const Location& where)
+  Argument(Session& session, const Quantity& value, const Location& where)
       : session_(session), value_(value), where_(where) {}
 
   double number() const { return session_.number(value_, where_); }
   Vec3 vector() const { return session_.vector(value_, where_); }
+  int iterations() const { return fractal_iterations(session_, number(), where_); }
   void require(bool condition, const char* what) const {
     if (!condition) session_.fail(where_, what);
   }
+  void warn(const char* what) const { session_.diagnostics.warn_once(where_, what); }
 
 private:
-  const Session& session_;
+  Session& session_;
   const Quantity& value_;
   const Location& where_;
 };
@@ -68,8 +71,14 @@ template <class T> Kind make() {
 
 void set_direction(Kind& kind, const Argument& a) {
   const Vec3 direction = a.vector();
-  a.require(glm::length(direction) > 0, "this gradient has no direction");
-  std::get<Gradient>(kind).direction = direction;
+  if (direction != Vec3(0)) {
+    std::get<Gradient>(kind).direction = direction;
+    return;
+  }
+  a.warn("a gradient without a direction is 0 everywhere");
+  Crackle nothing;
+  std::fill(std::begin(nothing.form), std::end(nothing.form), 0.0);
+  kind = nothing;
 }
 
 void set_arms(Kind& kind, const Argument& a) {
@@ -80,21 +89,29 @@ void set_arms(Kind& kind, const Argument& a) {
 
 void set_brick_size(Kind& kind, const Argument& a) {
   const Vec3 size = a.vector();
-  a.require(size.x != 0 && size.y != 0 && size.z != 0, "a brick has a size in all directions");
-  std::get<Brick>(kind).size = size;
+  auto& brick = std::get<Brick>(kind);
+  if (size.x != 0 && size.y != 0 && size.z != 0) {
+    brick.size = size;
+  } else {
+    a.warn("bricks without a size leave nothing but mortar");
+    constexpr double kCoversAll = 1e9;
+    brick.mortar = kCoversAll;
+  }
 }
 
 void set_metric(Kind& kind, const Argument& a) {
   const double metric = a.number();
-  a.require(metric > 0, "the metric must be greater than 0");
-  std::get<Crackle>(kind).metric = metric;
+  auto& crackle = std::get<Crackle>(kind);
+  if (metric > 0) {
+    crackle.metric = metric;
+  } else {
+    a.warn("a crackle whose metric is not above 0 is 0 everywhere");
+    std::fill(std::begin(crackle.form), std::end(crackle.form), 0.0);
+  }
 }
 
 void set_iterations(Kind& kind, const Argument& a) {
-  constexpr double kMostIterations = 65535;
-  const double iterations = std::trunc(a.number());
-  a.require(iterations >= 1 && iterations <= kMostIterations, "a fractal has 1 to 65535 iterations");
-  std::get<Fractal>(kind).iterations = static_cast<int>(iterations);
+  std::get<Fractal>(kind).iterations = a.iterations();
 }
 
 void set_form(Kind& kind, const Argument& a) {

@@ -1,6 +1,7 @@
 #include "pov/quantity.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "pov/token.hpp"
 
@@ -42,6 +43,14 @@ bool holds(Relation relation, double a, double b) {
 }
 
 } // namespace
+
+std::string short_text(double number) {
+  constexpr int kDigits = 6;
+  char buffer[32];
+  const auto result =
+      std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, kDigits);
+  return {buffer, result.ptr};
+}
 
 Quantity Quantity::vector(const Vec3& value) {
   Quantity result;

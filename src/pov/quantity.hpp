@@ -3,10 +3,14 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "celltrace/scene.hpp"
 
 namespace celltrace::pov {
+
+/// A number for messages and files, as printf's %g, whatever the locale.
+std::string short_text(double number);
 
 /// Relational operators count values closer than this as equal.
 inline constexpr double kComparisonTolerance = 1e-10;

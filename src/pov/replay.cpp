@@ -36,7 +36,7 @@ TokenRange TokenStream::take_block(const Token& opening) {
 
 /// What one of arithmetic.hpp's functions makes of what is being replayed.
 std::optional<Quantity> TokenStream::replay(std::optional<Quantity> (*take)(Session&, TokenSpan&)) {
-  if (!session_.input.reads_record()) return std::nullopt;
+  if (!session_.input.reads_record() || session_.builder.has_old_signs()) return std::nullopt;
   Frame& frame = session_.input.top();
   const Token* const first = frame.range.tokens->data();
   TokenSpan rest{first + frame.position, first + frame.range.end};

@@ -35,6 +35,13 @@ Pigment multiplied(const Pigment& pigment, const Vec3& factor) {
 
 } // namespace
 
+void SceneBuilder::set_version(double version) {
+  constexpr double kVersionOfExpressions = 1.5, kVersionOfSeparateTextures = 3.0;
+  version_ = version;
+  has_old_signs_ = is_before(kVersionOfExpressions);
+  has_old_textures_ = is_before(kVersionOfSeparateTextures);
+}
+
 bool SceneBuilder::is_before(double version) const {
   return std::lround(this->version() * 100) < std::lround(version * 100);
 }

@@ -60,11 +60,15 @@ public:
   double from_srgb(double channel) const;
   /// What there is to say about photons. They matter if any object is a target.
   void set_photons(UnsupportedPtr photons) { photons_ = std::move(photons); }
-  void set_version(double version) { version_ = version; }
+  void set_version(double version);
   /// What `version` says: 3.7 until #version changes it.
   double version() const { return version_.value_or(3.7); }
   /// Whether it is less than this one. POV-Ray counts in hundredths.
   bool is_before(double version) const;
+  /// Whether a sign starts a number of its own where no parentheses are around it, as before version 1.5.
+  bool has_old_signs() const { return has_old_signs_; }
+  /// Whether textures may have the parts of pigments, normals and finishes, as before version 3.0.
+  bool has_old_textures() const { return has_old_textures_; }
 
   /// As it was declared, whether it has been placed or not.
   const Mesh& mesh_of(const std::shared_ptr<MeshDefinition>& definition) const;
@@ -152,6 +156,7 @@ private:
   Scene scene_;
   std::shared_ptr<const CameraDefinition> camera_;
   std::optional<double> version_;
+  bool has_old_signs_ = false, has_old_textures_ = false;
   bool gamma_given_ = false;
   UnsupportedPtr photons_;
   bool has_photon_targets_ = false;

@@ -232,6 +232,16 @@ void check_arguments(const Session& session, const ShapeForm& shape, const Writt
     session.fail(written.where, std::string("a ") + shape.name + " cannot be open");
 }
 
+/// Whether its numbers are finite. Corners of boxes may be infinite.
+bool is_somewhere(const ShapeForm& shape, const WrittenShape& written) {
+  const bool has_corners = shape.read == read_box;
+  return std::all_of(written.arguments.begin(), written.arguments.end(), [&](const ShapeArgument& argument) {
+    const auto& v = argument.value.v;
+    return argument.value.is_finite() ||
+           (has_corners && std::none_of(v.begin(), v.end(), [](double c) { return std::isnan(c); }));
+  });
+}
+
 } // namespace
 
 bool has_option(int shape) {
@@ -254,6 +264,11 @@ bool is_complete(int shape, std::size_t count) {
 Shape read_shape(Session& session, const WrittenShape& written) {
   const ShapeForm& shape = kShapes[written.number];
   check_arguments(session, shape, written);
+  if (!is_somewhere(shape, written)) {
+    session.diagnostics.warn_once(written.where,
+                                  "there is nothing to see of this object: a number of it is not finite");
+    return Sphere{{0, 0, 0}, 0};
+  }
   return shape.read(Arguments(session, written));
 }
 

@@ -12,6 +12,7 @@
 
 #include "celltrace/error.hpp"
 #include "memory/huge_pages.hpp"
+#include "pov/diagnostics.hpp"
 
 namespace celltrace::pov {
 
@@ -125,14 +126,30 @@ std::uint32_t Sources::number_of(const std::string& name) {
   return entry->second;
 }
 
-std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::path& naming_folder) const {
-  if (name.find('\0') != name.npos) return std::nullopt;
-  const fs::path wanted = portable_path(name);
+std::vector<fs::path> Sources::folders(const fs::path& naming_folder) const {
   std::vector<fs::path> folders;
   if (!working_folder_.empty()) folders.push_back(working_folder_);
   folders.insert(folders.end(), {naming_folder, scene_folder_});
   folders.insert(folders.end(), library_paths_.begin(), library_paths_.end());
+  return folders;
+}
 
+std::string Sources::folders_searched(const fs::path& naming_folder) const {
+  std::vector<std::string> named;
+  for (const fs::path& folder : folders(naming_folder)) {
+    const std::string name = folder.empty() ? "the current folder" : quoted_name(folder.string());
+    if (std::find(named.begin(), named.end(), name) == named.end()) named.push_back(name);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < named.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == named.size() ? " and " : ", ") + named[i];
+  return text;
+}
+
+std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::path& naming_folder) const {
+  if (name.find('\0') != name.npos) return std::nullopt;
+  const fs::path wanted = portable_path(name);
+  const std::vector<fs::path> folders = this->folders(naming_folder);
   const auto found = [&](const fs::path& path) {
     std::error_code error;
     const fs::path file = fs::canonical(path, error);

@@ -37,6 +37,8 @@ public:
   void set_scene_folder(std::filesystem::path folder);
 
   std::optional<FoundFile> find_file(std::string_view name, const std::filesystem::path& naming_folder) const;
+  /// Where find_file() looks, each folder once, for a message.
+  std::string folders_searched(const std::filesystem::path& naming_folder) const;
 
   /// Where a scene writes the file that it calls `name`, no link. Throws InputError, without a position, if
   /// it may not.
@@ -46,6 +48,7 @@ private:
   bool permits(const std::filesystem::path& file, FileUse use) const {
     return permits_ && permits_(file, use);
   }
+  std::vector<std::filesystem::path> folders(const std::filesystem::path& naming_folder) const;
 
   std::vector<std::filesystem::path> library_paths_;
   std::filesystem::path scene_folder_, working_folder_;    ///< the latter empty: none

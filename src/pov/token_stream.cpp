@@ -1,10 +1,12 @@
 #include "pov/token_stream.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <ctime>
 
 #include "celltrace/error.hpp"
 #include "memory/huge_pages.hpp"
+#include "pov/characters.hpp"
 #include "pov/constants.hpp"
 #include "pov/grammar.hpp"
 #include "pov/session.hpp"
@@ -116,6 +118,17 @@ bool closes(const Token& token) {
   return token.is(')') || token.is('}') || token.is(']');
 }
 
+constexpr std::size_t kCodeDigits = 4; // behind \u
+
+/// The hexadecimal code of a character; nothing if there are too few digits.
+std::optional<unsigned> code_at(const std::string& text, std::size_t begin) {
+  unsigned code = 0;
+  if (text.size() < begin + kCodeDigits) return std::nullopt;
+  const char* const first = text.data() + begin;
+  const auto [end, error] = std::from_chars(first, first + kCodeDigits, code, 16);
+  return error == std::errc() && end == first + kCodeDigits ? std::optional(code) : std::nullopt;
+}
+
 std::string without_escapes(const std::string& quoted) {
   std::string text;
   for (std::size_t i = 0; i < quoted.size(); ++i) {
@@ -124,6 +137,11 @@ std::string without_escapes(const std::string& quoted) {
       continue;
     }
     const char escaped = quoted[++i];
+    if (const std::optional<unsigned> code = escaped == 'u' ? code_at(quoted, i + 1) : std::nullopt) {
+      text += character(*code);
+      i += kCodeDigits;
+      continue;
+    }
     static constexpr char kLetters[] = "abfnrtv";
     static constexpr char kMeanings[] = "\a\b\f\n\r\t\v";
     const char* letter = std::find(kLetters, kLetters + 7, escaped);
@@ -318,19 +336,28 @@ void TokenStream::deliver(const Token& token, Terminal& terminal) {
 void TokenStream::count_brackets(const Token& token) {
   Level& level = levels_.back();
   if (opens(token)) {
-    level.enclosing.push_back(level.nesting);
+    level.enclosing.push_back({level.nesting, token.is('(')});
     ++level.nesting;
   } else if (token.is('<') || token.is('?')) {
     ++level.nesting;
   } else if (token.is('>')) {
-    const unsigned least = level.enclosing.empty() ? 0 : level.enclosing.back() + 1;
+    const unsigned least = level.enclosing.empty() ? 0 : level.enclosing.back().outside + 1;
     if (level.nesting > least) --level.nesting;
   } else if (closes(token) && !level.enclosing.empty()) {
-    level.nesting = level.enclosing.back();
+    level.nesting = level.enclosing.back().outside;
     level.enclosing.pop_back();
   }
   if (level.nesting > session_.options.limits.nesting)
     session_.exceed(token.where, &ParseLimits::nesting, "brackets are nested", "deep");
+}
+
+/// Whether a sign behind a value belongs to the next one, as before version 1.5: <0 1 -5> are three numbers.
+bool TokenStream::is_old_sign(const Token& token) const {
+  if (!session_.builder.has_old_signs() || (!token.is('-') && !token.is('+'))) return false;
+  const Level& level = levels_.back();
+  if (!level.after_operand) return false;
+  if (!level.enclosing.empty()) return !level.enclosing.back().is_parenthesis;
+  return level.start == Start::scene || level.nesting > 0;
 }
 
 /// What a token means that needs no table.
@@ -349,7 +376,10 @@ void TokenStream::interpret(const Token& token, Terminal& terminal) const {
     terminal.value = text_of(token);
     break;
   case Token::Kind::punctuation:
-    terminal.token = number_of(token);
+    if (is_old_sign(token))
+      terminal.token = token.is('-') ? tokens::T_OLD_MINUS : tokens::T_OLD_PLUS;
+    else
+      terminal.token = number_of(token);
     break;
   case Token::Kind::component: {
     const Names::Entry& name = session_.names[token.name];
@@ -377,6 +407,8 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
     } else if (name.token == tokens::T_DEFINED) {
       terminal.value = Quantity(is_defined() ? 1 : 0);
       terminal.token = tokens::T_QUANTITY;
+    } else if (name.token == tokens::T_TEXTURE && session_.builder.has_old_textures()) {
+      terminal.token = tokens::T_OLD_TEXTURE;
     } else if (name.is_unsupported) {
       terminal.detail = static_cast<int>(word.name);
     }
@@ -458,7 +490,7 @@ void TokenStream::skip_to_depth(std::size_t depth) {
 
 void TokenStream::skip_arguments() {
   const std::size_t depth = levels_.back().enclosing.size();
-  const unsigned nesting = levels_.back().enclosing.back();
+  const Bracket bracket = levels_.back().enclosing.back();
   for (;;) {
     Terminal terminal;
     next(terminal);
@@ -468,8 +500,8 @@ void TokenStream::skip_arguments() {
     } else if (level.enclosing.size() < depth) {
       // The closing brace is the grammar's: as if it had not been read.
       session_.input.unread(level.last_token);
-      level.enclosing.push_back(nesting);
-      level.nesting = nesting + 1;
+      level.enclosing.push_back(bracket);
+      level.nesting = bracket.outside + 1;
       return;
     } else if (!is_argument(terminal.token)) {
       level.put_back = std::move(terminal);

@@ -105,15 +105,21 @@ public:
   bool is_empty() const { return tokens_read_ <= 1; }
 
 private:
+  /// A bracket that is open.
+  struct Bracket {
+    unsigned outside = 0; ///< the nesting around it
+    bool is_parenthesis = false;
+  };
+
   /// One entry of the grammar.
   struct Level {
     Start start = Start::scene;
     std::size_t base_depth = 0; ///< frames below this depth are not this level's to leave
     bool start_pending = true;
     bool any_delivered = false;
-    bool at_end = false;             ///< end was delivered: nothing to hand back
-    unsigned nesting = 0;            ///< open brackets, and < and ? which may or may not be brackets
-    std::vector<unsigned> enclosing; ///< nesting outside each open bracket
+    bool at_end = false;  ///< end was delivered: nothing to hand back
+    unsigned nesting = 0; ///< open brackets, and < and ? which may or may not be brackets
+    std::vector<Bracket> enclosing;
     Token last_token;
     std::optional<Terminal> put_back; ///< made of last_token; to be delivered again
     bool after_operand = false;       ///< the last terminal can end a value
@@ -134,6 +140,7 @@ private:
   void end_at(const Token& token, Terminal& terminal);
   bool look_up(const Token& token, Terminal& terminal);
   void interpret(const Token& token, Terminal& terminal) const;
+  bool is_old_sign(const Token& token) const;
   void skip_to_depth(std::size_t depth);
 
   // directives.cpp
@@ -144,6 +151,8 @@ private:
   void set_version(const Token& directive);
   void include(const Token& directive);
   std::string read_file_name(Location& where);
+  [[noreturn]] void fail_to_find(const std::string& what, const std::string& wanted,
+                                 const Location& where) const;
   std::pair<std::filesystem::path, std::string> read_file(const std::string& what, const std::string& wanted,
                                                           const Location& where);
   void show(const Token& directive, Directive kind);

@@ -55,11 +55,13 @@ TEST_CASE("fog") {
     CHECK(fog(body).distance == 11);
     CHECK(fog(body).colour == Vec3(0, 0, 1));
   }
-  CHECK(error_line("fog { up 0 }") == "scene.pov:1:10: error: this vector has no direction");
+  CHECK(fog("up 0").up == fog("").up);
   CHECK(fog("rotate 90*x").up.z == Approx(1));
   CHECK(parse("#declare F = fog { distance 3 } fog { F distance 4 } fog { F }").fogs.at(0).distance == 4);
   CHECK(parse("#declare F = fog { distance 3 } fog { F distance 4 } fog { F }").fogs.at(1).distance == 3);
-  CHECK(error_line("fog { fog_type 3 }") == "scene.pov:1:16: error: there are fogs of type 1 and 2");
+  for (const char* type : {"0", "1", "1.9", "3", "-1"})
+    CHECK_FALSE(fog("fog_type " + std::string(type)).is_ground);
+  CHECK(fog("fog_type 2.5").is_ground);
 }
 
 TEST_CASE("rainbows") {

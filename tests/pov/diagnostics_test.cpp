@@ -8,8 +8,6 @@ using celltrace::test::error_line;
 using celltrace::test::output;
 
 TEST_CASE("text that makes no sense") {
-  CHECK(error_line("") == "scene.pov:1:1: error: the scene is empty");
-  CHECK(error_line("  // nothing\n") == "scene.pov:1:1: error: the scene is empty");
   CHECK(error_line("foo") == "scene.pov:1:1: error: 'foo' is not declared");
   CHECK(error_line("\n  sphere { 0, 1 pigment { Redd } }") ==
         "scene.pov:2:27: error: 'Redd' is not declared");

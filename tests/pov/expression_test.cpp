@@ -14,7 +14,8 @@ TEST_CASE("numbers are written in all of C's decimal ways") {
   CHECK(value("2.5E-1") == "0.250");
   CHECK(value("1e-999") == "0.000");
   CHECK(value("1e-99999") == "0.000");
-  CHECK(error_line("sphere { 0, 1e99999 }") == "scene.pov:1:13: error: this number is not finite");
+  CHECK(error_line("global_settings { adc_bailout 1e99999 }") ==
+        "scene.pov:1:31: error: this number is not finite");
 }
 
 TEST_CASE("a number has one decimal point") {
@@ -209,7 +210,6 @@ TEST_CASE("a division by zero is infinite") {
   CHECK(scene.materials.at(1).pigment.rgb == celltrace::Vec3(0));
   CHECK(scene.materials.at(1).pigment.transmit == 0);
   CHECK(scene.lights.at(0).colour.x >= 1e20);
-  CHECK(error_line("box { 0, 1e400 - 1e400 }") == "scene.pov:1:10: error: this number is not finite");
   CHECK(error_line("sphere { 0, 1 scale 1e400 }") == "scene.pov:1:21: error: this number is not finite");
 }
 
@@ -218,7 +218,6 @@ TEST_CASE("impossible calculations are errors") {
         "scene.pov:1:14: error: the square root of a negative number");
   CHECK(error_line("#declare A = ln(0);") ==
         "scene.pov:1:14: error: the logarithm of a number that is not positive");
-  CHECK(error_line("sphere { 1/0, 1 }") == "scene.pov:1:10: error: this number is not finite");
   CHECK(error_line("global_settings { adc_bailout <1, 2> }") ==
         "scene.pov:1:31: error: expected a float, found a vector");
   CHECK(error_line("#declare A = sin(1, 2);") == "scene.pov:1:14: error: sin() takes 1 argument, not 2");

@@ -142,13 +142,11 @@ TEST_CASE("what stands behind a pattern's word") {
   CHECK(error_line("sphere { 0, 1 pigment { mandel 5 exterior 9, 2 } }") ==
         "scene.pov:1:34: error: this number must lie between 0 and 6");
   CHECK(error_line("sphere { 0, 1 pigment { mandel 0 } }") ==
-        "scene.pov:1:32: error: a fractal has 1 to 65535 iterations");
+        "scene.pov:1:32: error: a fractal has at least one iteration");
   CHECK(error_line("sphere { 0, 1 pigment { magnet 3 mandel 5 } }") ==
         "scene.pov:1:34: error: a magnet is of kind 1 or 2");
   CHECK(error_line("sphere { 0, 1 pigment { bozo mortar 1 } }") ==
         "scene.pov:1:30: error: 'mortar' means nothing to this pattern");
-  CHECK(error_line("sphere { 0, 1 pigment { gradient 0 } }") ==
-        "scene.pov:1:34: error: this gradient has no direction");
   for (const char* arms : {"1e300", "1000001", "-1000001"})
     CHECK(error_line("sphere { 0, 1 pigment { spiral1 " + std::string(arms) + " } }") ==
           "scene.pov:1:33: error: a spiral has no more than a million arms");
@@ -262,7 +260,7 @@ TEST_CASE("what is done to space keeps its order") {
   CHECK(std::get<Turbulence>(p.space[1]).amount == Vec3(0.5));
   CHECK(transform(p.space, 2).point({1, 0, 0}).z == Approx(-1));
   CHECK(p.turbulence.amount == Vec3(1));
-  CHECK(error_line("sphere { 0, 1 pigment { bozo matrix <0,0,0, 0,0,0, 0,0,0, 0,0,0> } }") ==
+  CHECK(error_line("sphere { 0, 1 pigment { bozo matrix <1,1,0, 1,1,0, 0,0,1, 0,0,0> } }") ==
         "scene.pov:1:30: error: this transformation is singular: it has no inverse");
   CHECK(error_line("sphere { 0, 1 pigment { bozo #for (I, 1, 65) warp { turbulence 1 } #end } }") ==
         "scene.pov:1:46: error: a pattern has no more than 64 warps and transformations between them");
@@ -301,8 +299,6 @@ TEST_CASE("warps") {
         "scene.pov:1:46: error: 'metric' means nothing to this warp");
   CHECK(error_line("sphere { 0, 1 pigment { bozo warp { marble } } }") ==
         "scene.pov:1:37: error: 'marble' is no warp");
-  CHECK(error_line("sphere { 0, 1 pigment { bozo warp { black_hole 0, 0 } } }") ==
-        "scene.pov:1:51: error: the radius must be greater than 0");
 }
 
 TEST_CASE("colour maps") {
@@ -423,8 +419,8 @@ TEST_CASE("maps of pigments and averages") {
   CHECK(average.entries[1].position == 3);
   CHECK(average.entries[2].position == 1);
   CHECK(error_line("sphere { 0, 1 pigment { average } }") == "scene.pov:1:23: error: an average needs a map");
-  CHECK(error_line("sphere { 0, 1 pigment { average pigment_map { [0 rgb 1] } } }") ==
-        "scene.pov:1:33: error: the weights of this average add up to 0");
+  CHECK(error_line("sphere { 0, 1 normal { average normal_map { [0 bumps] } } }") ==
+        "scene.pov:1:32: error: the weights of this average add up to 0");
 }
 
 TEST_CASE("a pigment builds on another one") {

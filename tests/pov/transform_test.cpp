@@ -52,7 +52,7 @@ TEST_CASE("the language's transformations") {
   const auto named = test::parse("#declare T = transform { translate y } "
                                  "sphere { 0, 1 transform T transform { T } }");
   CHECK(near(named.objects.at(0).transform.point({0, 0, 0}), {0, 2, 0}));
-  CHECK(test::error_line("sphere { 0, 1 matrix <1,0,0, 0,1,0, 0,0,0, 0,0,0> }") ==
+  CHECK(test::error_line("sphere { 0, 1 matrix <1,0,1, 0,1,0, 1,0,1, 0,0,0> }") ==
         "scene.pov:1:1: error: this object's transformation is singular: it has no inverse");
   CHECK(test::error_line("sphere { 0, 1 matrix <1, 2> }") ==
         "scene.pov:1:15: error: a matrix has 12 numbers, not 2");

@@ -1,0 +1,155 @@
+// Values that mean next to nothing: POV-Ray takes them, and so does this.
+#include "parsing.hpp"
+
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+namespace {
+
+Vec3 moved(const std::string& matrix, const Vec3& point) {
+  return parse("sphere { 0, 1 matrix <" + matrix + "> }").objects.at(0).transform.point(point);
+}
+
+bool warns(const std::string& text, const std::string& of) {
+  return output(text).find("warning: " + of) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("a column of zeros in a matrix is a scale by 1") {
+  CHECK(moved("1,0,0, 0,0,0, 0,0,1, -1,0,0", {0, 2, 3}) == Vec3(-1, 2, 3));
+  CHECK(moved("0,0,0, 0,0,0, 0,0,0, 0,0,0", {1, 2, 3}) == Vec3(1, 2, 3));
+  CHECK(moved("1,0,0, 1,0,0, 0,0,1, 0,0,0", {1, 2, 3}) == Vec3(3, 2, 3));
+  CHECK(moved("1,0,0, 0,1e-11,0, 0,0,1, 0,0,0", {1, 2, 3}) == Vec3(1, 2, 3));
+  CHECK(warns("sphere { 0, 1 matrix <1,0,0, 0,0,0, 0,0,1, 0,0,0> }", "a matrix with a column of zeros"));
+  CHECK(error_line("sphere { 0, 1 matrix <1,0,0, 0,0,0, 0,1,1, 0,0,0> }").find("is singular") !=
+        std::string::npos);
+}
+
+TEST_CASE("a colour's keyword without a value is black") {
+  for (const char* modifiers :
+       {"pigment { color }", "pigment { colour }", "pigment { checker color color rgb x }"})
+    CHECK_NOTHROW(material(modifiers));
+  CHECK(material("pigment { rgb 1 } finish { ambient }").finish.ambient == Vec3(0));
+  CHECK(material("finish { ambient color diffuse 0.5 }").finish.diffuse == 0.5);
+  CHECK(material("finish { reflection { } }").finish.reflection_max == Vec3(0));
+  CHECK(material("finish { reflection { fresnel } }").finish.reflection_fresnel);
+  CHECK(parse("background { }").background == Vec3(0));
+  CHECK(parse("background { color }").background == Vec3(0));
+  CHECK(parse("light_source { y, color shadowless }").lights.at(0).colour == Vec3(0));
+  CHECK(parse("fog { color distance 5 }").fogs.at(0).distance == 5);
+}
+
+TEST_CASE("comparisons behind a colour's keyword need no parentheses") {
+  CHECK(material("pigment { rgb 1 = 1 ? x : y }").pigment.rgb == Vec3(1, 0, 0));
+  CHECK(material("pigment { color 2 < 1 ? x : y }").pigment.rgb == Vec3(0, 1, 0));
+  CHECK(material("pigment { rgb 2 > 1 }").pigment.rgb == Vec3(1));
+}
+
+TEST_CASE("commas that are there or not") {
+  CHECK(output("#declare A = array[2][2] { {1, 2,}, {3, 4,}, }; #debug str(A[1][1], 0, 0)") == "4");
+  CHECK(output("#debug concat(\"a\" \"b\" \"c\")") == "abc");
+  CHECK(value("max(1 3 2)") == "3.000");
+}
+
+TEST_CASE("indices of refraction that are not above 0") {
+  const auto ior = [](const std::string& interior) {
+    const Scene scene = parse("sphere { 0, 1 " + interior + " }");
+    return scene.interiors.at(scene.objects.at(0).interior).ior;
+  };
+  CHECK(ior("interior { ior 0 }") == 1);
+  CHECK(ior("interior { ior -1.5 }") == -1.5);
+  CHECK(ior("finish { ior 0 }") == 1);
+  CHECK(ior("finish { ior -2 }") == 1);
+}
+
+TEST_CASE("finishes out of the ordinary") {
+  CHECK(material("finish { roughness -1 }").finish.roughness > 1e6);
+  CHECK(material("finish { crand -1 }").finish.crand == 0);
+  CHECK(material("finish { reflection { 0.5 exponent 0 } }").finish.reflection_exponent == 1e-6);
+  CHECK(warns("sphere { 0, 1 finish { roughness -1 } }", "with a negative roughness"));
+}
+
+TEST_CASE("patterns without an extent") {
+  const auto kind = [](const std::string& pigment) {
+    return material("pigment { " + pigment + " }").pigment.map->pattern.kind;
+  };
+  const auto is_nothing = [](const pattern::Kind& kind) {
+    const auto* crackle = std::get_if<pattern::Crackle>(&kind);
+    return crackle != nullptr && crackle->form[0] == 0 && crackle->form[1] == 0 && crackle->form[2] == 0;
+  };
+  CHECK(is_nothing(kind("gradient 0")));
+  CHECK(is_nothing(kind("crackle metric 0")));
+  CHECK(std::get<pattern::Brick>(kind("brick rgb x rgb y brick_size 0")).mortar > 1e6);
+  CHECK(std::get<pattern::Fractal>(kind("mandel 1e6")).iterations == 65535);
+  for (const char* exponent : {"1", "40", "2"})
+    CHECK(std::get<pattern::Fractal>(kind("mandel 9 exponent " + std::string(exponent))).exponent == 2);
+  CHECK(material("pigment { bozo warp { black_hole 0, 0 } }").pigment.map->pattern.space.empty());
+  const Pigment average = material("pigment { average pigment_map { [0 rgb x] [0 rgb y] } }").pigment;
+  CHECK((!average.map && average.rgb == Vec3(0)));
+}
+
+TEST_CASE("shapes whose numbers are not finite are not there") {
+  for (const char* shape : {"sphere { 0, 1/0 }", "sphere { <1/0, 0, 0>, 1 }", "plane { y, 1e400 }",
+                            "cylinder { 0, <0, 1/0, 0>, 1 }", "box { 0, 1e400 - 1e400 }"}) {
+    INFO(shape);
+    CHECK(parse(shape).objects.empty());
+    CHECK(warns(shape, "there is nothing to see of this object"));
+    CHECK(parse("difference { box { 0, 1 } " + std::string(shape) + " }").objects.size() == 1);
+  }
+}
+
+TEST_CASE("meshes whose triangles are all degenerate are not there") {
+  const std::string vertices = "vertex_vectors { 3, -x, 0, y } ";
+  for (const std::string& mesh : {"mesh2 { " + vertices + "face_indices { 1, <0, 1, 1> } }",
+                                  std::string("mesh { triangle { 0, x, x } }")}) {
+    INFO(mesh);
+    CHECK(parse(mesh + " sphere { 0, 1 }").objects.size() == 1);
+    CHECK(warns(mesh, "this mesh has no triangle with an area"));
+  }
+}
+
+TEST_CASE("rainbows are far away unless they have a distance") {
+  CHECK(parse("rainbow { direction z angle 20 width 5 color_map { [0 rgbt 1] [1 rgbt 1] } }")
+            .rainbows.at(0)
+            .distance == 1e7);
+}
+
+TEST_CASE("a scene without anything is black") {
+  for (const char* text : {"", "  // nothing\n"}) {
+    CHECK(parse(text).objects.empty());
+    CHECK(output(text) == "scene.pov:1:1: warning: the scene is empty: its picture is black\n");
+  }
+}
+
+TEST_CASE("the first assumed_gamma of a scene counts") {
+  CHECK(parse("global_settings { assumed_gamma 1 assumed_gamma 2.2 }").assumed_gamma == 1);
+  CHECK(parse("global_settings { assumed_gamma 2.2 } global_settings { assumed_gamma 1 }").assumed_gamma ==
+        2.2);
+}
+
+TEST_CASE("what arrays and names do not have") {
+  const std::string sizes = "#declare A = array[2][3]; #debug concat(";
+  CHECK(output(sizes + "str(dimension_size(A, 2), 0, 0), str(dimension_size(A, 0), 0, 0), "
+                       "str(dimension_size(A, 3), 0, 0))") == "300");
+  CHECK(output("#ifdef (sphere) #debug \"yes\" #else #debug \"no\" #end") == "no");
+}
+
+TEST_CASE("strings at their limits") {
+  CHECK(value("strlen(chr(0))") == "0.000");
+  CHECK(value("asc(chr(300))") == "300.000");
+  CHECK(value("asc(chr(8364))") == "8364.000");
+  CHECK(value("asc(chr(200))") == "200.000");
+  CHECK(value("asc(\"\\u0041\")") == "65.000");
+  CHECK(value("strlen(\"a\\u0041b\")") == "3.000");
+  CHECK(value("strlen(substr(\"abc\", 0, 2))") == "0.000");
+  CHECK(value("val(\"0x10\")") == "16.000");
+  CHECK(output("#debug str(1e300, 0, 0)") == "1e+300");
+  CHECK(output("#debug vstr(9, <1, 2, 3>, \",\", 0, 0)") == "1,2,3,0,0");
+  CHECK(output("#debug vstr(1, <1, 2, 3>, \",\", 0, 0)") == "1,2");
+  CHECK(output("#debug vstr(3, 5, \",\", 0, 0)") == "5,0,0");
+}
