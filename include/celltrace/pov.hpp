@@ -102,6 +102,9 @@ struct ParseOptions {
   bool lenient = false;
   /// Identifiers declared before the scene starts, as POV-Ray's Declare=name=value does.
   std::vector<std::pair<std::string, std::variant<double, std::string>>> declares;
+  /// File that is read before the scene, as POV-Ray's Include_Header is; empty: none. It need not lie where
+  /// the scene may read.
+  std::filesystem::path header;
   /// Receives the text of #debug, #render and #statistics as it is, and "file:line:column: warning: text\n"
   /// for #warning, for what lenient reading leaves out and, with "note", for files found by another case of
   /// their names. Called by the parsing thread.

@@ -2,9 +2,11 @@
 
 #include "celltrace/error.hpp"
 #include "cli/choice.hpp"
+#include "cli/declares.hpp"
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <limits>
 
 namespace celltrace::cli {
 
@@ -41,12 +43,10 @@ void take_declared_clock(RenderRequest& request) {
       ++declare;
       continue;
     }
-    const std::string& text = declare->second;
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size())
-      throw InputError("--declare: the clock has to be a number, not '" + text + "'");
-    request.clock = number;
+    const auto value = declared_value(declare->second);
+    const double* const number = std::get_if<double>(&value);
+    if (!number) throw InputError("--declare: the clock has to be a number, not '" + declare->second + "'");
+    request.clock = *number;
     declare = request.declares.erase(declare);
   }
 }
@@ -57,14 +57,13 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
   Animation& animation = request.animation;
   const CLI::Range frames(0, kMaxFrame);
   command.add_option("--clock", request.clock, "The scene's clock; default: 0. An animation has its own");
-  command.add_option("--initial-frame", animation.initial_frame, "Number of an animation's first frame")
-      ->check(frames)
-      ->capture_default_str();
   command
-      .add_option("--final-frame", animation.final_frame,
-                  "Number of its last frame; 1: it is a still picture")
-      ->check(frames)
-      ->capture_default_str();
+      .add_option("--initial-frame", texts.initial_frame, "Number of an animation's first frame; default: 1")
+      ->check(frames);
+  command
+      .add_option("--final-frame", texts.final_frame,
+                  "Number of its last frame; without it and the first frame's it is a still picture")
+      ->check(frames);
   command.add_option("--initial-clock", animation.initial_clock, "The clock in the first frame")
       ->capture_default_str();
   command.add_option("--final-clock", animation.final_clock, "The clock in the last frame")
@@ -74,10 +73,10 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
   command
       .add_option("--start-frame", animation.start_frame,
                   "The first frame to render; below 1 a part of the final frame's number")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_range(0, std::numeric_limits<double>::infinity()))
       ->type_name("N|FRACTION");
   command.add_option("--end-frame", animation.end_frame, "The last frame to render; the same")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_range(0, std::numeric_limits<double>::infinity()))
       ->type_name("N|FRACTION");
   command.add_option("--frame-step", animation.step, "Render every so manieth frame only")
       ->check(CLI::Range(1, kMaxFrame))
@@ -86,6 +85,14 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
       ->type_name("N|N/M")
       ->capture_default_str();
   command.add_flag("--resume", request.resume, "Go on where a run with the same options was stopped");
+}
+
+void set_frames(Animation& animation, const AnimationTexts& texts) {
+  const int initial = texts.initial_frame.value_or(0), final = texts.final_frame.value_or(0);
+  if (initial == final && initial <= 1) return;
+  animation.initial_frame = texts.initial_frame.value_or(1);
+  animation.final_frame = std::max(animation.initial_frame, final);
+  animation.has_one_frame = animation.initial_frame == animation.final_frame;
 }
 
 void finish_animation(RenderRequest& request, const AnimationTexts& texts) {

@@ -5,14 +5,17 @@
 #include "cli/animation_options.hpp"
 #include "cli/choice.hpp"
 #include "cli/completions.hpp"
+#include "cli/declares.hpp"
 #include "cli/keyword_page.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/man_page.hpp"
+#include "cli/message_options.hpp"
 #include "cli/output_options.hpp"
+#include "cli/pov_numbers.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -21,17 +24,12 @@ namespace celltrace::cli {
 
 namespace {
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
 /// What is before and after the first `separator`; all and nothing if there is none.
 std::pair<std::string, std::string> split(const std::string& text, char separator) {
   const std::size_t at = std::min(text.find(separator), text.size());
   return {text.substr(0, at), text.substr(std::min(at + 1, text.size()))};
-}
-
-std::pair<std::string, std::string> parse_declare(const std::string& text) {
-  auto declare = split(text, '=');
-  if (declare.first.empty() || declare.first.size() == text.size())
-    throw InputError("--declare: '" + text + "' is not NAME=VALUE");
-  return declare;
 }
 
 /// NAME=VALUE, where K, M and G behind the value stand for 2^10, 2^20 and 2^30.
@@ -47,17 +45,14 @@ void set_limit(ParseLimits& limits, const std::string& text) {
       names += (names.empty() ? "" : ", ") + std::string(each.name);
     throw InputError("--max: '" + text + "' is not NAME=VALUE with a name of " + names);
   }
-  double number = 0;
-  const char* const last = value.data() + value.size();
-  const char* end = std::from_chars(value.data(), last, number).ptr;
-  if (end + 1 == last && end != value.data()) {
-    const std::string_view units = "KMG";
-    if (const std::size_t unit = units.find(*end); unit != units.npos) {
-      number = std::ldexp(number, 10 * (static_cast<int>(unit) + 1));
-      ++end;
-    }
+  const auto read = read_real(value);
+  double number = read ? read->value : -1;
+  if (read && !read->rest.empty()) {
+    const std::size_t unit = std::string_view("KMG").find(read->rest);
+    const bool is_unit = read->rest.size() == 1 && unit != std::string_view::npos;
+    number = is_unit ? std::ldexp(number, 10 * (static_cast<int>(unit) + 1)) : -1;
   }
-  if (end != last || value.empty() || !(number >= 0 && number <= 1e18))
+  if (!(number >= 0 && number <= 1e18))
     throw InputError("--max: '" + value +
                      "' is not a number from 0 to 1e18, perhaps with K, M or G behind it");
   limits.*limit->limit = static_cast<std::uint64_t>(number);
@@ -68,6 +63,7 @@ struct RenderTexts {
   MachineTexts machine;
   std::vector<std::string> declares;
   std::vector<std::string> limits;
+  MessageTexts messages;
   std::optional<double> antialias; ///< the threshold
   int antialias_method = 1;
   Antialiasing antialiasing; ///< all but method and threshold
@@ -105,10 +101,12 @@ void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& t
   command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+  command.add_option("--header", request.header, "Include this file before the scene begins")
+      ->type_name("FILE");
   command
       .add_option("--language-version", request.language_version,
                   "What a scene without #version is written for, such as 3.1")
-      ->check(CLI::Range(0.1, 100.0))
+      ->check(number_range(0.1, 100))
       ->type_name("FLOAT");
   command
       .add_option("--max-level", options.max_trace_level,
@@ -117,12 +115,12 @@ void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& t
   command
       .add_option("--adc", options.adc_bailout,
                   "Contribution below which a ray is cut; default: the scene's adc_bailout")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_range(0, 1));
 }
 
 void add_region_options(CLI::App& command, RenderTexts& texts) {
   const auto add = [&](const std::string& name, double& value, const std::string& what) {
-    command.add_option(name, value, what)->check(CLI::NonNegativeNumber)->type_name("N|FRACTION");
+    command.add_option(name, value, what)->check(number_range(0, kNoLimit))->type_name("N|FRACTION");
   };
   add("--start-column", texts.start_column, "The first column to render, from 1 on, or a part of the width");
   add("--end-column", texts.end_column, "The last column to render; 1 and less is a part of the width");
@@ -134,7 +132,7 @@ void add_antialiasing_options(CLI::App& command, RenderTexts& texts) {
   command
       .add_option("--antialias", texts.antialias,
                   "Sample pixels by more rays where colours differ by so much or more")
-      ->check(CLI::Range(0.0, 3.0))
+      ->check(number_range(0, 3))
       ->type_name("THRESHOLD");
   command
       .add_option("--antialias-method", texts.antialias_method,
@@ -149,10 +147,10 @@ void add_antialiasing_options(CLI::App& command, RenderTexts& texts) {
   command
       .add_option("--antialias-jitter", texts.antialiasing.jitter,
                   "Move samples at random: 0 not at all, 1 as far as to the next one's place")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_range(0, 1))
       ->capture_default_str();
   command.add_option("--antialias-gamma", texts.antialiasing.gamma, "Of the colours when they are compared")
-      ->check(CLI::Range(0.01, 100.0))
+      ->check(number_range(0.01, 100))
       ->capture_default_str();
 }
 
@@ -203,7 +201,7 @@ void add_compare_options(CLI::App& command, CompareRequest& request) {
   command.add_option("b", request.b, "The picture to compare it with")->required()->type_name("B.png");
   command.add_option("--min-psnr", request.min_psnr, "Exit 1 if the PSNR is below this")->type_name("DB");
   command.add_option("--min-ssim", request.min_ssim, "Exit 1 if the worst 8x8 SSIM is below this")
-      ->check(CLI::Range(-1.0, 1.0));
+      ->check(number_range(-1, 1));
   command.add_option("--diff", request.difference, "Write the difference, 8 times as bright")
       ->type_name("OUT.png");
   command.add_flag("--json", request.json, "Print JSON");
@@ -326,8 +324,10 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   request.options.region = region_of(texts, request.options);
   if (!texts.verbose.empty()) request.verbose = texts.verbose == "on";
   request.stands_in_for_povray = texts.povray == "on";
+  set_frames(request.animation, texts.animation);
   finish_output(request, texts.output);
   finish_animation(request, texts.animation);
+  finish_messages(request, texts.messages);
 }
 
 void finish(ViewRequest& view, const RenderTexts& texts) {
@@ -397,6 +397,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_antialiasing_options(render_command, texts);
   add_machine_options(render_command, render.options, texts.machine);
   add_report_options(render_command, render);
+  add_message_options(render_command, texts.messages);
   add_client_options(render_command, texts);
   let_the_last_count(render_command);
 
@@ -433,6 +434,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
       *app.add_subcommand("study", "Repeat the experiments of the thesis on the emulated Cell");
   add_study_options(study_command, study, study_backend);
 
+  read_as_decimal(app);
   std::vector<std::string> rest;
   if (!arguments.empty() && arguments.front() == "spu") rest = split_rest(arguments);
   try {

@@ -7,6 +7,7 @@
 #include "celltrace/spe/machine.hpp"
 #include "cli/film.hpp"
 #include "cli/frame_numbers.hpp"
+#include "cli/message_files.hpp"
 #include "study/study.hpp"
 
 #include <filesystem>
@@ -37,6 +38,7 @@ struct RenderRequest {
   ParseLimits limits;
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
   bool lenient = false;                                      ///< leave out what of the scene is not supported
+  std::filesystem::path header;                              ///< included before the scene; empty: none
   std::optional<double> language_version;                    ///< of a scene that does not say its own
   std::optional<double> clock;                               ///< of a still picture; none: 0, and not on
   Animation animation;
@@ -47,7 +49,8 @@ struct RenderRequest {
   bool quiet = false;
   std::optional<bool> verbose;       ///< progress for a program that reads stderr; none: not said
   bool stands_in_for_povray = false; ///< another program takes this one for povray
-  std::vector<std::string> notes; ///< for people
+  std::vector<std::string> notes;    ///< for people
+  MessageRequest messages;
 };
 
 struct CompareRequest {

@@ -3,7 +3,6 @@
 #include "celltrace/error.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -24,34 +23,23 @@ float clock_step(const Animation& animation) {
          static_cast<float>(steps);
 }
 
-/// A frame, or a part of final_frame.
-int frame_at(double value, const Animation& animation) {
-  if (value < 1)
-    return std::max(animation.initial_frame, static_cast<int>(std::floor(value * animation.final_frame)));
-  return static_cast<int>(std::min(std::floor(value), 1e9));
-}
-
-void check_is_frame(int frame, const Animation& animation, const char* option) {
-  if (frame >= animation.initial_frame && frame <= animation.final_frame) return;
-  throw InputError(std::string(option) + ": frame " + std::to_string(frame) +
-                   " is not in the animation, which has frames " + std::to_string(animation.initial_frame) +
-                   " to " + std::to_string(animation.final_frame));
+/// Returns a frame, given as its number or as a part of final_frame, in POV-Ray's precision.
+int frame_at(double value, const Animation& animation, const char* option) {
+  if (value > kMaxFrame)
+    throw InputError(std::string(option) + ": frames are numbered up to " + std::to_string(kMaxFrame));
+  const float frame = value < 1 ? static_cast<float>(value) * static_cast<float>(animation.final_frame)
+                                : static_cast<float>(value);
+  return static_cast<int>(frame);
 }
 
 } // namespace
 
 std::vector<int> frames_to_render(const Animation& animation) {
-  if (animation.final_frame < animation.initial_frame)
-    throw InputError("the final frame, " + std::to_string(animation.final_frame) +
-                     ", is before the initial one, " + std::to_string(animation.initial_frame));
-  const int first =
-      animation.start_frame ? frame_at(*animation.start_frame, animation) : animation.initial_frame;
-  const int last = animation.end_frame ? frame_at(*animation.end_frame, animation) : animation.final_frame;
-  check_is_frame(first, animation, "--start-frame");
-  check_is_frame(last, animation, "--end-frame");
-  if (last < first)
-    throw InputError("there are no frames to render: " + std::to_string(last) + " is before " +
-                     std::to_string(first));
+  int first = animation.initial_frame, last = animation.final_frame;
+  if (animation.start_frame)
+    first = std::max(first, frame_at(*animation.start_frame, animation, "--start-frame"));
+  if (animation.end_frame) last = frame_at(*animation.end_frame, animation, "--end-frame");
+  last = std::max(first, last);
   std::vector<int> frames;
   for (int frame = first; frame <= last; frame += animation.step)
     frames.push_back(frame);

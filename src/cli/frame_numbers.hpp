@@ -17,15 +17,17 @@ struct Animation {
   bool cyclic = false; ///< the frame after the last one would be the first one
   /// The part that is rendered: frames, or below 1 parts of final_frame. None: from the first, to the last.
   std::optional<double> start_frame, end_frame;
-  int step = 1; ///< from each frame that is rendered to the next one
+  int step = 1;               ///< from each frame that is rendered to the next one
+  bool has_one_frame = false; ///< frame 1 only, and yet no still picture
 
-  bool is_on() const { return initial_frame != 1 || final_frame != 1; }
+  bool is_on() const { return has_one_frame || initial_frame != 1 || final_frame != 1; }
 };
 
 /// Frames of an animation at most.
 inline constexpr int kMaxFrame = 9'999'999;
 
-/// Of an animation that is on. Throws InputError if there are none, or if what is asked for is not in it.
+/// Returns the frames of an animation that is on, one at least. As in POV-Ray, they may end behind the final
+/// frame if the subset does. Throws InputError for frames beyond kMaxFrame.
 std::vector<int> frames_to_render(const Animation& animation);
 
 /// What a scene's clock is in a frame, and what else it may know of it. In POV-Ray's precision: of a clock

@@ -1,6 +1,7 @@
 #include "cli/ini_file.hpp"
 
 #include "celltrace/error.hpp"
+#include "cli/pov_settings.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -10,80 +11,24 @@ namespace celltrace::cli {
 
 namespace {
 
-bool is_blank(char c) {
-  return std::isspace(static_cast<unsigned char>(c)) != 0;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kBlanks = " \t\v\f";
+
+std::string_view trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+/// Calls `take` with each line of a text, and its number, until that returns false.
+template <class Take> void for_each_line(std::string_view text, Take take) {
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    if (!take(IniLine{trimmed(text.substr(0, end)), number})) return;
+    const std::size_t width = text.substr(end, 2) == "\r\n" ? 2 : 1;
+    text.remove_prefix(std::min(end + width, text.size()));
+  }
 }
-
-/// One line of a file.
-class Line {
-public:
-  Line(std::string_view text, std::string place) : rest_(text), place_(std::move(place)) {}
-
-  /// False: nothing but a comment is left.
-  bool at_entry() {
-    skip_blanks();
-    return !rest_.empty() && rest_[0] != ';' && rest_[0] != '#';
-  }
-  char first() const { return rest_[0]; }
-
-  /// What is in brackets.
-  std::string section() {
-    const std::size_t end = rest_.find(']');
-    if (end == std::string_view::npos) throw InputError(place_ + ": a section's name has to end with ]");
-    return std::string(rest_.substr(1, end - 1));
-  }
-
-  std::string entry() {
-    std::string text;
-    while (!rest_.empty() && (std::isalpha(static_cast<unsigned char>(rest_[0])) || rest_[0] == '_'))
-      text += take();
-    const std::string_view behind_name = rest_;
-    skip_blanks();
-    if (!text.empty() && !rest_.empty() && rest_[0] == '=') {
-      text += take();
-      skip_blanks();
-      return text + word();
-    }
-    rest_ = behind_name;
-    return text + word();
-  }
-
-private:
-  void skip_blanks() {
-    while (!rest_.empty() && is_blank(rest_[0]))
-      rest_.remove_prefix(1);
-  }
-
-  char take() {
-    const char c = rest_[0];
-    rest_.remove_prefix(1);
-    return c;
-  }
-  /// Up to a blank or a comment. Quotes hold together what is in them.
-  std::string word() {
-    std::string text;
-    while (!rest_.empty() && !is_blank(rest_[0]) && rest_[0] != ';') {
-      const char c = take();
-      if (c != '"' && c != '\'') {
-        text += c;
-        continue;
-      }
-      const std::size_t end = rest_.find(c);
-      if (end == std::string_view::npos) throw InputError(place_ + ": a quote is not closed");
-      text += rest_.substr(0, end);
-      rest_.remove_prefix(end + 1);
-    }
-    return text;
-  }
-
-  std::string_view rest_;
-  std::string place_;
-};
 
 } // namespace
 
@@ -99,24 +44,38 @@ std::string read_ini_text(const std::string& name) {
   return text;
 }
 
-std::vector<IniEntry> parse_ini(std::string_view text, std::string_view section, const std::string& name) {
-  std::vector<IniEntry> entries;
-  bool wanted = true, found = section.empty();
-  for (int number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    Line line(text.substr(0, end), name + ":" + std::to_string(number));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.at_entry() && line.first() == '[') {
-      const std::string label = line.section();
-      wanted = !section.empty() && same_name(label, section);
-      found = found || wanted;
-      continue;
+IniLines parse_ini(std::string_view text, std::string_view section) {
+  IniLines result;
+  result.has_section = section.empty();
+  bool wanted = true;
+  for_each_line(text, [&](const IniLine& line) {
+    if (!line.text.empty() && line.text[0] == '[') {
+      const std::string_view label = trimmed(line.text.substr(1, line.text.find(']') - 1));
+      wanted = !section.empty() && same_word(label, trimmed(section));
+      result.has_section = result.has_section || wanted;
+    } else if (wanted && !line.text.empty()) {
+      result.lines.push_back(line);
     }
-    while (wanted && line.at_entry())
-      entries.push_back({line.entry(), number});
-  }
-  if (!found) throw InputError(name + ": has no section [" + std::string(section) + "]");
-  return entries;
+    return true;
+  });
+  return result;
+}
+
+bool looks_like_ini(std::string_view text) {
+  bool answer = false;
+  for_each_line(text, [&](const IniLine& line) {
+    const std::string_view rest = line.text;
+    const auto is_letter = [&](std::size_t at) {
+      return at < rest.size() && std::isalpha(static_cast<unsigned char>(rest[at])) != 0;
+    };
+    // A directive of the scene language begins with #, too.
+    if (rest.empty() || rest[0] == ';' || (rest[0] == '#' && !is_letter(1))) return true;
+    const std::string_view name = trimmed(rest.substr(0, rest.find('=')));
+    answer = rest[0] == '[' || ((rest[0] == '+' || rest[0] == '-') && is_letter(1)) ||
+             (name.size() < rest.size() && find_setting(name) != nullptr);
+    return false;
+  });
+  return answer;
 }
 
 } // namespace celltrace::cli

@@ -1,4 +1,4 @@
-// POV-Ray's INI files: switches and settings, as on its command line.
+// POV-Ray's INI files: lines of sections.
 #pragma once
 
 #include <functional>
@@ -8,19 +8,27 @@
 
 namespace celltrace::cli {
 
-/// Gives the text of a file; throws InputError, naming it, if it cannot be read.
+/// Returns the text of a file; throws InputError, naming it, if it cannot be read.
 using TextReader = std::function<std::string(const std::string& file)>;
-/// Of at most a megabyte.
+/// Reads at most a megabyte.
 std::string read_ini_text(const std::string& file);
 
-struct IniEntry {
-  std::string text; ///< a switch, a file's name, or NAME=VALUE without quotes
-  int line;         ///< from 1 on
+struct IniLine {
+  std::string_view text; ///< without what ends the line
+  int number;            ///< from 1 on
 };
 
-/// The entries before the first [section], and those of sections with this name, in either case. Empty: of no
-/// section. `name` stands in errors: throws InputError for a section that is not there and for quotes that
-/// are not closed.
-std::vector<IniEntry> parse_ini(std::string_view text, std::string_view section, const std::string& name);
+struct IniLines {
+  std::vector<IniLine> lines;
+  bool has_section = false; ///< the section that was asked for
+};
+
+/// Returns the lines before the first [section], and those of sections with this name, in either case; an
+/// empty name: of no section. Lines end with LF, CR LF or CR, and a byte order mark may precede the first
+/// one. The lines are parts of `text`.
+IniLines parse_ini(std::string_view text, std::string_view section);
+
+/// Whether a file has settings or switches in front, and not a scene.
+bool looks_like_ini(std::string_view text);
 
 } // namespace celltrace::cli

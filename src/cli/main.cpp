@@ -2,6 +2,7 @@
 #include "cli/command_line.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/invocation.hpp"
+#include "cli/message_files.hpp"
 #include "cli/output_files.hpp"
 #include "cli/render_command.hpp"
 #include "cli/replay_command.hpp"
@@ -44,7 +45,7 @@ int run_with_files(RenderRequest render) {
   return code == 0 && !has_all ? 1 : code;
 }
 
-int run(const char* program, const std::vector<std::string>& arguments) {
+int run(const char* program, const std::vector<std::string>& arguments, MessageFiles& messages) {
   const auto [request, notes] = read_invocation(program, arguments);
   if (const auto* information = std::get_if<InformationRequest>(&request)) {
     (information->is_for_stderr ? std::cerr : std::cout) << information->text << std::flush;
@@ -56,6 +57,7 @@ int run(const char* program, const std::vector<std::string>& arguments) {
   if (const auto* replay = std::get_if<ReplayRequest>(&request)) return run_replay(*replay);
   if (const auto* study = std::get_if<StudyRequest>(&request)) return run_study_command(*study);
   const auto& render = std::get<RenderRequest>(request);
+  messages.open(render.messages);
   if (!render.quiet) {
     print_notes(notes);
     print_notes(render.notes);
@@ -74,8 +76,9 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   occupy_standard_streams();
+  MessageFiles messages; // of errors, too
   try {
-    const int code = run(argc > 0 ? argv[0] : "", arguments);
+    const int code = run(argc > 0 ? argv[0] : "", arguments, messages);
     check_standard_output();
     return code;
   } catch (const celltrace::SceneError& error) {

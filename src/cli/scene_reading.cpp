@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/version.hpp"
+#include "cli/declares.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/povray_client.hpp"
 
@@ -32,15 +33,9 @@ ParseOptions parse_options(const RenderRequest& request, int frame) {
     options.clock = static_cast<float>(request.clock.value_or(0)); // POV-Ray's precision
     options.frame.clock_on = request.clock.has_value();
   }
-  for (const auto& [name, text] : request.declares) {
-    double number = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, number);
-    if (error == std::errc() && end == last)
-      options.declares.emplace_back(name, number);
-    else
-      options.declares.emplace_back(name, text);
-  }
+  for (const auto& [name, text] : request.declares)
+    options.declares.emplace_back(name, declared_value(text));
+  options.header = request.header;
   return options;
 }
 
@@ -120,6 +115,7 @@ Settings settings_of(const RenderRequest& request) {
   };
   const auto add = [&](const char* name, const std::string& value) { settings.emplace_back(name, value); };
   if (options.max_trace_level) add("max level", std::to_string(*options.max_trace_level));
+  if (!request.header.empty()) add("header", std::filesystem::absolute(request.header).string());
   if (request.language_version) add("language version", text_of(*request.language_version));
   if (options.adc_bailout) add("adc", text_of(*options.adc_bailout));
   if (const auto& region = options.region)

@@ -18,6 +18,8 @@ template <class Work> Scene within_memory(Work work) {
     return work();
   } catch (const std::bad_alloc&) {
     throw OutOfMemory();
+  } catch (const pov::LimitPassed& passed) {
+    throw InputError(std::string("a limit leaves no room for a scene's beginning: ") + passed.who + " too much");
   }
 }
 
@@ -26,18 +28,34 @@ void look(const ParseOptions& options, std::uint64_t bytes) {
   if (options.progress && !options.progress(0, bytes)) throw Cancelled();
 }
 
+/// Has the header read before what is open.
+void open_header(pov::Session& session, const std::filesystem::path& header) {
+  if (header.empty()) return;
+  if (session.options.reads_file) session.options.reads_file(header);
+  try {
+    std::string text =
+        pov::read_text(header, session.options.limits.file_bytes, [&] { look(session.options, 0); });
+    session.symbols.enter_scope();
+    session.tokens.open(std::move(text), header.lexically_normal().string(), header.parent_path());
+    session.input.top().opened_at = pov::Location(); // the scene's beginning
+  } catch (const InputError& error) {
+    throw InputError("header " + header.string() + ": " + error.what());
+  }
+}
+
 Scene parse(std::string text, const ParseOptions& options, const std::string& name,
             const std::filesystem::path& folder) {
   pov::Session session(options);
   session.sources.set_scene_folder(folder);
   session.tokens.open(std::move(text), name, folder);
-  pov::declare_predefined(session);
   if (const auto& version = options.version) {
     constexpr double kNone = 1000;
     if (!(*version > 0 && *version < kNone)) throw InputError("there is no such version of the language");
     session.builder.set_version(*version);
   }
   try {
+    pov::declare_predefined(session);
+    open_header(session, options.header);
     session.tokens.evaluate(pov::Start::scene);
     session.tokens.close_data_files();
   } catch (const pov::LimitPassed& passed) {

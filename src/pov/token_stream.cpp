@@ -206,7 +206,7 @@ Value TokenStream::evaluate(Start start) {
   if (levels_.size() >= kMostLevels) session_.fail(here(), "macros and directives are nested too deeply");
   Level& level = levels_.emplace_back();
   level.start = start;
-  level.base_depth = session_.input.depth();
+  level.base_depth = start == Start::scene ? 1 : session_.input.depth(); // a header lies on the scene
   run_grammar(session_, levels_.size() - 1);
   Level finished = std::move(levels_.back());
   levels_.pop_back();

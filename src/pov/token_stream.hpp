@@ -94,7 +94,10 @@ public:
   std::string describe_last() const;
   /// A string, its escapes replaced.
   std::string text_of(const Token& string) const;
-  const Location& last_place() const { return levels_.back().last_token.where; }
+  /// The scene's beginning before the grammar is entered.
+  const Location& last_place() const {
+    return levels_.empty() ? kBeginning : levels_.back().last_token.where;
+  }
   /// What next() made its last terminal of.
   const Token& last_token() const { return levels_.back().last_token; }
   /// The word that next() returned last is read again.
@@ -105,6 +108,8 @@ public:
   bool is_empty() const { return tokens_read_ <= 1; }
 
 private:
+  static constexpr Location kBeginning = {};
+
   /// A bracket that is open.
   struct Bracket {
     unsigned outside = 0; ///< the nesting around it

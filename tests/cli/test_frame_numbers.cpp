@@ -51,13 +51,18 @@ TEST_CASE("parts of an animation are frames or fractions") {
   CHECK(part(2, {}, stepped) == Frames{2, 5, 8});
 }
 
-TEST_CASE("frames that an animation does not have are refused") {
-  CHECK_THROWS_WITH(frames_to_render(animation(5, 3)), "the final frame, 3, is before the initial one, 5");
-  CHECK_THROWS_WITH(part({}, 12), "--end-frame: frame 12 is not in the animation, which has frames 1 to 10");
-  CHECK_THROWS_WITH(part(3, {}, animation(5, 9)),
-                    "--start-frame: frame 3 is not in the animation, which has frames 5 to 9");
-  CHECK_THROWS_WITH(part(7, 3), "there are no frames to render: 3 is before 7");
+TEST_CASE("parts of an animation end where POV-Ray ends them") {
+  CHECK(part(8, 12) == Frames{8, 9, 10, 11, 12});
+  CHECK(part(3, {}, animation(5, 7)) == Frames{5, 6, 7});
+  CHECK(part(2, 6, animation(5, 9)) == Frames{5, 6});
+  CHECK(part(8, 3) == Frames{8});
+  CHECK(part(0, 0) == Frames{1});
+  CHECK(part(15, {}) == Frames{15});
+  // In single precision these are whole numbers.
+  CHECK(part(0.29, 0.29, animation(1, 100)) == Frames{29});
+  CHECK(part(0.58, 0.58, animation(1, 100)) == Frames{58});
   CHECK_THROWS_AS(part(1e300, {}), InputError);
+  CHECK_THROWS_AS(part({}, 1e300), InputError);
 }
 
 TEST_CASE("clocks are POV-Ray's to the bit") {
@@ -99,4 +104,8 @@ TEST_CASE("pictures have as many digits as the last number") {
   CHECK(picture_of("/x/a.png", animation(1, 1000), 1000) == "/x/a1000.png");
   CHECK(picture_of("a.png", animation(1, 9, true), 8) == "a08.png"); // as in POV-Ray
   CHECK(picture_of("a.png", Animation(), 0) == "a.png");
+  CHECK(picture_of("a.png", animation(1, 9), 12) == "a12.png");
+  Animation one;
+  one.has_one_frame = true;
+  CHECK(picture_of("a.png", one, 1) == "a1.png");
 }

@@ -1,31 +1,12 @@
-#include "cli/pov_switches.hpp"
+#include "translated.hpp"
 
 #include "celltrace/error.hpp"
 
-#include <catch2/catch.hpp>
-
-#include <map>
-
 using Catch::Matchers::Contains;
-using celltrace::InputError;
 using celltrace::cli::translate_pov_switches;
-using Arguments = std::vector<std::string>;
-
-namespace {
-
-/// Without the leading "render".
-Arguments translated(const Arguments& arguments) {
-  Arguments result = translate_pov_switches(arguments).arguments;
-  REQUIRE(result.at(0) == "render");
-  result.erase(result.begin());
-  return result;
-}
-
-std::size_t notes(const Arguments& arguments) {
-  return translate_pov_switches(arguments).notes.size();
-}
-
-} // namespace
+using celltrace::test::Arguments;
+using celltrace::test::notes;
+using celltrace::test::translated;
 
 TEST_CASE("a scene alone means render") {
   CHECK(translated({"a.pov"}) == Arguments{"a.pov"});
@@ -43,33 +24,89 @@ TEST_CASE("other commands are left alone") {
 
 TEST_CASE("a command line as POV-Ray's users write it") {
   CHECK(translated({"+W800", "+H600", "+Iscenes/a.pov", "+Oout.png", "+L/usr/inc", "+WT4", "+Q9", "-A",
-                    "+FN8"}) == Arguments{"-W", "800", "-H", "600", "scenes/a.pov", "-o", "out.png", "-L",
-                                          "/usr/inc", "--spes", "4", "--quality", "9", "--picture", "on",
-                                          "--file-type", "png", "--bits", "8"});
+                    "+FN8"}) == Arguments{"-W", "800", "-H", "600", "scenes/a.pov", "--pov-output", "out.png",
+                                          "-L", "/usr/inc", "--spes", "4", "--quality", "9", "--picture",
+                                          "on", "--file-type", "png", "--bits", "8"});
   CHECK(translated({"Width=32", "height=16", "Input_File_Name=a.pov", "Output_File_Name=b.png",
-                    "Library_Path=l", "Declare=x=1", "Work_Threads=2", "Antialias=off", "Quality=11",
-                    "Output_File_Type=N"}) == Arguments{"-W", "32", "-H", "16", "a.pov", "-o", "b.png", "-L",
-                                                        "l", "--declare", "x=1", "--spes", "2", "--quality",
-                                                        "11", "--file-type", "png"});
+                    "Library_Path=l", "Declare=A=1", "Work_Threads=2", "Antialias=off", "Quality=11",
+                    "Output_File_Type=N"}) == Arguments{"-W", "32", "-H", "16", "a.pov", "--pov-output",
+                                                        "b.png", "-L", "l", "--declare", "A=1", "--spes", "2",
+                                                        "--quality", "11", "--file-type", "png"});
 }
 
 TEST_CASE("switches are read in either case and with either sign") {
   CHECK(translated({"-w32", "+h16", "-ia.pov", "-ob.png"}) ==
-        Arguments{"-W", "32", "-H", "16", "a.pov", "-o", "b.png"});
+        Arguments{"-W", "32", "-H", "16", "a.pov", "--pov-output", "b.png"});
 }
 
 TEST_CASE("extensions are added as POV-Ray adds them") {
   // The picture's depends on its type.
-  CHECK(translated({"+Iscene", "+Opicture"}) == Arguments{"scene.pov", "-o", "picture"});
-  CHECK(translated({"+Ia.b/scene", "+Oout/"}) == Arguments{"a.b/scene.pov", "-o", "out/"});
+  CHECK(translated({"+Iscene", "+Opicture"}) == Arguments{"scene.pov", "--pov-output", "picture"});
+  CHECK(translated({"+Ia.b/scene", "+Oout/"}) == Arguments{"a.b/scene.pov", "--pov-output", "out/"});
 }
 
 TEST_CASE("harmless switches are ignored with a note") {
-  const Arguments harmless = {"+D",    "-D",    "+DGT",   "+P",          "-P",
-                              "+BM1",  "+X10",  "+B64",   "+BP",         "Bounding_Threshold=3",
-                              "+MB10", "+WL5",  "+UV",    "-UL",         "+GFa.txt",
-                              "+BS16", "+SP64", "+HR",    "Display=off", "Test_Abort=on",
-                              "+GIa",  "+RP2",  "+MI128", "+BM2",        "Warning_Console=off"};
+  const Arguments harmless = {"+D",
+                              "-D",
+                              "+DGT",
+                              "+P",
+                              "-P",
+                              "+BM1",
+                              "+X10",
+                              "+B64",
+                              "+BP",
+                              "Bounding_Threshold=3",
+                              "+MB10",
+                              "+WL5",
+                              "+UV",
+                              "-UL",
+                              "Field_Render=off",
+                              "+BS16",
+                              "+SP64",
+                              "+HR",
+                              "Display=off",
+                              "Test_Abort=on",
+                              "+GIa",
+                              "+RP2",
+                              "+MI128",
+                              "+BM2",
+                              "Odd_Field=off",
+                              "-UF",
+                              "+UO",
+                              "+TH",
+                              "Dither=off",
+                              "Dither_Method=FS",
+                              "+RS2",
+                              "-RTR",
+                              "+RVP",
+                              "+RFa.rca",
+                              "Real_Time_Raytracing=off",
+                              "+DV",
+                              "+GP",
+                              "Palette=3",
+                              "Video_Mode=1",
+                              "Clockless_Animation=off",
+                              "-RFI",
+                              "+SU",
+                              "BSP_MaxDepth=16",
+                              "BSP_MissChance=0.3",
+                              "Render_Block_Step=1",
+                              "Display_Gamma=sRGB",
+                              "Radiosity_To_File=off",
+                              "Radiosity_From_File=off",
+                              "Radiosity_Vain_Pretrace=off",
+                              "Radiosity_File_Name=a b.rca",
+                              "Pre_Scene_Return=I",
+                              "Post_Frame_Return=-S",
+                              "Fatal_Error_Return=I",
+                              "Antialias_Confidence=0.9",
+                              "Create_Continue_Trace_Log=on",
+                              "Max_Image_Buffer_Memory=128",
+                              "Preview_Start_Size=8",
+                              "Test_Abort_Count=5",
+                              "Buffer_Size=64",
+                              "Pre_Scene_Command=rm -rf x",
+                              "Post_Frame_Command=\"mv %s x\""};
   for (const std::string& text : harmless) {
     CAPTURE(text);
     CHECK(translated({text, "a.pov"}) == Arguments{"a.pov"});
@@ -80,25 +117,64 @@ TEST_CASE("harmless switches are ignored with a note") {
 }
 
 TEST_CASE("switches that would change the picture are refused by name") {
-  const Arguments refused = {"+FT", "+FJ", "+UF", "+HIa.inc", "Output_File_Type=T"};
-  for (const std::string& text : refused) {
+  CHECK_THROWS_WITH(translate_pov_switches({"Clockless_Animation=on", "a.pov"}),
+                    Contains("'Clockless_Animation=on'") && Contains("not supported yet"));
+  for (const std::string text : {"+FS", "Output_File_Type=X", "+FTg", "+FNx", "+FN16g"}) {
     CAPTURE(text);
-    CHECK_THROWS_WITH(translate_pov_switches({text, "a.pov"}),
-                      Contains("not supported yet") && Contains(text));
+    CHECK_THROWS_WITH(translate_pov_switches({text, "a.pov"}), Contains("'" + text + "'"));
   }
-  CHECK_THROWS_WITH(translate_pov_switches({"+UF", "a.pov"}),
-                    Contains("'+UF'") && Contains("is not supported yet"));
+}
+
+TEST_CASE("commands of the shell are never run") {
+  CHECK_THAT(translate_pov_switches({"Post_Scene_Command=touch x", "a.pov"}).notes.at(0),
+             Contains("'Post_Scene_Command=touch x' is not run"));
 }
 
 TEST_CASE("unknown and unfinished switches are refused by name") {
-  for (const std::string text :
-       {"+Z",  "+Y7", "+Pause", "+Jx", "+",    "Depth=5", "=5",      "+W",
-        "+Wx", "+I",  "+O",     "+L",  "+Q",   "Width=",  "+H12a",   "+S6",
-        "+Ax", "+R",  "+AM",    "+SC", "+ECx", "+K",      "+K1.2.3", "Antialias_Gamma=no"}) {
-    if (text == "+" || text == "=5") { // no switch and no setting: files with odd names
-      CHECK(translated({text}) == Arguments{text});
-      continue;
-    }
+  for (const std::string text : {"+Z",
+                                 "+Y7",
+                                 "+Pause",
+                                 "+Jx",
+                                 "Depth=5",
+                                 "+W",
+                                 "+Wx",
+                                 "+I",
+                                 "+O",
+                                 "+L",
+                                 "+Q",
+                                 "Width=",
+                                 "+S6",
+                                 "+Ax",
+                                 "+R",
+                                 "+AM",
+                                 "+SC",
+                                 "+ECx",
+                                 "+K",
+                                 "+Kinf",
+                                 "Antialias_Gamma=no",
+                                 "+W0",
+                                 "+W-12",
+                                 "+H.9e2",
+                                 "Width=0x10",
+                                 "+BS",
+                                 "+KC1",
+                                 "+UA1",
+                                 "Declare=X",
+                                 "Declare=X=",
+                                 "Declare==1",
+                                 "Declare=1X=2",
+                                 "Declare=a-b=1",
+                                 "Declare=sphere=1",
+                                 "Declare=X=1e400",
+                                 "File_Gamma=0",
+                                 "File_Gamma=x",
+                                 "++W20",
+                                 "+-W20",
+                                 "+",
+                                 "-",
+                                 "+1",
+                                 "+A-1",
+                                 "+A5"}) {
     CAPTURE(text);
     CHECK_THROWS_WITH(translate_pov_switches({text, "a.pov"}), Contains("'" + text + "'"));
   }
@@ -134,8 +210,24 @@ TEST_CASE("regions, quality, clock, file types") {
   CHECK(translated({"+Q12"}) == Arguments{"--quality", "11"});
   CHECK(translated({"-F"}) == Arguments{"--picture", "off"});
   CHECK(translated({"+FP", "Output_to_File=off"}) == Arguments{"--picture", "off", "--file-type", "ppm"});
-  CHECK(translated({"+FE", "+O-"}) == Arguments{"--picture", "on", "--file-type", "exr", "-o", "-"});
+  CHECK(translated({"+FE", "+O-"}) ==
+        Arguments{"--picture", "on", "--file-type", "exr", "--pov-output", "-"});
   CHECK(translated({"Output_File_Type=H"}) == Arguments{"--file-type", "hdr"});
+  CHECK(translated({"+FT"}) == Arguments{"--picture", "on", "--file-type", "tga"});
+  CHECK(translated({"+FC"}) == Arguments{"--picture", "on", "--file-type", "tga", "--compression", "rle"});
+  CHECK(translated({"+FC", "+FB8"}) == Arguments{"--picture", "on", "--file-type", "bmp"});
+  CHECK(translated({"+FJ85", "Compression=70"}) ==
+        Arguments{"--picture", "on", "--file-type", "jpeg", "--jpeg-quality", "70"});
+  CHECK(translated({"Compression=5"}).empty());
+  CHECK(translated({"+FN5"}) == Arguments{"--picture", "on", "--file-type", "png", "--bits", "8"});
+  CHECK(translated({"+FN8", "Grayscale_Output=on"}) ==
+        Arguments{"--picture", "on", "--file-type", "png", "--grey", "on"});
+  CHECK(translated({"+FNg"}) == Arguments{"--picture", "on", "--file-type", "png", "--grey", "on"});
+  CHECK(translated({"Grayscale_Output=on"}) == Arguments{"--grey", "on"});
+  CHECK(translated(
+            {"+FNg", "Grayscale_Output=off", "File_Gamma=2.2", "File_Gamma=sRGB", "Bits_Per_Colour=10"}) ==
+        Arguments{"--picture", "on", "--file-type", "png", "--bits", "16"});
+  CHECK(translated({"File_Gamma=1.8"}) == Arguments{"--file-gamma", "1.8"});
   CHECK(translated({"+V"}) == Arguments{"--verbose", "on"});
   CHECK(translated({"Verbose=false"}) == Arguments{"--verbose", "off"});
   CHECK(translated({"+UA"}) == Arguments{"--alpha", "on"});
@@ -153,65 +245,46 @@ TEST_CASE("of what is repeated the last counts") {
   CHECK(translated({"+W10", "+H20", "+W30"}) == Arguments{"-W", "30", "-H", "20"});
   CHECK(translated({"+Ia.pov", "+W10", "+Ib"}) == Arguments{"b.pov", "-W", "10"});
   CHECK(translated({"+Ia.pov", "c.pov"}) == Arguments{"c.pov"});
+  CHECK(translated({"a.pov", "b.pov"}) == Arguments{"b.pov"});
   CHECK(translated({"+Ia.pov", "--quiet", "-W", "8"}) == Arguments{"a.pov", "--quiet", "-W", "8"});
   // Among celltrace's own options the order stays.
   CHECK(translated({"+W10", "-W", "20", "+W30"}) == Arguments{"-W", "10", "-W", "20", "-W", "30"});
-  CHECK(translated({"+La", "+Lb", "Declare=x=1", "Declare=y=2"}) ==
-        Arguments{"-L", "a", "-L", "b", "--declare", "x=1", "--declare", "y=2"});
+  CHECK(translated({"+La", "+Lb", "Declare=A=1", "Declare=B=2"}) ==
+        Arguments{"-L", "a", "-L", "b", "--declare", "A=1", "--declare", "B=2"});
 }
 
-namespace {
-
-Arguments with_files(const Arguments& arguments, const std::map<std::string, std::string>& files) {
-  const auto read = [&](const std::string& name) {
-    const auto found = files.find(name);
-    if (found == files.end()) throw InputError(name + ": cannot be read");
-    return found->second;
-  };
-  Arguments result = translate_pov_switches(arguments, read).arguments;
-  result.erase(result.begin());
-  return result;
+TEST_CASE("declarations") {
+  CHECK(translated({"Declare=X=+1", "Declare=Y=1e-3", "Declare=Z=.5"}) ==
+        Arguments{"--declare", "X=1", "--declare", "Y=0.001", "--declare", "Z=0.5"});
+  CHECK(translated({"Declare=X=\"te xt\"", "Declare='Y=\"5\"'", "Declare=\"Z=5\"", "Declare=W=text"}) ==
+        Arguments{"--declare", "X=\"te xt\"", "--declare", "Y=\"5\"", "--declare", "Z=5", "--declare",
+                  "W=text"});
+  CHECK(translated({"Declare=X=1,2"}) == Arguments{"--declare", "X=1"});
+  CHECK(notes({"Declare=X=1,2"}) == 1);
+  // As in POV-Ray, the first one counts.
+  CHECK(translated({"Declare=X=2", "Declare=X=3"}) == Arguments{"--declare", "X=2"});
+  CHECK(notes({"Declare=X=2", "Declare=X=3"}) == 1);
+  CHECK(translated({"Declare=clock=2", "Declare=clock=3"}) ==
+        Arguments{"--declare", "clock=2", "--declare", "clock=3"});
 }
 
-} // namespace
+TEST_CASE("streams of messages") {
+  CHECK(translated({"+GAa b.txt", "Debug_File=\"d.txt\"", "Statistic_File=on", "Append_File=on"}) ==
+        Arguments{"--message-file", "all=a b.txt", "--message-file", "debug=d.txt", "--message-file",
+                  "statistics=stats.out", "--append-messages", "on"});
+  CHECK(translated({"All_File=a.txt", "All_File=off"}).empty());
+  CHECK(translated({"-GW", "Debug_Console=off", "+GD"}) == Arguments{"--hide", "warning"});
+  CHECK(translated({"-GAa.txt"}) == Arguments{"--hide", "all", "--message-file", "all=a.txt"});
+  CHECK(translated({"-GF"}).empty());
+  CHECK(notes({"-GF"}) == 1);
+}
 
-TEST_CASE("INI files") {
-  const std::map<std::string, std::string> files = {
-      {"a.ini", "; a comment\n"
-                "Input_File_Name = a.pov ; another\r\n"
-                "  Width=40\n# and this\n"
-                "+H20 Declare=A=2 -J\n"
-                "Library_Path=\"my files\"\n"
-                "[Large]\nWidth=400\n[Small]\nWidth=4 ; tiny\nAntialias=on\n"},
-      {"b.INI", "a.ini[large]\nInclude_INI=c.ini\n"},
-      {"c.ini", "Output_File_Name='b.png'"},
-      {"empty.ini", ""},
-      {"wrong.ini", "\nWidth=40\nWidth=4x\n"},
-      {"unknown.ini", "Foo=1\n"},
-      {"open.ini", "+W4 '+H20\n"},
-      {"bracket.ini", "[One\n"},
-      {"itself.ini", "+W4 itself.ini\n"}};
-  CHECK(with_files({"a.ini"}, files) ==
-        Arguments{"a.pov", "-W", "40", "-H", "20", "--declare", "A=2", "-L", "my files"});
-  CHECK(with_files({"a.ini", "+W7"}, files) ==
-        Arguments{"a.pov", "-W", "7", "-H", "20", "--declare", "A=2", "-L", "my files"});
-  CHECK(with_files({"a.ini[small]"}, files) == Arguments{"a.pov", "-W", "4", "-H", "20", "--declare", "A=2",
-                                                         "-L", "my files", "--antialias", "0.3"});
-  CHECK(with_files({"b.INI"}, files) ==
-        Arguments{"a.pov", "-W", "400", "-H", "20", "--declare", "A=2", "-L", "my files", "-o", "b.png"});
-  CHECK(with_files({"empty.ini", "x.pov"}, files) == Arguments{"x.pov"});
-  CHECK(with_files({"-o", "x.ini"}, files) == Arguments{"-o", "x.ini"});
-
-  CHECK_THROWS_WITH(with_files({"none.ini"}, files), "none.ini: cannot be read");
-  CHECK_THROWS_WITH(with_files({"a.ini[medium]"}, files), "a.ini: has no section [medium]");
-  CHECK_THROWS_WITH(with_files({"a.ini[small"}, files), "'a.ini[small': a section's name has to end with ]");
-  CHECK_THROWS_WITH(with_files({"wrong.ini"}, files),
-                    "wrong.ini:3: 'Width=4x' must be followed by a number, without a space");
-  CHECK_THROWS_WITH(with_files({"unknown.ini"}, files),
-                    "unknown.ini:1: 'Foo=1' is no setting of POV-Ray that is known here");
-  CHECK_THROWS_WITH(with_files({"open.ini"}, files), "open.ini:1: a quote is not closed");
-  CHECK_THROWS_WITH(with_files({"bracket.ini"}, files), "bracket.ini:1: a section's name has to end with ]");
-  CHECK_THROWS_WITH(with_files({"itself.ini"}, files), Contains("include each other"));
+TEST_CASE("options stand where the last of what they are made of stood") {
+  // Words before and after may be options that a user's files and environment hold.
+  CHECK(translated({"Antialias=on", "--antialias", "0.1"}) ==
+        Arguments{"--antialias", "0.3", "--antialias-jitter", "1", "--antialias", "0.1"});
+  CHECK(translated({"Antialias=on", "--antialias", "0.1", "+A0.2", "-J"}) ==
+        Arguments{"--antialias", "0.1", "--antialias", "0.2"});
 }
 
 TEST_CASE("celltrace's own options and their values pass through") {

@@ -98,6 +98,24 @@ TEST_CASE("include files are searched for in order") {
   CHECK(file_output(folder.write("asking.pov", asking)) == "10");
 }
 
+TEST_CASE("a header is read before the scene") {
+  const Folder folder;
+  const Folder elsewhere;
+  ParseOptions options;
+  options.header =
+      elsewhere.write("h.inc", "#declare A = 5; #local B = 1; #debug \"header \" #include \"i.inc\"");
+  elsewhere.write("i.inc", "#debug \"included \"");
+  options.readable_folders = {elsewhere.path("")};
+  const std::string scene = folder.write("scene.pov", "#debug str(A, 0, 0) #ifdef (B) #debug \"leak\" #end");
+  CHECK(file_output(scene, options) == "header included 5");
+  options.header = elsewhere.write("wrong.inc", "\noops");
+  CHECK(file_error(scene, options) ==
+        elsewhere.path("wrong.inc") + ":2:1: error: 'oops' is undeclared\n  included from " + scene + ":1");
+  options.header = elsewhere.path("none.inc");
+  CHECK_THROWS_WITH(parse_file(scene, options),
+                    Catch::StartsWith("header " + elsewhere.path("none.inc") + ": "));
+}
+
 TEST_CASE("a semicolon may follow the name of a file that ends with a declaration") {
   Folder folder;
   for (const char* text :
