@@ -67,9 +67,26 @@ def transparent():
     place(material("shell", (0.3, 0.6, 0.9), 0.4))
 
 
+def orthographic():
+    """A camera whose `angle` has no number in the scene."""
+    meshes()
+    bpy.context.scene.camera.data.type = "ORTHO"
+    bpy.context.scene.camera.data.ortho_scale = 7
+
+
+def lamps():
+    """A sun, a spotlight and an area lamp, under a sky."""
+    smooth()
+    for kind, settings in (("SUN", {"energy": 2}), ("SPOT", {"energy": 500, "spot_size": 0.8}), ("AREA", {"energy": 300, "size": 1.5})):
+        bpy.ops.object.light_add(type=kind, location=(3, -3, 5), rotation=(math.radians(35), math.radians(15), 0))
+        for name, value in settings.items():
+            setattr(bpy.context.object.data, name, value)
+    bpy.context.scene.world.pov.use_sky_blend = True
+
+
 folder = os.getcwd()
 bpy.ops.preferences.addon_enable(module="render_povray")
-for scene in (meshes, smooth, atoms, transparent):
+for scene in (meshes, smooth, atoms, transparent, lamps, orthographic):
     stage()
     scene()
     settings = bpy.context.scene

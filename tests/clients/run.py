@@ -32,7 +32,8 @@ printf '%s\\n' "$*" >> '{log}'
 exec '{program}' "$@"
 """
 PLAIN = """#!/bin/sh
-find '{folder}' -name '*.pov' -exec sed -i -E 's/(adaptive [0-9]+) +jitter/\\1/' {{}} +
+grep -rlZE --include='*.pov' 'adaptive [0-9]+ +jitter' '{folder}' 2>/dev/null |
+  xargs -0 -r sed -i -E 's/(adaptive [0-9]+) +jitter/\\1/'
 exec '{program}' "$@" -D -P -J
 """
 
@@ -77,7 +78,7 @@ def clients():
         of_program("jmol", "jmol", "jmol", 17, display=True),
         scripted("vtk", "python3-vtk9", "vtkmodules", 11, display=True),
         of_program("openbabel", "openbabel", "obabel", 4),
-        of_program("blender", "blender", "blender", 4, ["blender", "-b", "-P", "blender_scenes.py"]),
+        of_program("blender", "blender", "blender", 6, ["blender", "-b", "-P", "blender_scenes.py"]),
         scripted("mayavi", "mayavi2", "mayavi", 3, display=True),
         scripted("command_lines", "povray", None, 45),
     ]

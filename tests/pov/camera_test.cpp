@@ -73,6 +73,8 @@ TEST_CASE("orthographic cameras are scaled unless they have a size of their own"
   CHECK(width("orthographic location -5*z look_at 0 direction 2*z") == Approx(1.33 * 2.5));
   CHECK(width("orthographic location -5*z look_at 0 angle 90 right 2*x") == Approx(10));
   CHECK(width("orthographic location -5*z look_at 0 angle 0 right 2*x") == Approx(10));
+  CHECK(width("orthographic location -5*z look_at 0 angle right 2*x") == Approx(10));
+  CHECK(width("orthographic angle location -5*z look_at 0 rotate 10*y") == Approx(1.33 * 5));
 }
 
 TEST_CASE("transformations come last") {
