@@ -177,6 +177,12 @@ void set_angle(Session& session, CameraDefinition& camera, double angle, const L
   camera.direction = view.direction;
 }
 
+void set_no_angle(Session& session, CameraDefinition& camera, const Location& where) {
+  if (camera.kind != Camera::Kind::orthographic)
+    session.fail(where, "only an orthographic camera has an 'angle' without a number");
+  set_angle(session, camera, 0, where);
+}
+
 void set_look_at(Session& session, CameraDefinition& camera, const Vec3& point, const Location& where) {
   camera.look_at = point;
   camera.look_at_where = where;

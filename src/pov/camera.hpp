@@ -56,6 +56,8 @@ void set_kind(Session& session, CameraDefinition& camera, int shape, double numb
 void set_angles(Session& session, CameraDefinition& camera, double angle, double vertical_angle,
                 const Location& where);
 void set_angle(Session& session, CameraDefinition& camera, double angle, const Location& where);
+/// Takes the word `angle` without a number, which Blender writes. Fails unless the camera is orthographic.
+void set_no_angle(Session& session, CameraDefinition& camera, const Location& where);
 void set_look_at(Session& session, CameraDefinition& camera, const Vec3& point, const Location& where);
 void transform(CameraDefinition& camera, const Transform& next);
 /// Of a complete camera, at `where`: warns of what makes it stand otherwise than meant, and fails if it looks

@@ -1096,6 +1096,7 @@ camera_body
   | camera_body UP quantity        { $$ = $1; $$->up = session.vector($3, @3); }
   | camera_body SKY quantity       { $$ = $1; $$->sky = session.vector($3, @3); }
   | camera_body LOOK_AT quantity   { $$ = $1; set_look_at(session, *$$, session.vector($3, @3), @2); }
+  | camera_body ANGLE              { $$ = $1; set_no_angle(session, *$$, @2); }
   | camera_body ANGLE number       { $$ = $1; set_angle(session, *$$, $3, @2); }
   | camera_body ANGLE number optional_comma number { $$ = $1; set_angles(session, *$$, $3, $5, @5); }
   | camera_body APERTURE number    { $$ = $1; $$->aperture = $3; $$->aperture_where = @2; }
