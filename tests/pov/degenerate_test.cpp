@@ -78,8 +78,8 @@ TEST_CASE("patterns without an extent") {
   const auto kind = [](const std::string& pigment) {
     return material("pigment { " + pigment + " }").pigment.map->pattern.kind;
   };
-  const auto is_nothing = [](const pattern::Kind& kind) {
-    const auto* crackle = std::get_if<pattern::Crackle>(&kind);
+  const auto is_nothing = [](const pattern::Kind& made) {
+    const auto* crackle = std::get_if<pattern::Crackle>(&made);
     return crackle != nullptr && crackle->form[0] == 0 && crackle->form[1] == 0 && crackle->form[2] == 0;
   };
   CHECK(is_nothing(kind("gradient 0")));
