@@ -110,7 +110,7 @@ TEST_CASE("a header is read before the scene") {
   CHECK(file_output(scene, options) == "header included 5");
   options.header = elsewhere.write("wrong.inc", "\noops");
   CHECK(file_error(scene, options) ==
-        elsewhere.path("wrong.inc") + ":2:1: error: 'oops' is undeclared\n  included from " + scene + ":1");
+        elsewhere.path("wrong.inc") + ":2:1: error: 'oops' is not declared\n    included from " + scene + ":1");
   options.header = elsewhere.path("none.inc");
   CHECK_THROWS_WITH(parse_file(scene, options),
                     Catch::StartsWith("header " + elsewhere.path("none.inc") + ": "));
