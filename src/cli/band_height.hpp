@@ -5,15 +5,15 @@
 
 namespace celltrace::cli {
 
-/// Bands of rows that take some seconds each, on threads of this computer; what else there is is rendered at
-/// once, unless memory has no room for it.
+/// Chooses bands that take some seconds each where threads of this computer render; emulated machines and
+/// models other than `shared` get all rows at once, unless memory has no room for them.
 class BandHeight {
 public:
   explicit BandHeight(const RenderOptions& options);
 
-  /// Of a picture of `height` rows `rows` follow each other that are missing.
+  /// Returns how many of `rows` rows that follow each other come next, in a picture of `height` rows.
   int of(int rows, int height) const;
-  /// A band of so many rows has taken so long.
+  /// Takes note of how long the last band took.
   void learn(int rows, double seconds) { seconds_a_row_ = seconds / rows; }
 
 private:

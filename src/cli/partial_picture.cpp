@@ -24,7 +24,7 @@ template <class Picture> void clear_part(Picture& picture, const PictureRegion& 
     std::fill_n(picture.pixel(part.left, y), 4 * (part.right - part.left), 0);
 }
 
-/// Of what is seen first, whole rows.
+/// Copies whole rows of what is seen first.
 void copy_rows(const FirstHits& from, FirstHits& to, int top, int bottom) {
   const auto width = static_cast<std::ptrdiff_t>(to.width);
   const auto copy = [&](const auto& numbers, auto& copied, std::ptrdiff_t channels) {
@@ -35,7 +35,7 @@ void copy_rows(const FirstHits& from, FirstHits& to, int top, int bottom) {
   copy(from.normal, to.normal, 3);
   copy(from.object, to.object, 1);
 }
-/// Of blocks, whole rows of those that begin in these rows.
+/// Copies whole rows of the blocks that begin in these rows.
 void copy_rows(const BlockImage& from, BlockImage& to, int top, int bottom) {
   const std::ptrdiff_t row = std::ptrdiff_t{8} * to.columns();
   const std::ptrdiff_t first = top / 4 * row, end = (bottom + 3) / 4 * row;

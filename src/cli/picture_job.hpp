@@ -37,7 +37,7 @@ private:
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// What became of a picture.
+/// Result of rendering a picture.
 struct PictureOutcome {
   RenderStatistics statistics; ///< of all that was rendered now
   bool complete = true;

@@ -64,7 +64,7 @@ void visit_part(Rows& rows, const PictureRegion& part, double& gamma, Visitor& v
   }
 }
 
-/// As a gamma: colours have none.
+/// Gamma of colours that have none, in bytes.
 constexpr double kNoGamma = 0;
 
 } // namespace

@@ -20,13 +20,14 @@ struct PictureRows {
 /// Moves the pictures out of a result.
 PictureRows rows_of(RenderResult&& result);
 
-/// A part of all forms, as bytes that this computer understands. Of blocks, whole rows of those that begin in
-/// the part.
+/// Returns a part of all forms as bytes that this computer understands; of blocks, whole rows of those that
+/// begin in the part.
 std::string bytes_of(const PictureRows& rows, const PictureRegion& part);
-/// Puts back what bytes_of() gave. False: these are not the bytes of such a part, and it may have changed.
+/// Puts back what bytes_of() gave. Returns false if these are not the bytes of such a part; it may have
+/// changed then.
 bool take_bytes(std::string_view bytes, PictureRows& rows, const PictureRegion& part);
 
-/// Whether rays have reached all pixels of a part: where none has, alpha is 0.
+/// Returns whether rays have reached all pixels of a part: where none has, alpha is 0.
 bool has_all_pixels(const Image& image, const PictureRegion& part);
 
 } // namespace celltrace::cli

@@ -1,5 +1,6 @@
 #include "cli/poster.hpp"
 
+#include "celltrace/error.hpp"
 #include "cli/band_height.hpp"
 #include "cli/picture_rows.hpp"
 #include "cli/row_keeper.hpp"
@@ -16,19 +17,19 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Pictures of more pixels are posters: in memory as a whole they may take 100 bytes a pixel.
+/// Limit of pictures that are in memory whole, where they may take 100 bytes a pixel.
 constexpr std::int64_t kMostPixelsOfWhole = std::int64_t{1} << 24;
 /// Pixels of a poster's band, unless the least number of rows has more.
 constexpr std::int64_t kPixelsOfBand = std::int64_t{1} << 20;
-/// Rows are kept if rendering them took longer than writing their bytes at this rate: others are rendered
-/// again as fast as they were read.
+/// Rate below which rendered rows are worth keeping: rendering others again takes no longer than reading
+/// them.
 constexpr double kBytesToKeepPerSecond = 50e6;
 
 PictureRegion region_of(const RenderOptions& options) {
   return options.region.value_or(PictureRegion{0, options.width, 0, options.height});
 }
 
-/// Room for rows of the region, in each form that goes out.
+/// Makes room for rows of the region, in each form that goes out.
 PictureRows make_rows(const RenderOptions& options, int count) {
   const PictureRegion region = region_of(options);
   const int width = region.right - region.left;
@@ -82,7 +83,7 @@ public:
   }
 
 private:
-  /// False: there are no such rows.
+  /// Writes rows that are kept. Returns false if there are none after all.
   bool take_kept(const RowsFile::Rows& part) {
     const int count = part.bottom - part.top;
     const bool is_band = part.bottom <= height_ && count <= options_.rows_at_once;
@@ -114,8 +115,8 @@ private:
     return seconds;
   }
 
-  /// Rows that no render has to bring again: all, or of a band that was broken off those blocks that are
-  /// final. With antialiasing a pixel that is there may be its first ray's only.
+  /// Returns the rows that no render has to bring again: all, or of a band that was broken off those blocks
+  /// that are final. With antialiasing a pixel that is there may be its first ray's only.
   std::vector<PictureRegion> finished_parts(const RenderResult& result, int rows) const {
     if (result.complete) return {{0, width_, 0, rows}};
     std::vector<PictureRegion> parts;
@@ -151,12 +152,18 @@ private:
 
 int rows_at_once(const RenderRequest& request) {
   const RenderOptions& options = request.options;
+  const std::int64_t pixels = std::int64_t{options.width} * options.height;
   const bool is_whole = request.film != FilmFormat::none || options.model != Model::shared ||
                         (!request.output.empty() && request.format == ImageFormat::dds);
+  if (is_whole && pixels > kMaxImagePixels)
+    throw InputError("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
+                     " pixels is too large: films, DirectDraw surfaces and models other than shared are in "
+                     "memory as a whole, of " +
+                     std::to_string(kMaxImagePixels) + " pixels at most");
   if (is_whole) return 0;
   const PictureRegion region = region_of(options);
   const int height = region.bottom - region.top;
-  const bool is_large = std::int64_t{options.width} * options.height > kMostPixelsOfWhole;
+  const bool is_large = pixels > kMostPixelsOfWhole;
   if (!is_large) {
     const bool is_read = request.output == kStandardOutput || image::is_stream(request.output);
     return is_read && options.backend == Backend::native ? height : 0;

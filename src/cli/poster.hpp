@@ -10,11 +10,12 @@
 
 namespace celltrace::cli {
 
-/// RenderOptions::rows_at_once of a picture that is large, or that somebody reads while it is rendered; 0 of
-/// others, which are in memory whole. Films, surfaces in blocks and models other than `shared` are always.
+/// Chooses RenderOptions::rows_at_once for a picture that is large, or that somebody reads while it is
+/// rendered. Returns 0 for others, which are in memory whole. Films, surfaces in blocks and models other than
+/// `shared` are always: throws InputError if they are too large for that.
 int rows_at_once(const RenderRequest& request);
 
-/// As render_picture(), row by row.
+/// Does what render_picture() does, band by band.
 PictureOutcome render_poster(Renderer& renderer, const RenderRequest& request,
                              const std::filesystem::path& path, RowsFile& kept, const Progress& progress);
 

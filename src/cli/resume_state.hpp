@@ -27,8 +27,8 @@ public:
   /// What an earlier run left. Throws InputError if that had other settings.
   void load();
   bool has_frame(int frame, const std::filesystem::path& picture) const;
-  /// The rows of a frame that an earlier run left, and where to append those of this run. Throws InputError
-  /// if settings, or files that the frame is read from, are others than then.
+  /// Opens the rows of a frame that an earlier run left, to which those of this run are appended. Throws
+  /// InputError if settings, or files that the frame is read from, are others than then.
   RowsFile rows_of(int frame, const Settings& files) const;
 
   /// Its picture is written. Its rows are not needed any more.

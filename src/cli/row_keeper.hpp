@@ -9,13 +9,14 @@
 
 namespace celltrace::cli {
 
-/// Keeps finished rows in a file. If that cannot be written, it says so once and keeps no more: the picture
-/// matters more.
+/// Appends finished rows to a file. If that cannot be written, there is one warning, and no more rows are
+/// kept: the picture matters more.
 class RowKeeper {
 public:
   explicit RowKeeper(RowsFile& file) : file_(file) {}
 
-  /// After some rows more of a picture in memory: now and then. `at_once`: there will be no more.
+  /// Appends the new rows of a picture in memory every ten seconds or so, or at once if there will be no
+  /// more.
   void save(const PartialPicture& picture, bool at_once);
   /// Calls append(file).
   template <class Append> void keep(Append append) {

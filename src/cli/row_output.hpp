@@ -13,7 +13,7 @@
 
 namespace celltrace::cli {
 
-/// The rows of the picture that is asked for, from the top of the region on; what surrounds the region is
+/// Picture file or stream that takes the rows of the region from the top on; what surrounds the region is
 /// blank: black, or clear in pictures with alpha. Errors are InputErrors with the name of the file.
 class RowOutput {
 public:
@@ -24,14 +24,14 @@ public:
   void write(const PictureRows& rows);
   /// Appends rows in which nothing is.
   void write_blank(int count);
-  /// Writes what is below the region; a file takes its name.
+  /// Writes what is below the region; then a file takes its name.
   void finish();
 
 private:
   template <class Work> void naming_the_file(Work work);
   void open(const std::optional<double>& gamma);
   void put(const PictureRows& rows);
-  /// Rows of the whole width.
+  /// Appends blank rows.
   void put_blank(int count);
   void make_blank_row();
 

@@ -21,7 +21,7 @@ public:
   /// none; then the first append() replaces the file.
   RowsFile(std::filesystem::path path, std::string head);
 
-  /// The head of a file. None: there is no such file, or it is damaged.
+  /// Returns the head of a file; none if there is no such file, or if it is damaged.
   static std::optional<std::string> head_of(const std::filesystem::path& path);
 
   bool is_kept() const { return !path_.empty(); }
@@ -29,12 +29,12 @@ public:
   struct Rows {
     int top, bottom;
   };
-  /// The first part that begins with this row or one below. None: there is no such part.
+  /// Returns the first part that begins with this row or one below; none if there is no such part.
   std::optional<Rows> next(int top) const;
-  /// The rows of all parts.
+  /// Counts the rows of all parts.
   int count() const;
-  /// The bytes of the part that begins with this row. None: there is no such part, or it is damaged; from
-  /// then on there is none.
+  /// Returns the bytes of the part that begins with this row; none if there is no such part, or if it is
+  /// damaged, which is forgotten then.
   std::optional<std::string> read(int top);
   /// Throws InputError if the file cannot be written.
   void append(int top, int bottom, std::string_view bytes);

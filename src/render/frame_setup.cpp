@@ -124,7 +124,7 @@ void check(const Antialiasing& antialiasing, Model model) {
     throw InputError("the gamma of antialiasing has to be above 0");
 }
 
-/// Pixels that are in memory at a time.
+/// Checks how many pixels are in memory at a time.
 void check_memory(const RenderOptions& options) {
   const PictureRegion region = region_of(options);
   const int height = region.bottom - region.top;

@@ -25,7 +25,7 @@ AlignedBlock make_list_target(std::size_t bytes) {
   return block;
 }
 
-/// Rows of packets that render_rows() may need at a time: all of whole bundles.
+/// Counts the rows of packets that render_rows() may need at a time: all of whole bundles.
 std::uint32_t rows_in_memory(const RenderOptions& options, const FrameBlock& frame,
                              std::uint32_t bundle_edge) {
   if (options.rows_at_once == 0) return frame.packet_rows;

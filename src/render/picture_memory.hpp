@@ -51,18 +51,18 @@ public:
 private:
   void make_room_for_samples(unsigned spes, std::uint32_t bundle_edge);
   bool has_whole_picture() const;
-  /// The grid's line that is the first one in memory.
+  /// Returns the grid's line that is the first one in memory.
   std::uint32_t first_line() const;
   std::byte* line_of_surface(std::uint32_t line) const;
   std::byte* line_of_colours(std::uint32_t line) const;
   std::byte* row_of_points(std::uint32_t packet_row) const;
-  /// Where rows of the region go to: in pictures of the whole, or of these rows alone.
+  /// Returns where rows of the region go to: in pictures of the whole, or of these rows alone.
   PictureRegion place_in_result(const RowRange& rows) const;
-  /// A picture for the result, opaque black.
+  /// Makes a picture for the result, opaque black.
   template <class Picture> Picture make_picture(const RowRange& rows) const;
   /// Whether the grid begins to the upper left of the picture, as that of the fixed method does.
   bool begins_before_picture() const;
-  /// Of a row of the region.
+  /// Returns where a row of the region begins.
   const std::uint8_t* first_pixel(int row) const;
   /// Where the rows are in the picture and in the grid.
   GridAtPicture grid_at_picture(const RowRange& rows) const;

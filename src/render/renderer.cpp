@@ -380,7 +380,7 @@ private:
     const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
     return {static_cast<std::uint32_t>(rows.top) / height, (lines + height - 1) / height};
   }
-  /// The first line of a row of bundles.
+  /// Returns the first line of a row of bundles.
   std::uint32_t line_of(std::uint32_t bundle_row) const {
     return bundle_row * bundle_edge(machine_->direct_memory()) * kPacketEdge;
   }

@@ -78,6 +78,17 @@ TEST_CASE("a poster of A0 at 300 dpi is rendered, and so is the largest picture"
   CHECK(nlohmann::json::parse(largest.out)["rays"]["primary"] == 65535);
 }
 
+TEST_CASE("what has to be in memory whole says what is too large") {
+  const TemporaryFolder folder;
+  write_scene(folder);
+  for (const char* output : {"p.dds", "p.y4m"}) {
+    const Outcome outcome = celltrace_run(folder, {"s.pov", "+W14043", "+H9933", "-o", output});
+    CHECK(outcome.exit_code == 1);
+    CHECK(lines(outcome.err) == 1);
+    CHECK_THAT(outcome.err, Contains("14043x9933") && Contains("134217728"));
+  }
+}
+
 TEST_CASE("a poster takes memory for some rows only") {
   const TemporaryFolder folder;
   write_bytes(folder / "s.pov", "camera { location -6*z look_at 0 } background { rgb 1 }\n");
@@ -172,8 +183,8 @@ TEST_CASE("a reader sees the first rows before the last ones are rendered") {
 }
 
 TEST_CASE("a poster that is killed goes on with the rows that are missing") {
-  const Arguments more = GENERATE(Arguments{"-o", "p.ppm"}, Arguments{"-o", "p.png", "+FN16", "+UA"},
-                                  Arguments{"-o", "p.ppm", "+A0.3", "+J0.5", "+R2"});
+  const Arguments more = GENERATE(Arguments{"-o", "p.png"}, Arguments{"-o", "p.png", "+FN16", "+UA"},
+                                  Arguments{"-o", "p.png", "+A0.3", "+J0.5", "+R2"});
   const bool is_asked_for = more.size() > 2; // else rows are kept as they take long
   const TemporaryFolder folder;
   write_slow_scene(folder);
@@ -213,9 +224,9 @@ TEST_CASE("frames of an animation may be posters") {
   const TemporaryFolder folder;
   write_scene(folder);
   const Outcome outcome = celltrace_run(
-      folder, {"s.pov", "+W4200", "+H4200", "+SR2100", "+ER2101", "+KFF2", "-o", "f.ppm", "--quiet"});
+      folder, {"s.pov", "+W4200", "+H4200", "+SR2100", "+ER2101", "+KFF2", "-o", "f.png", "--quiet"});
   CAPTURE(outcome.err);
   CHECK(outcome.exit_code == 0);
-  CHECK(load_image(folder / "f1.ppm").pixel(2000, 2100)[1] != 0);
-  CHECK((read_bytes(folder / "f1.ppm") == read_bytes(folder / "f2.ppm")));
+  CHECK(load_image(folder / "f1.png").pixel(2000, 2100)[1] != 0);
+  CHECK((read_bytes(folder / "f1.png") == read_bytes(folder / "f2.png")));
 }

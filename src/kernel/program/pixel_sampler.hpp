@@ -193,7 +193,7 @@ protected:
     if constexpr (!kReadsInPlace<Spu>) spu_.wait_all(1u << kTag);
   }
 
-  /// The block's first line, counted from that of the surface.
+  /// Returns the block's first line, counted from that of the surface.
   uint32_t first_line() const { return row_ * kSampledEdge - frame_.surface_row * kPacketEdge; }
 
   // --- the grid ---
