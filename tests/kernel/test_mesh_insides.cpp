@@ -27,7 +27,8 @@ public:
   /// A bit a point; of 16.
   std::uint32_t inside(const VectorLanes& points) {
     const std::uint32_t all = (1u << kSimdLanes) - 1;
-    return inside_solid(scene_, image_.header().solid_offset, points.load<Simd>(), all);
+    const auto loaded = points.load<Simd>();
+    return inside_solid(scene_, image_.header().solid_offset, loaded, loaded, all);
   }
   bool inside(const Vec3& point) {
     VectorLanes points;
