@@ -269,12 +269,16 @@ void add_study_options(CLI::App& command, StudyRequest& request, std::string& ba
   command.add_flag("--quiet", request.quiet, "No progress, and no tables on stdout");
 }
 
-/// As POV-Ray counts: columns and rows from 1 on, below that parts of the whole.
+/// Returns how many columns or rows a part of the whole is. POV-Ray keeps parts in single precision.
+double part_of(double part, int size) {
+  return std::floor(double{static_cast<float>(part)} * size);
+}
+/// Columns and rows are counted as POV-Ray counts them: from 1 on, and below that as parts of the whole.
 int first_of(double start, int size) {
-  return static_cast<int>(std::min(start < 1 ? std::floor(start * size) : std::floor(start) - 1, 1e9));
+  return static_cast<int>(std::min(start < 1 ? part_of(start, size) : std::floor(start) - 1, 1e9));
 }
 int end_of(double end, int size) {
-  return static_cast<int>(std::min(end <= 1 ? std::floor(end * size) : std::floor(end), 1e9));
+  return static_cast<int>(std::min(end <= 1 ? part_of(end, size) : std::floor(end), 1e9));
 }
 void check_part(int first, int end, int size, const char* what) {
   if (end > size || first >= size)

@@ -362,6 +362,7 @@ TEST_CASE("regions count as POV-Ray does") {
   CHECK(columns("1", "1") == std::make_pair(0, 40));
   CHECK(columns("1.5", "5.7") == std::make_pair(0, 5));
   CHECK(columns("0.999", "40") == std::make_pair(39, 40));
+  CHECK(columns("0.1", "0.9") == std::make_pair(4, 35)); // 0.9 is less in single precision
   CHECK_FALSE(render_request({"a.pov", "--start-row", "1", "--end-row", "480"}).options.region);
   CHECK_THAT(render_error({"--end-column", "641"}), Contains("columns") && Contains("640"));
   CHECK_THAT(render_error({"--start-row", "481"}), Contains("rows") && Contains("480"));
