@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 using namespace celltrace;
@@ -35,6 +36,12 @@ Pigment squares(double low, double high, int levels) {
                                Transform::scale(Vec3(0.8)).then(Transform::translate({0.01, 0.02, 0.03}))),
                       {{0, squares(low, middle, levels - 1)}, {1, squares(middle, high, levels - 1)}});
   return pigment;
+}
+
+Material painted(Pigment pigment) {
+  Material material;
+  material.pigment = std::move(pigment);
+  return material;
 }
 
 /// The same map at another place; `apart`: and none of it is shared.
@@ -95,7 +102,7 @@ void check_alike(const MakeMaterial& make) {
 
 TEST_CASE("A large pigment that many objects scale is in the image once") {
   const Pigment pigment = squares(0, 1, 7);
-  check_alike([&](const Transform& by, bool apart) { return Material{moved(pigment, by, apart)}; });
+  check_alike([&](const Transform& by, bool apart) { return painted(moved(pigment, by, apart)); });
 }
 
 TEST_CASE("What a shared pigment's pattern does to space, all of it is in") {
@@ -104,7 +111,7 @@ TEST_CASE("What a shared pigment's pattern does to space, all of it is in") {
   map->pattern.turbulence.amount = {0.2, 0.1, 0.3};
   map->pattern.space.emplace_back(Turbulence{{0.1, 0.1, 0.1}});
   pigment.map = std::move(map);
-  check_alike([&](const Transform& by, bool apart) { return Material{moved(pigment, by, apart)}; });
+  check_alike([&](const Transform& by, bool apart) { return painted(moved(pigment, by, apart)); });
 }
 
 TEST_CASE("Many objects may have one average of pigments, and layers that let light through") {
@@ -117,7 +124,7 @@ TEST_CASE("Many objects may have one average of pigments, and layers that let li
   clear.map = map_of<Pigment>(in_space(pattern::Checker{}, Transform()),
                               {{0, squares(0.2, 0.7, 5)}, {1, Pigment{{1, 1, 1}, 0, 1}}});
   check_alike([&](const Transform& by, bool apart) {
-    const auto below = std::make_shared<const Material>(Material{moved(average, by, apart)});
+    const auto below = std::make_shared<const Material>(painted(moved(average, by, apart)));
     return Material{moved(clear, by, apart), {}, nullptr, below};
   });
 }
@@ -159,7 +166,7 @@ TEST_CASE("A map of textures that are the same everywhere is shared, too") {
 TEST_CASE("A sealed scene image in which a relative map is in another one is refused") {
   const Pigment pigment = squares(0, 1, 7);
   const Scene scene =
-      wall([&](const Transform& by, bool apart) { return Material{moved(pigment, by, apart)}; }, false);
+      wall([&](const Transform& by, bool apart) { return painted(moved(pigment, by, apart)); }, false);
   Bytes bytes = bytes_of(SceneImage(scene));
   CHECK_NOTHROW(SceneImage::from_bytes(bytes));
   ImageHeader& h = header_of(bytes);
