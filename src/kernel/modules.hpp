@@ -22,9 +22,9 @@ constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 /// What becomes of the points of antialiased pictures, and which samples they need besides: by the fixed
 /// method, by the adaptive one, and either with alpha.
-constexpr CodeModule kSampling = {"sampling", 18, 0, 12800};
+constexpr CodeModule kSampling = {"sampling", 18, 0, 13056};
 constexpr CodeModule kSquares = {"squares", 28, 0, 9984};
-constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 12800};
+constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 13056};
 constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 10624};
 /// What primary rays hit, for main memory.
 constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 768};
