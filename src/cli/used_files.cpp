@@ -87,7 +87,7 @@ void prepare_report(const fs::path& path) {
 } // namespace
 
 bool prepare_outputs(RenderRequest& request) {
-  if (!request.output.empty() && request.output != kStandardOutput && image::is_stream(request.output))
+  if (request.output == kStandardOutput || (!request.output.empty() && image::is_stream(request.output)))
     std::signal(SIGPIPE, SIG_IGN);
   fs::path stats = request.stats;
   const std::pair<const char*, fs::path*> reports[] = {
