@@ -136,8 +136,10 @@ PlacedShape place(const Object& object, const Plane& plane) {
 }
 
 PlacedShape place(const Object& object, const Disc& disc) {
-  const double radius = std::abs(disc.radius);
-  if (radius == 0 || std::abs(disc.hole_radius) >= radius) return nothing();
+  // Nothing is seen as far away as this edge, and single precision has the square of it.
+  constexpr double kFarthestEdge = 1e12;
+  if (disc.radius == 0 || std::abs(disc.hole_radius) >= std::abs(disc.radius)) return nothing();
+  const double radius = std::min(std::abs(disc.radius), kFarthestEdge);
   Transform own;
   const Vec3 normal = unit(disc.normal);
   complete_basis(normal, own.rows[0], own.rows[1]);
