@@ -19,17 +19,30 @@ std::string content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What comes out at stderr.
+/// Catches what is written to stderr, for as long as it lives.
+class CaughtErrors {
+public:
+  CaughtErrors() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
+  CaughtErrors(const CaughtErrors&) = delete;
+  CaughtErrors& operator=(const CaughtErrors&) = delete;
+  ~CaughtErrors() { std::cerr.rdbuf(before_); }
+
+  std::string text() const { return text_.str(); }
+
+private:
+  std::ostringstream text_;
+  std::streambuf* before_;
+};
+
+/// Returns what comes out at stderr.
 std::string printed(const MessageRequest& request, const std::string& text) {
-  std::ostringstream out;
-  std::streambuf* const before = std::cerr.rdbuf(out.rdbuf());
+  const CaughtErrors errors;
   {
     MessageFiles files;
     files.open(request);
     std::cerr << text << std::flush;
   }
-  std::cerr.rdbuf(before);
-  return out.str();
+  return errors.text();
 }
 
 const char kText[] = "note: '+D' has no effect here\n"

@@ -24,7 +24,7 @@ bool is_hollow(const Scene& scene, std::size_t object) {
 
 TEST_CASE("fog") {
   const Fog plain = fog("");
-  CHECK(plain.distance == 0);
+  CHECK(plain.distance == 1e7); // POV-Ray's farthest
   CHECK_FALSE(plain.is_ground);
   CHECK(plain.up == Vec3(0, 1, 0));
   CHECK(plain.turbulence.amount == Vec3(0));

@@ -27,6 +27,7 @@ std::string with_first(std::string text, std::string_view first) {
 std::string outcome(const std::string& text) {
   try {
     const Scene scene = parse(text);
+    if (scene.objects.empty()) return "nothing that can be seen";
     const Mesh& mesh = *std::get<std::shared_ptr<const Mesh>>(scene.objects.at(0).shape);
     std::ostringstream all;
     for (const auto* list : {&mesh.vertices, &mesh.normals})

@@ -648,7 +648,9 @@ TEST_CASE("A camera beyond the box around an open mesh is not inside of it") {
   mesh->triangles.push_back({{0, 1, 2}});
   mesh->inside_vector = {0, 0, 1};
   Scene scene;
-  scene.add(matte({1, 1, 1}));
+  Material white;
+  white.pigment.rgb = Vec3(1);
+  scene.add(white);
   scene.lights.push_back({{0, 0, -100}});
   scene.fogs.emplace_back().distance = 3;
   Object wall, open;

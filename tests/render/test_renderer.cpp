@@ -520,8 +520,8 @@ TEST_CASE("Options out of range are refused") {
   refuses([](RenderOptions& o) { o.width = 0; });
   refuses([](RenderOptions& o) { o.width = -4; });
   refuses([](RenderOptions& o) { o.height = 0; });
-  refuses([](RenderOptions& o) { o.width = 65521; });
-  refuses([](RenderOptions& o) { o.height = 65521; });
+  refuses([](RenderOptions& o) { o.width = 65536; });
+  refuses([](RenderOptions& o) { o.height = 65536; });
   refuses([](RenderOptions& o) { o.width = o.height = 65520; }); // more pixels than an Image has
   refuses([](RenderOptions& o) { o.backend = static_cast<Backend>(7); });
   refuses([](RenderOptions& o) { o.simd = static_cast<SimdLevel>(77); });

@@ -1,2 +1,2 @@
-// expect: huge-width.pov:2:8: error: an argument is out of range
-#debug str(1, 1e9, 1e9)
+// expect: huge-width.pov:2:1: error: <invalid>
+#error str(1, 1e9, 1e9)
