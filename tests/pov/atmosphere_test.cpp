@@ -24,7 +24,7 @@ bool is_hollow(const Scene& scene, std::size_t object) {
 
 TEST_CASE("fog") {
   const Fog plain = fog("");
-  CHECK(plain.distance == 1e7); // POV-Ray's farthest
+  CHECK(plain.distance == 0);
   CHECK_FALSE(plain.is_ground);
   CHECK(plain.up == Vec3(0, 1, 0));
   CHECK(plain.turbulence.amount == Vec3(0));
@@ -74,7 +74,7 @@ TEST_CASE("rainbows") {
   const Rainbow plain = rainbow("direction z");
   CHECK(plain.angle == 0);
   CHECK(plain.width == 0);
-  CHECK(plain.distance == 0);
+  CHECK(plain.distance == 1e7); // POV-Ray's farthest
   CHECK(plain.jitter == 0);
   CHECK(plain.up == Vec3(0, 1, 0));
   CHECK(plain.arc_angle > 20000); // that is none: POV-Ray's default is in radians
