@@ -658,6 +658,7 @@ TEST_CASE("A camera beyond the box around an open mesh is not inside of it") {
   wall.interior = scene.add(Interior());
   open.shape = std::shared_ptr<const Mesh>(mesh);
   open.interior = scene.add(Interior());
+  open.no_image = true; // the wall is seen through it
   scene.objects = {wall, open};
   scene.camera.direction = {0, 0, -1};
   const auto brightness = [&](double z, const Transform& by) {
@@ -667,8 +668,8 @@ TEST_CASE("A camera beyond the box around an open mesh is not inside of it") {
   };
   const int in_fog = brightness(-1, Transform());
   CHECK(in_fog < 5);
-  CHECK(brightness(0.05, Transform()) > 100);
+  CHECK(brightness(0.05, Transform()) > 80);
   CHECK(brightness(0.95, Transform()) == in_fog); // behind the mesh
   CHECK(brightness(-1, Transform::scale({1, 1, 3})) == in_fog);
-  CHECK(brightness(-1, Transform::translate({0, 0, -1.05})) > 100);
+  CHECK(brightness(-1, Transform::translate({0, 0, -1.05})) > 80);
 }

@@ -34,7 +34,7 @@ intersection {
 difference {
   object { Ring rotate -50*x }
   box { <-2, -2, -2>, <0, 2, -0.2> }
-  pigment { rgbf <1, 0.8, 0.3, 0.4> }
+  pigment { rgb <1, 0.8, 0.3> }
 }
 merge {
   object { Ring rotate 60*x scale <0.7, 0.8, 0.7> pigment { rgb <0.2, 0.8, 0.4> } }
