@@ -1,4 +1,4 @@
-// Meshes without an inside in CSG: which crossings POV-Ray finds, in mirrors and through glass too.
+// Meshes without an inside in CSG: which crossings POV-Ray finds, in mirrors too.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 camera { location <0, 2, -7> look_at <0, 0.2, 0> angle 48 }
