@@ -19,8 +19,9 @@ namespace {
 
 /// Limit of pictures that are in memory whole, where they may take 100 bytes a pixel.
 constexpr std::int64_t kMostPixelsOfWhole = std::int64_t{1} << 24;
-/// Pixels of a poster's band, unless the least number of rows has more.
-constexpr std::int64_t kPixelsOfBand = std::int64_t{1} << 20;
+/// Pixels of a poster's band, unless the least number of rows has more. Colours as numbers take four times
+/// the memory.
+constexpr std::int64_t kPixelsOfBand = std::int64_t{1} << 20, kPixelsOfColours = kPixelsOfBand / 4;
 /// Rate below which rendered rows are worth keeping: rendering others again takes no longer than reading
 /// them.
 constexpr double kBytesToKeepPerSecond = 50e6;
@@ -130,9 +131,11 @@ private:
 
   void keep(const PictureRows& rows, const PictureRegion& part, int top, double seconds) {
     if (!kept_.is_kept()) return;
-    const std::string bytes = bytes_of(rows, part);
-    if (!keeps_all_ && seconds * kBytesToKeepPerSecond < static_cast<double>(bytes.size())) return;
-    keeper_.keep([&](RowsFile& file) { file.append(top + part.top, top + part.bottom, bytes); });
+    const double pixels = static_cast<double>(width_) * (part.bottom - part.top);
+    const int bytes_a_pixel = (options_.colours ? 16 : 4) + (options_.first_hits ? 20 : 0);
+    if (!keeps_all_ && seconds * kBytesToKeepPerSecond < pixels * bytes_a_pixel) return;
+    keeper_.keep(
+        [&](RowsFile& file) { file.append(top + part.top, top + part.bottom, bytes_of(rows, part)); });
   }
 
   Renderer& renderer_;
@@ -168,7 +171,9 @@ int rows_at_once(const RenderRequest& request) {
     const bool is_read = request.output == kStandardOutput || image::is_stream(request.output);
     return is_read && options.backend == Backend::native ? height : 0;
   }
-  const std::int64_t steps = kPixelsOfBand / (region.right - region.left) / Renderer::kRowStep;
+  const std::int64_t wanted =
+      options.colours || options.alpha || options.first_hits ? kPixelsOfColours : kPixelsOfBand;
+  const std::int64_t steps = wanted / (region.right - region.left) / Renderer::kRowStep;
   return static_cast<int>(
       std::min<std::int64_t>(std::max<std::int64_t>(steps, 1) * Renderer::kRowStep, height));
 }
