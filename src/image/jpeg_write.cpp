@@ -39,14 +39,14 @@ bool finish_picture(jpeg_compress_struct& info, JpegFailure& failure) {
 }
 
 /// libjpeg's state, which frees what it has.
-struct Compressor {
+struct JpegCompressor {
   JpegFailure failure;
   jpeg_compress_struct info = {};
 
-  Compressor() { info.err = failure.begin(); }
-  Compressor(const Compressor&) = delete;
-  Compressor& operator=(const Compressor&) = delete;
-  ~Compressor() { jpeg_destroy_compress(&info); }
+  JpegCompressor() { info.err = failure.begin(); }
+  JpegCompressor(const JpegCompressor&) = delete;
+  JpegCompressor& operator=(const JpegCompressor&) = delete;
+  ~JpegCompressor() { jpeg_destroy_compress(&info); }
 };
 
 class JpegRows : public EncodedRows {
@@ -72,7 +72,7 @@ private:
   }
   void end() override { check(finish_picture(jpeg_.info, jpeg_.failure)); }
 
-  Compressor jpeg_;
+  JpegCompressor jpeg_;
   std::vector<std::uint8_t> row_;
 };
 
