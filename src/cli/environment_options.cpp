@@ -1,6 +1,7 @@
 #include "cli/environment_options.hpp"
 
 #include "celltrace/error.hpp"
+#include "cli/blanks.hpp"
 #include "cli/pov_switches.hpp"
 
 #include <cstdlib>
@@ -8,10 +9,6 @@
 namespace celltrace::cli {
 
 namespace {
-
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
 
 /// Reads words from the front of a text.
 class Splitter {

@@ -1,6 +1,7 @@
 #include "cli/ini_file.hpp"
 
 #include "celltrace/error.hpp"
+#include "cli/blanks.hpp"
 #include "cli/pov_settings.hpp"
 
 #include <algorithm>
@@ -12,12 +13,6 @@ namespace celltrace::cli {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr std::string_view kBlanks = " \t\v\f";
-
-std::string_view trimmed(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
-}
 
 /// Calls `take` with each line of a text, and its number, until that returns false.
 template <class Take> void for_each_line(std::string_view text, Take take) {

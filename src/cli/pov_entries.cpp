@@ -1,16 +1,13 @@
 #include "cli/pov_entries.hpp"
 
 #include "celltrace/error.hpp"
+#include "cli/blanks.hpp"
 
 #include <cctype>
 
 namespace celltrace::cli {
 
 namespace {
-
-bool is_blank(char c) {
-  return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
 
 bool is_quote(char c) {
   return c == '"' || c == '\'';

@@ -1,5 +1,7 @@
 #include "cli/pov_numbers.hpp"
 
+#include "cli/blanks.hpp"
+
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -8,14 +10,6 @@
 namespace celltrace::cli {
 
 namespace {
-
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
-    text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
-    text.remove_suffix(1);
-  return text;
-}
 
 bool is_digit(std::string_view text, std::size_t at) {
   return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
@@ -27,13 +21,13 @@ std::size_t sign_length(std::string_view text) {
 
 FrontNumber front_number(std::string_view text, std::size_t length) {
   const std::string digits(text.substr(0, length)); // strtod() needs a 0 at the end
-  return {std::strtod(digits.c_str(), nullptr), without_blanks(text.substr(length))};
+  return {std::strtod(digits.c_str(), nullptr), trimmed(text.substr(length))};
 }
 
 } // namespace
 
 std::optional<FrontNumber> read_whole(std::string_view text) {
-  text = without_blanks(text);
+  text = trimmed(text);
   std::size_t length = sign_length(text);
   if (!is_digit(text, length)) return std::nullopt;
   while (is_digit(text, length))
@@ -42,7 +36,7 @@ std::optional<FrontNumber> read_whole(std::string_view text) {
 }
 
 std::optional<FrontNumber> read_real(std::string_view text) {
-  text = without_blanks(text);
+  text = trimmed(text);
   const std::size_t sign = sign_length(text);
   const bool has_dot = sign < text.size() && text[sign] == '.';
   if (!is_digit(text, sign + (has_dot ? 1 : 0))) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/pov.hpp"
+#include "cli/blanks.hpp"
 #include "cli/pov_faults.hpp"
 #include "cli/pov_numbers.hpp"
 
@@ -14,11 +15,6 @@
 namespace celltrace::cli {
 
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == text.npos ? std::string() : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
-}
 
 void check_name(const PovEntry& entry, const std::string& name) {
   const auto is_letter = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
@@ -179,9 +175,10 @@ bool PovTranslation::apply_ignored(const PovEntry& entry) {
 }
 
 void PovTranslation::declare(const PovEntry& entry) {
-  const std::size_t equals = std::min(entry.value.find('='), entry.value.size());
-  const std::string name = trimmed(entry.value.substr(0, equals));
-  std::string value = trimmed(entry.value.substr(std::min(equals + 1, entry.value.size())));
+  const std::string_view declared = entry.value;
+  const std::size_t equals = std::min(declared.find('='), declared.size());
+  const std::string name(trimmed(declared.substr(0, equals)));
+  std::string value(trimmed(declared.substr(std::min(equals + 1, declared.size()))));
   if (value.empty()) fail(entry, "declares no value: Declare=NAME=VALUE does, a number or a string");
   check_name(entry, name);
   if (const std::optional<FrontNumber> read = read_real(value)) {

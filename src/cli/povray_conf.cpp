@@ -1,6 +1,7 @@
 #include "cli/povray_conf.hpp"
 
 #include "celltrace/error.hpp"
+#include "cli/blanks.hpp"
 #include "cli/ini_file.hpp"
 
 #include <algorithm>
@@ -38,18 +39,6 @@ struct SecurityName {
 constexpr SecurityName kSecurities[] = {{"none", FileSecurity::none},
                                         {"read-only", FileSecurity::read_only},
                                         {"restricted", FileSecurity::restricted}};
-
-bool is_blank(char c) {
-  return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back()))
-    text.remove_suffix(1);
-  return text;
-}
 
 /// A line without its comment, which a semicolon begins that is not in quotes.
 std::string_view without_comment(std::string_view line) {

@@ -9,7 +9,7 @@ namespace celltrace::image {
 
 namespace {
 
-constexpr std::size_t kHeader = 54,
+constexpr std::size_t kBmpHeader = 54,
                       kAlphaMask = 66; ///< with version 3's header; where version 4 has the mask
 
 std::int64_t number_at(const std::uint8_t* bytes, int count) {
@@ -19,7 +19,7 @@ std::int64_t number_at(const std::uint8_t* bytes, int count) {
   return number;
 }
 
-struct Header {
+struct BmpHeader {
   std::int64_t first; ///< where pixels begin
   int width, height;
   bool from_the_top;
@@ -27,9 +27,9 @@ struct Header {
   bool has_alpha;
 };
 
-Header header_of(std::FILE* file) {
+BmpHeader header_of(std::FILE* file) {
   std::uint8_t h[kAlphaMask + 4] = {};
-  if (std::fread(h, 1, sizeof h, file) < kHeader) throw InputError("is truncated");
+  if (std::fread(h, 1, sizeof h, file) < kBmpHeader) throw InputError("is truncated");
   const std::int64_t info = number_at(h + 14, 4), bits = number_at(h + 28, 2),
                      compression = number_at(h + 30, 4);
   constexpr std::int64_t kInfo = 40, kInfoWithAlpha = 56, kMasks = 3;
@@ -61,7 +61,7 @@ void drop_empty_alpha(Image& image) {
 } // namespace
 
 Image read_bmp(std::FILE* file, std::uintmax_t file_bytes) {
-  const Header header = header_of(file);
+  const BmpHeader header = header_of(file);
   const std::size_t row_bytes = (header.pixel_bytes * static_cast<std::size_t>(header.width) + 3) / 4 * 4;
   if (static_cast<std::uintmax_t>(header.first) + row_bytes * static_cast<std::uintmax_t>(header.height) >
       file_bytes)

@@ -10,7 +10,7 @@ namespace celltrace::image {
 namespace {
 
 /// Words of the header, the magic number first.
-using Header = std::array<std::uint32_t, 32>;
+using DdsHeader = std::array<std::uint32_t, 32>;
 
 constexpr std::uint32_t four_characters(const char (&text)[5]) {
   std::uint32_t word = 0;
@@ -56,7 +56,7 @@ void write_dds(std::FILE* file, const BlockImage& blocks) {
   constexpr std::uint32_t kCaps = 0x1, kHeight = 0x2, kWidth = 0x4, kPixelFormat = 0x1000,
                           kLinearSize = 0x80000;
   constexpr std::uint32_t kFourCharacters = 0x4, kTexture = 0x1000;
-  Header header = {};
+  DdsHeader header = {};
   header[0] = four_characters("DDS ");
   header[1] = 124; // bytes of what follows
   header[2] = kCaps | kHeight | kWidth | kPixelFormat | kLinearSize;

@@ -10,16 +10,16 @@ namespace celltrace::image {
 
 namespace {
 
-constexpr std::size_t kHeader = 18, kFooter = 26;
+constexpr std::size_t kTgaHeader = 18, kTgaFooter = 26;
 
-struct Header {
+struct TgaHeader {
   bool is_grey, has_runs, from_the_top, from_the_right;
   std::size_t pixel_bytes;
   int width, height;
   long first; ///< where pixels begin
 };
 
-Header header_of(const std::uint8_t (&h)[kHeader]) {
+TgaHeader header_of(const std::uint8_t (&h)[kTgaHeader]) {
   const int type = h[2] & 7, alpha_bits = h[17] & 15;
   const bool is_grey = type == 3;
   if (h[1] != 0 || (type != 2 && type != 3) || (h[2] & ~11) != 0 || alpha_bits % 8 != 0)
@@ -29,13 +29,13 @@ Header header_of(const std::uint8_t (&h)[kHeader]) {
   if (h[16] % 8 != 0 || (bytes != expected && bytes != expected + 1))
     throw InputError("is a TGA of a kind that is not read: with a palette, or not of 8 bits a channel");
   return {is_grey, (h[2] & 8) != 0,     (h[17] & 0x20) != 0, (h[17] & 0x10) != 0,
-          bytes,   h[12] + 256 * h[13], h[14] + 256 * h[15], static_cast<long>(kHeader) + h[0]};
+          bytes,   h[12] + 256 * h[13], h[14] + 256 * h[15], static_cast<long>(kTgaHeader) + h[0]};
 }
 
 /// The pixels of a file, one after the other.
-class Pixels {
+class TgaPixels {
 public:
-  Pixels(std::FILE* file, const Header& header) : file_(file), header_(header) {}
+  TgaPixels(std::FILE* file, const TgaHeader& header) : file_(file), header_(header) {}
 
   /// Returns the next one, valid until the next call.
   const std::uint8_t* next() {
@@ -57,7 +57,7 @@ private:
   }
 
   std::FILE* file_;
-  const Header& header_;
+  const TgaHeader& header_;
   std::uint8_t pixel_[4] = {};
   bool is_run_ = false;
   int left_ = 0; ///< pixels of a packet
@@ -66,18 +66,18 @@ private:
 } // namespace
 
 bool is_tga(std::FILE* file, std::uintmax_t file_bytes) {
-  char footer[kFooter] = {};
-  const bool is_read = file_bytes >= kHeader + kFooter &&
-                       std::fseek(file, -static_cast<long>(kFooter), SEEK_END) == 0 &&
-                       std::fread(footer, 1, kFooter, file) == kFooter;
+  char footer[kTgaFooter] = {};
+  const bool is_read = file_bytes >= kTgaHeader + kTgaFooter &&
+                       std::fseek(file, -static_cast<long>(kTgaFooter), SEEK_END) == 0 &&
+                       std::fread(footer, 1, kTgaFooter, file) == kTgaFooter;
   std::rewind(file);
   return is_read && std::memcmp(footer + 8, "TRUEVISION-XFILE.", 18) == 0;
 }
 
 Image read_tga(std::FILE* file, std::uintmax_t file_bytes) {
-  std::uint8_t bytes[kHeader];
-  if (std::fread(bytes, 1, kHeader, file) != kHeader) throw InputError("is truncated");
-  const Header header = header_of(bytes);
+  std::uint8_t bytes[kTgaHeader];
+  if (std::fread(bytes, 1, kTgaHeader, file) != kTgaHeader) throw InputError("is truncated");
+  const TgaHeader header = header_of(bytes);
   check_size(header.width, header.height);
   // A packet of 128 pixels has 2 bytes at least.
   const auto pixels = static_cast<std::uintmax_t>(header.width) * static_cast<std::uintmax_t>(header.height);
@@ -85,7 +85,7 @@ Image read_tga(std::FILE* file, std::uintmax_t file_bytes) {
     throw InputError("is too short for the size it declares");
   if (std::fseek(file, header.first, SEEK_SET) != 0) throw InputError("is truncated");
   Image image(header.width, header.height);
-  Pixels from(file, header);
+  TgaPixels from(file, header);
   const bool has_alpha = header.pixel_bytes % 2 == 0;
   for (int row = 0; row < image.height; ++row)
     for (int column = 0; column < image.width; ++column) {

@@ -8,6 +8,8 @@
 
 namespace celltrace::pov {
 
+inline constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
+
 /// POV-Ray's int() and div() make an int of a number, as a PC does it: what is out of range, infinite or no
 /// number becomes the least one.
 inline double to_int(double number) {

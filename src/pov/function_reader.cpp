@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "pov/actions.hpp"
+#include "pov/function_operations.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
 #include "pov/session.hpp"
@@ -17,7 +18,6 @@ namespace {
 
 using tokens = Parser::token;
 constexpr int kDeepestCalls = 1000;
-constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
 
 /// The language's functions that functions may call.
 struct CalledFunction {

@@ -18,8 +18,6 @@ namespace celltrace::pov {
 
 namespace {
 
-constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
-
 /// The arguments of one call, already of the types the function's signature asks for.
 class Call {
 public:

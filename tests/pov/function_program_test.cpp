@@ -153,7 +153,7 @@ public:
   std::size_t below(std::size_t count) { return random_() % count; }
   double number() {
     static constexpr double kSpecial[] = {
-        0, -0.0, 1, -1, 1e300, std::numeric_limits<double>::infinity(), std::nan("")};
+        0, -0.0, 1, -1, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()};
     return below(8) == 0 ? kSpecial[below(7)] : (static_cast<double>(below(4001)) - 2000) / 500;
   }
 
