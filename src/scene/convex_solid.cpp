@@ -106,6 +106,7 @@ bool ConvexSolid::cut(const Object& object) {
   const Vec3 size = high - low;
   if (!(std::min({size.x, size.y, size.z}) > kFlat * std::max({size.x, size.y, size.z}))) return false;
   const std::size_t first = half_spaces_.size();
+  half_spaces_.reserve(first + 8);
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 normal(0);
     normal[axis] = 1;

@@ -25,6 +25,18 @@ struct LeafPlace {
   }
 };
 
+/// Whether `ask(leaf, whether its outside belongs to the object)` holds for an object that is no CSG, or for
+/// any such part: what few objects have is found without looking at where they are.
+template <class Ask> bool has_leaf(const Object& object, bool inverse, const Ask& ask) {
+  const bool is_inverse = inverse != object.inverse;
+  const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+  if (csg == nullptr) return ask(object, is_inverse);
+  const bool takes_away = (*csg)->operation == Csg::Operation::difference;
+  for (std::size_t i = 0; i < (*csg)->parts.size(); ++i)
+    if (has_leaf((*csg)->parts[i], is_inverse != (takes_away && i > 0), ask)) return true;
+  return false;
+}
+
 /// Calls `visit(leaf, place)` for an object that is no CSG, or for all such parts, in their order. What clips
 /// does not count.
 template <class Visit> void visit_leaves(const Object& object, const LeafPlace& around, Visit& visit) {

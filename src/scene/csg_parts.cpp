@@ -211,6 +211,7 @@ private:
     around.hides_image = around.is_in_unions || node.kind == Node::Kind::merge;
     around.hides_reflection = node.kind != Node::Kind::intersection;
     const bool inverse = around.inverse;
+    node.children.reserve(csg.parts.size());
     for (std::size_t i = 0; i < csg.parts.size(); ++i) {
       around.inverse = inverse != (csg.operation == Operation::difference && i > 0);
       node.add(build(csg.parts[i], around));
@@ -639,6 +640,9 @@ CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const O
   Flattener patterns_flattener(*this, nullptr);
   for (const auto& object : patterns)
     patterns_flattener.add_inside(builder.build(*object, {}));
+  // Most CSGs show a part at least.
+  parts.reserve(
+      static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(), contains)));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     BuildWatch::look_at(i);
     if (!contains(scene.objects[i])) continue;

@@ -35,6 +35,7 @@ public:
   /// The object with deeper cuts, if it needs any.
   std::optional<Object> changed(const Object& object) {
     if (!std::holds_alternative<std::shared_ptr<const Csg>>(object.shape)) return {};
+    if (!has_leaf(object, false, cuts)) return {};
     kept_.clear();
     cut_.clear();
     leaves_ = 0;
@@ -57,6 +58,13 @@ private:
     double way; ///< along the normal
     Vec3 normal;
   };
+
+  /// Whether it has ends that may lie a little beyond those of what is kept.
+  static bool cuts(const Object& leaf, bool inverse) {
+    return inverse &&
+           (std::holds_alternative<Box>(leaf.shape) || std::holds_alternative<Cylinder>(leaf.shape) ||
+            std::holds_alternative<Cone>(leaf.shape));
+  }
 
   void add_face(const LeafPlace& place, int end, const Vec3& outward, const Vec3& point) {
     EndFace face{};

@@ -23,6 +23,10 @@ public:
 
   /// The object as it is to be, its parts too, if one of them has changed.
   std::optional<Object> changed(const Object& object) {
+    const auto is_sphere = [](const Object& leaf, bool) {
+      return std::holds_alternative<Sphere>(leaf.shape);
+    };
+    if (!has_leaf(object, false, is_sphere)) return {};
     const auto change = [this](const Object& leaf, const LeafPlace& place) -> std::optional<Object> {
       const auto* const sphere = std::get_if<Sphere>(&leaf.shape);
       if (sphere == nullptr) return {};

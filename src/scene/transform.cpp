@@ -100,6 +100,9 @@ Transform Transform::inverse() const {
 }
 
 Transform Transform::then(const Transform& next) const {
+  // Most objects are not moved.
+  if (next.is_identity()) return *this;
+  if (is_identity()) return next;
   Transform result;
   for (int row = 0; row < 3; ++row)
     result.rows[row] = next.direction(rows[row]);
