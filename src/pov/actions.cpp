@@ -579,7 +579,7 @@ void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& pa
 
 TexturePtr texture_of(Session& session, const ObjectDefinition& object) {
   if (!object.texture) return session.builder.default_texture;
-  return transformed(object.texture, object.texture_transform);
+  return transformed(object.texture, *object.texture_transform);
 }
 
 TexturePtr plain_texture_of(Session& session, const ObjectDefinition& object, const Location& where) {
@@ -694,8 +694,7 @@ ObjectPtr declared(const ObjectPtr& object) {
 }
 
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where) {
-  if (std::holds_alternative<LightDefinition>(object->shape))
-    session.fail(where, "a light source has no inside");
+  if (object->light()) session.fail(where, "a light source has no inside");
   return object;
 }
 

@@ -63,12 +63,12 @@ private:
 
   void add(const ObjectDefinition& object, const Around& around) {
     session_.tokens.spend(1);
-    if (object.inverse || std::holds_alternative<LightDefinition>(object.shape)) return;
+    if (object.inverse || object.light()) return;
     Around own = around;
     own.transform = object.transform.then(around.transform);
     if (object.texture) {
       own.texture = object.texture;
-      own.texture_transform = object.texture_transform.then(around.transform);
+      own.texture_transform = (*object.texture_transform).then(around.transform);
     }
     const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&object.shape);
     if (compound == nullptr) {
@@ -119,8 +119,9 @@ private:
 /// What is seen of a face that takes none: nothing shines on it.
 TexturePtr no_texture() {
   auto texture = std::make_shared<TextureDefinition>();
-  texture->finish.value.ambient = Vec3(0);
-  texture->finish.value.diffuse = 0;
+  Finish& finish = texture->finish.own().value;
+  finish.ambient = Vec3(0);
+  finish.diffuse = 0;
   return texture;
 }
 

@@ -68,8 +68,7 @@ std::shared_ptr<ObjectDefinition> light(Session& session, const Vec3& location, 
 
 std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition& declared,
                                         const Location& where) {
-  if (!std::holds_alternative<LightDefinition>(declared.shape))
-    session.fail(where, "this is not a light source");
+  if (!declared.light()) session.fail(where, "this is not a light source");
   auto object = std::make_shared<ObjectDefinition>(declared);
   // Where it is by now; what follows, such as point_at, is not moved.
   object->transform = Transform();
@@ -79,7 +78,7 @@ std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition
 }
 
 LightDefinition& definition_of(ObjectDefinition& object) {
-  return std::get<LightDefinition>(object.shape);
+  return *std::get<HeapValue<LightDefinition>>(object.shape);
 }
 
 Light& light_of(ObjectDefinition& object) {
@@ -127,7 +126,7 @@ void set_beam(Session& session, ObjectDefinition& object, double Light::*number,
 void set_area(Session& session, ObjectDefinition& object, const Vec3& across, const Vec3& along,
               const std::array<double, 2>& places, const Location& where) {
   constexpr int kMostPlaces = 256;
-  auto& definition = std::get<LightDefinition>(object.shape);
+  LightDefinition& definition = definition_of(object);
   for (const double count : places)
     if (!(count >= 1 && count < kMostPlaces + 1))
       session.fail(where,
@@ -140,7 +139,7 @@ void set_area(Session& session, ObjectDefinition& object, const Vec3& across, co
 }
 
 LightArea& area_of(ObjectDefinition& object) {
-  return std::get<LightDefinition>(object.shape).area;
+  return definition_of(object).area;
 }
 
 void set_adaptive(ObjectDefinition& object, double level) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "celltrace/scene.hpp"
+#include "pov/heap_value.hpp"
 #include "pov/location.hpp"
 #include "pov/memory.hpp"
 #include "pov/texture.hpp"
@@ -79,15 +80,15 @@ struct LightDefinition {
 
 struct ObjectDefinition {
   std::variant<Shape, std::shared_ptr<MeshDefinition>, std::shared_ptr<TriangleDefinition>,
-               std::shared_ptr<const Compound>, LightDefinition>
+               std::shared_ptr<const Compound>, HeapValue<LightDefinition>>
       shape;
   Location where; ///< where it is written, or referred to within other objects
   Transform transform;
-  TexturePtr inside;             ///< what it looks like from inside; null: the same, or the parent's
-  TexturePtr texture;            ///< null: the parent's, then the default
-  Transform texture_transform;   ///< what the object went through since it has the texture
-  bool uv_mapping = false;       ///< its textures are on its surface coordinates,
-  Transform transform_before_uv; ///< and only what it went through before moves them
+  TexturePtr inside;                 ///< what it looks like from inside; null: the same, or the parent's
+  TexturePtr texture;                ///< null: the parent's, then the default
+  RareTransform texture_transform;   ///< what the object went through since it has the texture
+  bool uv_mapping = false;           ///< its textures are on its surface coordinates,
+  RareTransform transform_before_uv; ///< and only what it went through before moves them
   InteriorPtr interior;
   bool no_shadow = false;
   bool no_image = false;
@@ -109,6 +110,11 @@ struct ObjectDefinition {
   static constexpr std::uint64_t kMostParts = std::uint64_t{1} << 62;
   [[no_unique_address]] Counted<ObjectDefinition> counted;
 
+  /// Null: it is no light source.
+  const LightDefinition* light() const {
+    const auto* light = std::get_if<HeapValue<LightDefinition>>(&shape);
+    return light ? &**light : nullptr;
+  }
   /// Moves its texture and what limits it, too.
   void apply(const Transform& next);
 };

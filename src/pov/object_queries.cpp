@@ -63,8 +63,7 @@ const TriangleDefinition* triangle_of(const ObjectDefinition& object) {
 
 /// Whether there is a shape to ask.
 bool is_solid(const Query& query, const ObjectDefinition& object) {
-  return query.session.diagnostics.supports(object.missing, query.where) &&
-         !std::holds_alternative<LightDefinition>(object.shape);
+  return query.session.diagnostics.supports(object.missing, query.where) && !object.light();
 }
 
 ObjectDefinition limiting(const Limit& limit) {

@@ -45,7 +45,7 @@ bool is_plain_union(const ObjectDefinition& object) {
 
 /// Whether a part shines on the other parts alone.
 bool is_group_light(const Compound& compound, const ObjectDefinition& part) {
-  return compound.is_light_group && std::holds_alternative<LightDefinition>(part.shape);
+  return compound.is_light_group && part.light();
 }
 
 const char* name_of(const ObjectDefinition& csg) {
@@ -169,7 +169,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   if (object.texture) {
     own.texture = object.texture;
     own.has_cut_texture = false;
-    own.texture_transform = object.texture_transform;
+    own.texture_transform = *object.texture_transform;
     if (!object.uv_mapping) own.texture_transform = own.texture_transform.then(around.transform);
   } else if (!own.texture) {
     own.texture = default_texture;
@@ -180,7 +180,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
     own.inner_transform = object.uv_mapping ? Transform() : around.transform;
   }
   own.uv_mapping = object.uv_mapping || around.uv_mapping;
-  if (!around.clips && !std::holds_alternative<LightDefinition>(object.shape))
+  if (!around.clips && !object.light())
     own.interior = interior_index(object, around.interior, *own.texture, where);
   return own;
 }
@@ -190,7 +190,7 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
                                          const Location& where) {
   if (!diagnostics_.supports(object.missing, where)) return std::nullopt;
   Inherited own = inherit(object, around, where);
-  if (const auto* light = std::get_if<LightDefinition>(&object.shape)) {
+  if (const LightDefinition* light = object.light()) {
     if (own.clips) return std::nullopt;
     add_light(*light, own, where);
     place_look(*light, std::move(own), where);
@@ -236,12 +236,14 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
 /// The interior of a shape: what it or an object around it has, what all parts of its CSG share, or its own.
 Index SceneBuilder::interior_of(const Inherited& own) {
   Index index = own.interior != kNoIndex ? own.interior : own.csg_interior;
-  if (index == kNoIndex) {
-    make_room(scene_.interiors, tokens_);
-    index = scene_.add(Interior{});
-  }
+  if (index == kNoIndex) index = add_interior();
   scene_.interiors[index].hollow = own.hollow;
   return index;
+}
+
+Index SceneBuilder::add_interior() {
+  make_room(scene_.interiors, tokens_);
+  return scene_.add(Interior{});
 }
 
 /// Null if what others are taken from is left out.
@@ -249,7 +251,7 @@ std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inhe
                                                   const Location& where) {
   enter_solid(own, where);
   if (own.csg_interior == kNoIndex && own.interior == kNoIndex && !own.clips)
-    own.csg_interior = scene_.add(Interior{});
+    own.csg_interior = add_interior();
   own.is_part = true;
   if (compound.cut_texture && own.texture == default_texture) {
     own.texture = compound.cut_texture;
@@ -259,6 +261,7 @@ std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inhe
   }
   if (compound.is_light_group) enter_light_group(compound, own, where);
   auto csg = std::make_shared<Csg>();
+  csg->parts.reserve(compound.parts.size());
   csg->operation = compound.operation;
   const bool is_taken_away = own.is_taken_away;
   // As POV-Ray has it, shapes in unions have the default texture, but not those that are taken away.
@@ -273,8 +276,7 @@ std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inhe
     else if (std::optional<Object> made = make(*part, own, where))
       csg->parts.push_back(std::move(*made));
     else if (compound.operation == Operation::difference && !is_less) {
-      if (std::holds_alternative<LightDefinition>(part->shape))
-        refuse("a light source that others are taken from", *part, where);
+      if (part->light()) refuse("a light source that others are taken from", *part, where);
       return nullptr;
     }
   }
@@ -316,7 +318,7 @@ void SceneBuilder::enter_light_group(const Compound& group, Inherited& own, cons
   std::vector<std::pair<const LightDefinition*, Inherited>> lights;
   for (const ObjectPtr& part : group.parts) {
     if (!is_group_light(group, *part)) continue;
-    const auto* light = &std::get<LightDefinition>(part->shape);
+    const LightDefinition* light = part->light();
     lights.emplace_back(light, inherit(*part, own, where));
     for (const Index index : add_light(*light, lights.back().second, where)) {
       scene_.lights[index].is_global = false;
@@ -450,8 +452,9 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     // In a CSG, back from the scene to its space.
     made.transform = own.is_part ? own.transform.inverse().then(object.transform) : Transform();
   } else {
-    mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape),
-                       object.uv_mapping ? object.transform_before_uv : own.transform, own.uv_mapping, where);
+    mesh =
+        placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape),
+                    object.uv_mapping ? *object.transform_before_uv : own.transform, own.uv_mapping, where);
     if (own.inner_texture && !own.clips)
       mesh = with_inside(mesh, scene_.materials[made.material].inside, where);
   }
@@ -557,13 +560,20 @@ TexturePtr SceneBuilder::mapped_texture(const TexturePtr& texture, const Transfo
 Index SceneBuilder::material_index(const TexturePtr& texture, const Transform& transform,
                                    const Location& where) {
   if (texture->is_constant()) {
-    const auto [known, is_new] = material_indices_.try_emplace(original(texture));
-    if (is_new) known->second = scene_.add(make_material(*texture, where));
-    return known->second;
+    Index& known = original(texture)->built.index;
+    if (known == kNoIndex) known = add_material(*texture, where);
+    return known;
   }
   const auto [known, is_new] = placed_material_indices_.try_emplace(PlacedTexture{texture, transform});
-  if (is_new) known->second = scene_.add(make_material(*transformed(texture, transform), where));
+  if (is_new) known->second = add_material(*transformed(texture, transform), where);
   return known->second;
+}
+
+Index SceneBuilder::add_material(const TextureDefinition& texture, const Location& where) {
+  Material material = make_material(texture, where);
+  make_room(scene_.materials, tokens_);
+  scene_.materials.push_back(std::move(material));
+  return static_cast<Index>(scene_.materials.size() - 1);
 }
 
 Material SceneBuilder::make_material(const TextureDefinition& texture, const Location& where) {
@@ -581,7 +591,7 @@ Material SceneBuilder::make_material(const TextureDefinition& texture, const Loc
   }
   material.pigment = texture.pigment.finish();
   if (const auto& map = material.pigment.map) check_pattern(map->pattern, map->entries.size(), where);
-  material.finish = texture.finish.value;
+  material.finish = texture.finish->value;
   if (texture.normal && !texture.normal->is_smooth()) {
     material.normal = std::make_shared<const Normal>(texture.normal->finish());
     const auto& map = material.normal->map;

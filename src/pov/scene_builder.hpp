@@ -127,10 +127,12 @@ private:
   void warn_of_size(const ObjectDefinition& object);
   void refuse(const std::string& what, const ObjectDefinition& object, const Location& where);
   Index interior_of(const Inherited& own);
+  Index add_interior();
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,
                        const Location& where);
   TexturePtr mapped_texture(const TexturePtr& texture, const Transform& transform);
   Index material_index(const TexturePtr& texture, const Transform& transform, const Location& where);
+  Index add_material(const TextureDefinition& texture, const Location& where);
   Material make_material(const TextureDefinition& texture, const Location& where);
   std::shared_ptr<const Material> shared_material(const TexturePtr& texture, const Location& where);
   void check_pattern(const Pattern& pattern, std::size_t entries, const Location& where);
@@ -164,7 +166,6 @@ private:
   std::uint64_t triangles_ = 0;
   std::optional<int> noise_generator_;
   std::uint64_t map_entries_ = 0;
-  std::unordered_map<TexturePtr, Index> material_indices_; ///< of those that are the same everywhere
   std::map<PlacedTexture, Index> placed_material_indices_;
   std::map<PlacedTexture, TexturePtr> mapped_textures_; ///< on surface coordinates
   std::unordered_map<TexturePtr, std::shared_ptr<const Material>> shared_materials_; ///< layers and entries

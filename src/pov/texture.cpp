@@ -127,7 +127,7 @@ UnsupportedPtr TextureDefinition::first_unsupported() const {
   for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
     mark(result, all({layer->map ? nullptr : layer->pigment.first_unsupported(),
                       layer->map || !layer->normal ? nullptr : layer->normal->first_unsupported(),
-                      layer->map ? nullptr : layer->finish.unsupported, layer->pattern.unsupported,
+                      layer->map ? nullptr : layer->finish->unsupported, layer->pattern.unsupported,
                       layer->unsupported, layer->map ? layer->map->unsupported : nullptr}));
   return result;
 }

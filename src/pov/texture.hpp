@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "celltrace/scene.hpp"
+#include "pov/heap_value.hpp"
 #include "pov/location.hpp"
 #include "pov/memory.hpp"
 #include "pov/patterns.hpp"
@@ -101,16 +102,29 @@ struct Original {
   }
 };
 
+/// Which of the scene's materials a texture has become, for the scene's builder. A copy has become none yet.
+struct BuiltMaterial {
+  mutable Index index = kNoIndex;
+
+  BuiltMaterial() = default;
+  BuiltMaterial(const BuiltMaterial&) {}
+  BuiltMaterial& operator=(const BuiltMaterial&) {
+    index = kNoIndex;
+    return *this;
+  }
+};
+
 struct TextureDefinition {
   PigmentDefinition pigment;
   NormalPtr normal; ///< null: smooth; a smooth one is what later normals start from
-  FinishDefinition finish;
+  SharedValue<FinishDefinition> finish;
   TexturePtr below;          ///< the layer under this one
   int layers = 1;            ///< with those below
   PatternDefinition pattern; ///< if there is one, the map is instead of all of the above
   TextureMapPtr map;
   bool uv_mapping = false;    ///< as a pigment's
   bool is_on_surface = false; ///< all of it is on surface coordinates, and only its normals turn any more
+  BuiltMaterial built;        ///< of one that is the same everywhere
   Original original;          ///< of one that is the same everywhere and has only been moved
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<TextureDefinition> counted;
