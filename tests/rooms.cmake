@@ -7,7 +7,7 @@ cmake_minimum_required(VERSION 3.25)
 set(computing "scene/(extent|mesh_geometry|noise|point_texture|shape_geometry|triangle_tree)\\.hpp")
 
 # Of each room, what it may include besides itself and public headers.
-set(allowed_cli "study/|pov/|render/|image/|cache/|viewer/")
+set(allowed_cli "study/|pov/|render/|image/|cache/|viewer/|memory/")
 set(allowed_viewer "")
 set(allowed_python "")
 set(allowed_study "render/|image/|cache/|kernel/|scene/parallel\\.hpp")
