@@ -7,6 +7,7 @@ namespace celltrace {
 
 void bind_errors(pybind11::module_& module);
 void bind_geometry(pybind11::module_& module);
+void bind_mesh(pybind11::module_& module);
 void bind_surfaces(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_rendering(pybind11::module_& module);

@@ -4,6 +4,8 @@
 
 #include "celltrace/render.hpp"
 #include "celltrace/scene.hpp"
+#include "python/camera.hpp"
+#include "python/mesh.hpp"
 
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
@@ -78,6 +80,10 @@ template <> struct EnumStrings<Camera::Kind> {
       {"cylinder_1", K::cylinder_1},   {"cylinder_2", K::cylinder_2},
       {"cylinder_3", K::cylinder_3},   {"cylinder_4", K::cylinder_4},
       {"fisheye", K::fisheye}};
+};
+template <> struct EnumStrings<Framing> {
+  static constexpr EnumString<Framing> values[] = {
+      {"fixed", Framing::fixed}, {"width", Framing::width}, {"whole", Framing::whole}};
 };
 template <> struct EnumStrings<Csg::Operation> {
   static constexpr EnumString<Csg::Operation> values[] = {{"union", Csg::Operation::union_},
@@ -161,6 +167,26 @@ template <class T> struct type_caster<std::shared_ptr<const T>> {
   }
   static handle cast(const std::shared_ptr<const T>& shared, return_value_policy policy, handle parent) {
     return make_caster<std::shared_ptr<T>>::cast(std::const_pointer_cast<T>(shared), policy, parent);
+  }
+};
+
+/// Meshes in objects: those without colours, as these would not be seen.
+template <> struct type_caster<std::shared_ptr<const celltrace::Mesh>> {
+  PYBIND11_TYPE_CASTER(std::shared_ptr<const celltrace::Mesh>, const_name("Mesh"));
+
+  bool load(handle source, bool convert) {
+    make_caster<celltrace::PythonMesh> caster;
+    if (source.is_none() || !caster.load(source, convert)) return false;
+    const auto& mesh = cast_op<const celltrace::PythonMesh&>(caster);
+    if (mesh.colours)
+      throw value_error("a Mesh with colours has to be added by Scene.add(), which makes materials of them");
+    value = mesh.mesh;
+    return true;
+  }
+  static handle cast(const std::shared_ptr<const celltrace::Mesh>& mesh, return_value_policy, handle parent) {
+    return make_caster<std::shared_ptr<celltrace::PythonMesh>>::cast(
+        std::make_shared<celltrace::PythonMesh>(celltrace::PythonMesh{mesh}), return_value_policy::automatic,
+        parent);
   }
 };
 

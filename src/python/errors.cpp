@@ -1,8 +1,7 @@
 #include "python/bindings.hpp"
+#include "python/fields.hpp"
 
 #include "celltrace/error.hpp"
-
-#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <string>
@@ -53,8 +52,9 @@ void raise(const SceneError& error) {
 } // namespace
 
 void bind_errors(py::module_& module) {
-  py::class_<Finding>(module, "Finding", "Something that was found in the text of a scene.")
-      .def_property_readonly(
+  py::class_<Finding> made(module, "Finding", "Something that was found in the text of a scene.");
+  bind_pickle<Finding>(made);
+  made.def_property_readonly(
           "severity",
           [](const Finding& finding) {
             const bool is_note = finding.severity == Finding::Severity::note;

@@ -1,6 +1,7 @@
 // Structures of the library as Python sees them: fields with names, which keyword arguments set.
 #pragma once
 
+#include "python/bytes.hpp"
 #include "python/casters.hpp"
 
 #include <functional>
@@ -12,6 +13,35 @@
 namespace celltrace {
 
 namespace py = pybind11;
+
+/// A default as inspect.signature() can read it: the value, or `...` where it has no literal.
+inline std::string literal(const py::object& value) {
+  for (const py::handle type : {py::handle(reinterpret_cast<PyObject*>(&PyBool_Type)),
+                                py::handle(reinterpret_cast<PyObject*>(&PyLong_Type)),
+                                py::handle(reinterpret_cast<PyObject*>(&PyFloat_Type)),
+                                py::handle(reinterpret_cast<PyObject*>(&PyUnicode_Type)),
+                                py::handle(reinterpret_cast<PyObject*>(&PyTuple_Type)),
+                                py::handle(reinterpret_cast<PyObject*>(&PyList_Type))})
+    if (py::isinstance(value, type)) return py::repr(value).cast<std::string>();
+  return value.is_none() ? "None" : "...";
+}
+
+/// " (did you mean 'width'?)" where one of the names is similar to `wrong`.
+inline std::string suggestion(const std::string& wrong, const std::vector<std::string>& names) {
+  const py::list near = py::module_::import("difflib").attr("get_close_matches")(wrong, names, 1);
+  return near.empty() ? "" : " (did you mean '" + near[0].cast<std::string>() + "'?)";
+}
+
+/// A docstring that begins with what inspect.signature() and help() show, as CPython writes those of its own.
+inline std::string signed_doc(const std::string& name, const std::string& parameters,
+                              const std::string& doc) {
+  return name + "(" + parameters + ")\n--\n\n" + doc;
+}
+
+/// That of a class's constructor: inspect.signature() reads it in place of the class's.
+inline std::string signed_init(const std::string& parameters) {
+  return signed_doc("__init__", parameters.empty() ? "self" : "self, " + parameters, "");
+}
 
 /// The fields of a T by name, in an order.
 template <class T> class Fields {
@@ -60,8 +90,15 @@ public:
     }
     for (const std::pair<py::handle, py::handle> given : kwargs) {
       const auto name = py::cast<std::string>(given.first);
-      if (!set(made, name, given.second)) throw py::type_error(what + " has no '" + name + "'");
+      if (!set(made, name, given.second))
+        throw py::type_error(what + " has no '" + name + "'" + suggestion(name, names()));
     }
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const Field& field : fields_)
+      all.push_back(field.name);
+    return all;
   }
   /// Each field's name and value, as Python's objects.
   template <class Visit> void for_each(const T& made, const Visit& visit) const {
@@ -71,6 +108,28 @@ public:
   template <class Visit> void describe(const Visit& visit) const {
     for (const Field& field : fields_)
       visit(field.name.c_str(), field.doc, field.get);
+  }
+  /// "name=default, ...", the defaults being those of `usual`.
+  std::string signature(const T& usual = T()) const {
+    std::string text;
+    for_each(usual, [&](const std::string& name, const py::object& value) {
+      text += (text.empty() ? "" : ", ") + name + "=" + literal(value);
+    });
+    return text;
+  }
+  /// Same names without values.
+  std::string signature_of_changes() const {
+    std::string text;
+    for (const Field& field : fields_)
+      text += (text.empty() ? "" : ", ") + field.name + "=...";
+    return text;
+  }
+  /// A line of each field and what it means.
+  std::string listing() const {
+    std::string text;
+    for (const Field& field : fields_)
+      text += "    " + field.name + (*field.doc ? std::string(": ") + field.doc : "") + "\n";
+    return text;
   }
 
 private:
@@ -83,6 +142,14 @@ private:
   std::vector<Field> fields_;
 };
 
+/// Values of a class can be pickled; copies of what does not change are the same object.
+template <class T, class Class> void bind_pickle(Class& made) {
+  made.def(py::pickle([](const T& self) { return py::bytes(to_bytes(self)); },
+                      [](const py::bytes& state) { return from_bytes<T>(std::string_view(state)); }));
+  made.def("__copy__", [](const py::object& self) { return self; });
+  made.def("__deepcopy__", [](const py::object& self, const py::object&) { return self; });
+}
+
 /// A class of values: made by keywords, compared and printed by fields, never changed: replace() makes
 /// another one.
 template <class T>
@@ -90,12 +157,13 @@ py::class_<T, std::shared_ptr<T>> bind_values(py::module_& module, const char* n
                                               const Fields<T>& fields) {
   const auto shared = std::make_shared<const Fields<T>>(fields);
   const std::string what = name;
-  py::class_<T, std::shared_ptr<T>> made(module, name, doc);
+  py::class_<T, std::shared_ptr<T>> made(module, name, signed_doc(what, fields.signature(), doc).c_str());
   made.def(py::init([shared, what](const py::args& args, const py::kwargs& kwargs) {
-    auto value = std::make_shared<T>();
-    shared->set_all(*value, args, kwargs, what);
-    return value;
-  }));
+             auto value = std::make_shared<T>();
+             shared->set_all(*value, args, kwargs, what);
+             return value;
+           }),
+           signed_init(fields.signature()).c_str());
   fields.describe([&](const char* field, const char* about, const auto& get) {
     made.def_property_readonly(field, get, about);
   });
@@ -106,7 +174,9 @@ py::class_<T, std::shared_ptr<T>> bind_values(py::module_& module, const char* n
         shared->set_all(*value, py::args(), kwargs, what);
         return value;
       },
-      "Another one, with these fields instead.");
+      signed_doc("replace", "$self, *, " + fields.signature_of_changes(),
+                 "Another one, with these fields instead.")
+          .c_str());
   made.def("__eq__", [shared](const T& self, const py::object& other) -> py::object {
     if (!py::isinstance<T>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
     std::vector<py::object> theirs;
@@ -129,6 +199,7 @@ py::class_<T, std::shared_ptr<T>> bind_values(py::module_& module, const char* n
     });
     return what + "(" + text + ")";
   });
+  bind_pickle<T>(made);
   return made;
 }
 

@@ -4,9 +4,12 @@
 #include "celltrace/version.hpp"
 
 PYBIND11_MODULE(_celltrace, module) {
+  pybind11::options options;
+  options.disable_function_signatures(); // docstrings have those that inspect.signature() can read
   module.doc() = "Ray-traces POV-Ray scenes.";
   module.attr("__version__") = celltrace::version();
   celltrace::bind_errors(module);
+  celltrace::bind_mesh(module);
   celltrace::bind_geometry(module);
   celltrace::bind_surfaces(module);
   celltrace::bind_scene(module);

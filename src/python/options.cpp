@@ -35,45 +35,64 @@ void warn(std::string_view text) {
   if (PyErr_WarnEx(PyExc_UserWarning, std::string(text).c_str(), 1)) throw py::error_already_set();
 }
 
-Fields<RenderOptions> picture_fields() {
-  return Fields<RenderOptions>()
-      .add("width", &RenderOptions::width, "")
-      .add("height", &RenderOptions::height, "")
-      .add("region", &RenderOptions::region, "")
-      .add("antialiasing", &RenderOptions::antialiasing, "")
-      .add("colours", &RenderOptions::colours, "")
-      .add("alpha", &RenderOptions::alpha, "")
-      .add("first_hits", &RenderOptions::first_hits, "");
+const Fields<RenderOptions>& picture_fields() {
+  static const Fields<RenderOptions> fields =
+      Fields<RenderOptions>()
+          .add("width", &RenderOptions::width, "of the picture, in pixels")
+          .add("height", &RenderOptions::height, "of the picture, in pixels")
+          .add("region", &RenderOptions::region,
+               "(left, top, right, bottom): only these pixels, without those at right and bottom")
+          .add("antialiasing", &RenderOptions::antialiasing, "an Antialiasing, or None")
+          .add("colours", &RenderOptions::colours, "the result is float32, linear and not clipped")
+          .add("alpha", &RenderOptions::alpha, "transparent where the background is seen")
+          .add("first_hits", &RenderOptions::first_hits, "Session.first_hits is wanted");
+  return fields;
 }
 
-Fields<RenderOptions> render_fields() {
-  return picture_fields()
-      .add("backend", &RenderOptions::backend, "")
-      .add("spes", &RenderOptions::spes, "")
-      .add("simd", &RenderOptions::simd, "")
-      .add("cache", &RenderOptions::cache, "")
-      .add("balance", &RenderOptions::balance, "")
-      .add("accelerator", &RenderOptions::accelerator, "")
-      .add("model", &RenderOptions::model, "")
-      .add("max_trace_level", &RenderOptions::max_trace_level, "")
-      .add("adc_bailout", &RenderOptions::adc_bailout, "")
-      .add("quality", &RenderOptions::quality, "")
-      .add(
-          "schedule", [](RenderOptions& o) -> Schedule& { return o.emulation.schedule; }, "")
-      .add(
-          "seed", [](RenderOptions& o) -> std::uint64_t& { return o.emulation.seed; }, "");
+const Fields<RenderOptions>& render_fields() {
+  static const Fields<RenderOptions> fields =
+      Fields<RenderOptions>(picture_fields())
+          .add("backend", &RenderOptions::backend, "native, cell_emu or cell_sim")
+          .add("spes", &RenderOptions::spes, "how many threads, or emulated SPEs; 0: one for each processor")
+          .add("simd", &RenderOptions::simd, "auto, or an instruction set of the processor's")
+          .add("cache", &RenderOptions::cache, "a Cache: the software cache of emulated SPEs")
+          .add("balance", &RenderOptions::balance,
+               "how work is shared: gde, diffusion, fixed, scatter or tiles")
+          .add("accelerator", &RenderOptions::accelerator, "automatic, grid or bvh")
+          .add("model", &RenderOptions::model, "shared, pipeline, pipeline-split or offload")
+          .add("max_trace_level", &RenderOptions::max_trace_level, "in place of the scene's")
+          .add("adc_bailout", &RenderOptions::adc_bailout, "in place of the scene's")
+          .add("quality", &RenderOptions::quality, "POV-Ray's levels, 0 (colours alone) to 11")
+          .add(
+              "schedule", [](RenderOptions& o) -> Schedule& { return o.emulation.schedule; },
+              "of emulated SPEs: free or lockstep")
+          .add(
+              "seed", [](RenderOptions& o) -> std::uint64_t& { return o.emulation.seed; },
+              "of the order of events in lockstep");
+  return fields;
 }
 
 const Fields<ParseOptions>& parse_fields() {
-  static const Fields<ParseOptions> fields = Fields<ParseOptions>()
-                                                 .add("library_paths", &ParseOptions::library_paths, "")
-                                                 .add("readable_folders", &ParseOptions::readable_folders, "")
-                                                 .add("writable_folders", &ParseOptions::writable_folders, "")
-                                                 .add("clock", &ParseOptions::clock, "")
-                                                 .add("version", &ParseOptions::version, "")
-                                                 .add("lenient", &ParseOptions::lenient, "");
+  static const Fields<ParseOptions> fields =
+      Fields<ParseOptions>()
+          .add("library_paths", &ParseOptions::library_paths, "folders with include files")
+          .add("readable_folders", &ParseOptions::readable_folders,
+               "folders that a scene may read besides its own and the library's")
+          .add("writable_folders", &ParseOptions::writable_folders, "folders that a scene may write")
+          .add("clock", &ParseOptions::clock, "what `clock` is")
+          .add("version", &ParseOptions::version, "as if the scene began with this #version")
+          .add("lenient", &ParseOptions::lenient, "leave out what is not supported, with a warning");
   return fields;
 }
+
+/// Keywords of reading that have no field: their defaults, and what they mean.
+struct OtherKeyword {
+  const char *name, *usual, *doc;
+};
+constexpr OtherKeyword kOtherKeywords[] = {
+    {"declares", "{}", "a dict of floats and strings that the scene finds declared"},
+    {"limits", "{}", "a dict of what the scene may cost, as {'seconds': 10}"},
+    {"message", "None", "a function that hears #debug, warnings and the like; None: warnings are Python's"}};
 
 /// The value of a keyword, which is taken out; an empty handle if it is not there.
 py::object take(py::kwargs& kwargs, const char* name) {
@@ -103,6 +122,49 @@ ParseOptions take_parse_options(py::kwargs& kwargs) {
   options.message =
       message && !message.is_none() ? message.cast<std::function<void(std::string_view)>>() : warn;
   return options;
+}
+
+std::string parse_signature() {
+  std::string text = parse_fields().signature();
+  for (const auto& [name, usual, doc] : kOtherKeywords)
+    text += std::string(", ") + name + "=" + usual;
+  return text;
+}
+
+std::string parse_listing() {
+  std::string text = parse_fields().listing();
+  for (const auto& [name, usual, doc] : kOtherKeywords)
+    text += std::string("    ") + name + ": " + doc + "\n";
+  text += "The names of limits:";
+  for (const NamedLimit& limit : parse_limits())
+    text += std::string(&limit == &parse_limits().front() ? " " : ", ") + limit.name;
+  return text + "\n";
+}
+
+std::string render_signature() {
+  return render_fields().signature();
+}
+
+std::string render_listing() {
+  return render_fields().listing();
+}
+
+std::string picture_signature() {
+  return picture_fields().signature_of_changes();
+}
+
+std::string picture_listing() {
+  return picture_fields().listing();
+}
+
+void refuse_parse_options(const py::kwargs& kwargs) {
+  std::vector<std::string> names = parse_fields().names();
+  for (const OtherKeyword& keyword : kOtherKeywords)
+    names.emplace_back(keyword.name);
+  for (const std::string& name : names)
+    if (kwargs.contains(name.c_str()))
+      throw py::type_error(name + ": is for scenes that are read from a file or text, where " +
+                           "Scene.from_file() and Scene.from_text() take it; this scene has been read");
 }
 
 void set_render_options(RenderOptions& options, const py::kwargs& kwargs) {

@@ -1,6 +1,11 @@
 #include "python/bindings.hpp"
+#include "python/extent.hpp"
 #include "python/options.hpp"
 #include "python/reading.hpp"
+
+#include <pybind11/numpy.h>
+
+#include <algorithm>
 
 namespace celltrace {
 
@@ -15,10 +20,10 @@ Scene read_scene(const SceneSource& source, ParseOptions options, Watch& watch) 
 
 namespace {
 
-Scene read(const SceneSource& source, const py::object& progress, py::kwargs& kwargs) {
+PythonScene read(const SceneSource& source, const py::object& progress, py::kwargs& kwargs) {
   ParseOptions options = take_parse_options(kwargs);
   for (const auto& [name, value] : kwargs)
-    throw py::type_error("reading has no '" + name.cast<std::string>() + "'");
+    throw py::type_error("reading a scene has no '" + name.cast<std::string>() + "'");
   Watch watch(progress);
   try {
     return read_scene(source, options, watch);
@@ -29,15 +34,40 @@ Scene read(const SceneSource& source, const py::object& progress, py::kwargs& kw
 }
 
 /// An index of what there is, or the index of what is added.
-template <class T> Index index_of(Scene& scene, const py::object& given, const char* name) {
+template <class T> Index index_of(PythonScene& scene, const py::object& given, const char* name) {
   if (py::isinstance<T>(given)) return scene.add(given.cast<const T&>());
   if (py::isinstance<py::int_>(given)) return given.cast<Index>();
   throw py::type_error(std::string(name) + ": an index or a " +
                        py::type::of<T>().attr("__name__").template cast<std::string>() + " is wanted");
 }
 
-Index add_object(Scene& scene, const py::object& shape, const py::object& material,
+Index add_object(PythonScene& scene, const py::object& shape, const py::object& material,
+                 const py::object& interior, const py::kwargs& kwargs);
+
+/// With the materials that an earlier object has, if that has the same mesh and material.
+Index add_coloured(PythonScene& scene, const PythonMesh& mesh, const py::object& material,
+                   const py::object& interior, const py::kwargs& kwargs) {
+  const bool is_index = py::isinstance<py::int_>(material);
+  if (!is_index && !py::isinstance<Material>(material))
+    throw py::type_error("material: an index or a Material is wanted");
+  if (is_index && material.cast<Index>() >= scene.materials.size())
+    throw py::value_error("material: there is none of this index");
+  const Material like = is_index ? scene.materials[material.cast<Index>()] : material.cast<const Material&>();
+  auto& placed = scene.placed_colours;
+  auto found = std::find_if(placed.begin(), placed.end(), [&](const PlacedColours& candidate) {
+    return candidate.of == mesh.mesh && candidate.material == like;
+  });
+  if (found == placed.end()) {
+    const ColouredObject made = add_colours(scene, mesh, like);
+    found = placed.insert(found, {mesh.mesh, like, made.mesh, made.material});
+  }
+  return add_object(scene, py::cast(PythonMesh{found->mesh}), py::int_(found->index), interior, kwargs);
+}
+
+Index add_object(PythonScene& scene, const py::object& shape, const py::object& material,
                  const py::object& interior, const py::kwargs& kwargs) {
+  if (py::isinstance<PythonMesh>(shape) && shape.cast<const PythonMesh&>().colours)
+    return add_coloured(scene, shape.cast<const PythonMesh&>(), material, interior, kwargs);
   const py::object placed = py::type::of<Object>()(shape, **kwargs);
   Object object = placed.cast<const Object&>();
   object.material = index_of<Material>(scene, material, "material");
@@ -48,71 +78,116 @@ Index add_object(Scene& scene, const py::object& shape, const py::object& materi
 
 /// A list as a tuple of copies, which is set as a whole.
 template <class T>
-void bind_list(py::class_<Scene, std::shared_ptr<Scene>>& scene, const char* name,
+void bind_list(py::class_<PythonScene, std::shared_ptr<PythonScene>>& scene, const char* name,
                std::vector<T> Scene::*list, const char* doc) {
   scene.def_property(
-      name, [list](const Scene& self) { return py::tuple(py::cast(self.*list)); },
-      [list](Scene& self, std::vector<T> to) { self.*list = std::move(to); }, doc);
+      name, [list](const PythonScene& self) { return py::tuple(py::cast(self.*list)); },
+      [list](PythonScene& self, std::vector<T> to) {
+        self.*list = std::move(to);
+        self.placed_colours.clear(); // indices may have changed
+      },
+      doc);
+}
+
+/// Points around all that ends, as an array.
+py::array_t<double> points_of(const PythonScene& scene) {
+  const std::vector<Vec3> points = points_around(scene);
+  py::array_t<double> rows({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int j = 0; j < 3; ++j)
+      rows.mutable_at(static_cast<py::ssize_t>(i), j) = points[i][j];
+  return rows;
 }
 
 } // namespace
 
 void bind_scene(py::module_& module) {
-  py::class_<Scene, std::shared_ptr<Scene>> scene(
+  module.def("_points", &points_of, py::arg("scene"));
+  py::class_<PythonScene, std::shared_ptr<PythonScene>> scene(
       module, "Scene",
-      "What to render: empty, or of POV-Ray's language. Its lists are tuples of values, set as a whole.");
-  scene.def(py::init<>())
-      .def_static(
-          "from_file",
-          [](const std::filesystem::path& path, const py::object& progress, py::kwargs kwargs) {
-            return read({path.string(), true}, progress, kwargs);
+      signed_doc("Scene", "",
+                 "What to render: empty, or of POV-Ray's language. Its lists are tuples of values, set as a "
+                 "whole.")
+          .c_str());
+  const auto def = [&](const char* name, const auto& function, const std::string& parameters,
+                       const std::string& doc, const auto&... more) {
+    scene.def(name, function, signed_doc(name, "$self" + parameters, doc).c_str(), more...);
+  };
+  const auto reader = [&](const char* name, const auto& function, const char* from, const char* doc) {
+    scene.def_static(
+        name, function, py::arg(from), py::kw_only(), py::arg("progress") = py::none(),
+        signed_doc(name, std::string(from) + ", *, progress=None, " + parse_signature(),
+                   std::string(doc) +
+                       " progress is called with the finished\nfraction, 0 to 1; where it returns "
+                       "False, Cancelled is raised.\n\n" +
+                       parse_listing())
+            .c_str());
+  };
+  scene.def(py::init<>(), signed_init("").c_str());
+  reader(
+      "from_file",
+      [](const std::filesystem::path& path, const py::object& progress, py::kwargs kwargs) {
+        return read({path.string(), true}, progress, kwargs);
+      },
+      "path", "Reads a file in POV-Ray's language. Raises SceneError where it is wrong.");
+  reader(
+      "from_text",
+      [](const std::string& text, const py::object& progress, py::kwargs kwargs) {
+        return read({text, false}, progress, kwargs);
+      },
+      "text", "As from_file(), of a text in memory.");
+  scene.def_readwrite("name", &Scene::name, "for messages: the file it came from")
+      .def_property(
+          "camera", &PythonScene::framed_camera,
+          [](PythonScene& self, const FramedCamera& to) {
+            self.camera = to;
+            self.framing = to.framing;
           },
-          py::arg("path"), py::kw_only(), py::arg("progress") = py::none(),
-          "Reads a file in POV-Ray's language. Raises SceneError where it is wrong.")
-      .def_static(
-          "from_text",
-          [](const std::string& text, const py::object& progress, py::kwargs kwargs) {
-            return read({text, false}, progress, kwargs);
-          },
-          py::arg("text"), py::kw_only(), py::arg("progress") = py::none(),
-          "As from_file(), of a text in memory.")
-      .def_readwrite("name", &Scene::name, "for messages: the file it came from")
-      .def_readwrite("camera", &Scene::camera, "")
+          "a Camera")
       .def_readwrite("background", &Scene::background, "colour")
       .def_readwrite("mirrored_background", &Scene::mirrored_background,
                      "what reflected rays see in place of it in a picture with alpha, without a sky; or None")
       .def_readwrite("background_transparency", &Scene::background_transparency,
                      "share of what is behind a picture with alpha that comes through the background, 0 to 1")
       .def_readwrite("ambient_light", &Scene::ambient_light, "colour")
-      .def_readwrite("max_trace_level", &Scene::max_trace_level, "")
-      .def_readwrite("adc_bailout", &Scene::adc_bailout, "")
-      .def("add", &add_object, py::arg("shape"), py::kw_only(), py::arg("material") = Material(),
-           py::arg("interior") = Interior(),
-           "Adds an object, and returns its index. material, interior: an index, or one that is added.\n"
-           "Further keywords are fields of Object.")
-      .def(
-          "add_material", [](Scene& self, const Material& material) { return self.add(material); },
-          py::arg("material"), "Returns the index.")
-      .def(
-          "add_interior", [](Scene& self, const Interior& interior) { return self.add(interior); },
-          py::arg("interior"), "Returns the index.")
-      .def(
-          "add_light",
-          [](Scene& self, const Light& light) {
-            self.lights.push_back(light);
-            return self.lights.size() - 1;
-          },
-          py::arg("light"), "Returns the index.")
-      .def(
-          "copy", [](const Scene& self) { return Scene(self); }, "Another one, which shares its meshes.")
-      .def("__repr__", [](const Scene& self) {
+      .def_readwrite("max_trace_level", &Scene::max_trace_level, "how often rays are reflected or refracted")
+      .def_readwrite("adc_bailout", &Scene::adc_bailout, "rays that count for less than this are not traced")
+      .def("__repr__", [](const PythonScene& self) {
         return "<celltrace.Scene of " + std::to_string(self.objects.size()) + " objects and " +
                std::to_string(self.lights.size()) + " lights>";
       });
-  bind_list(scene, "objects", &Scene::objects, "");
-  bind_list(scene, "materials", &Scene::materials, "");
-  bind_list(scene, "interiors", &Scene::interiors, "");
-  bind_list(scene, "lights", &Scene::lights, "");
+  def("add", &add_object,
+      ", shape, *, material=..., interior=..., transform=..., no_shadow=False, no_image=False, "
+      "no_reflection=False, is_hidden=False, inverse=False, is_lit_through=False",
+      "Adds an object, and returns its index. material, interior: an index, or one that is added. Further\n"
+      "keywords are fields of Object.",
+      py::arg("shape"), py::kw_only(), py::arg("material") = Material(), py::arg("interior") = Interior());
+  def(
+      "add_material", [](PythonScene& self, const Material& material) { return self.add(material); },
+      ", material", "Returns the index.", py::arg("material"));
+  def(
+      "add_interior", [](PythonScene& self, const Interior& interior) { return self.add(interior); },
+      ", interior", "Returns the index.", py::arg("interior"));
+  def(
+      "add_light",
+      [](PythonScene& self, const Light& light) {
+        self.lights.push_back(light);
+        return self.lights.size() - 1;
+      },
+      ", light", "Returns the index.", py::arg("light"));
+  def(
+      "copy", [](const PythonScene& self) { return PythonScene(self); }, "",
+      "Another one, which shares its meshes.");
+  scene
+      .def(
+          py::pickle([](const PythonScene& self) { return py::bytes(to_bytes(self)); },
+                     [](const py::bytes& state) { return from_bytes<PythonScene>(std::string_view(state)); }))
+      .def("__copy__", [](const PythonScene& self) { return PythonScene(self); })
+      .def("__deepcopy__", [](const PythonScene& self, const py::object&) { return PythonScene(self); });
+  bind_list(scene, "objects", &Scene::objects, "a tuple of Object");
+  bind_list(scene, "materials", &Scene::materials, "a tuple of Material");
+  bind_list(scene, "interiors", &Scene::interiors, "a tuple of Interior");
+  bind_list(scene, "lights", &Scene::lights, "a tuple of Light");
 }
 
 } // namespace celltrace

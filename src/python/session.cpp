@@ -1,6 +1,7 @@
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
 #include "python/options.hpp"
+#include "python/picture.hpp"
 #include "python/reading.hpp"
 
 #include "celltrace/session.hpp"
@@ -24,10 +25,13 @@ Framebuffer framebuffer_of(const py::array& array, const RenderOptions& options)
           has_alpha ? PixelFormat::rgba8 : PixelFormat::rgb8};
 }
 
-py::array array_of(RenderResult& result, bool colours) {
+py::object array_of(RenderResult& result, bool colours) {
   if (colours)
-    return picture_array(std::move(result.colours.rgba), result.colours.width, result.colours.height);
-  return picture_array(std::move(result.image.rgba), result.image.width, result.image.height);
+    return as_picture(
+        picture_array(std::move(result.colours.rgba), result.colours.width, result.colours.height),
+        result.colours.gamma);
+  return as_picture(picture_array(std::move(result.image.rgba), result.image.width, result.image.height),
+                    std::nullopt);
 }
 
 py::object arrays_of(FirstHits hits) {
@@ -39,15 +43,16 @@ py::object arrays_of(FirstHits hits) {
   return arrays;
 }
 
-/// A Session that Python's threads may share: what changes it while it renders is refused.
+/// A Session that Python's threads may share: what changes it while it renders is refused. Its camera is
+/// adapted to its picture.
 class GuardedSession {
 public:
-  GuardedSession(Scene scene, RenderOptions options) {
+  GuardedSession(const PythonScene& scene, RenderOptions options) : camera_(scene.framed_camera()) {
     options.build_progress = [this](double fraction) {
       watch_->set_part(0, kBuilding);
       return (*watch_)(fraction);
     };
-    session_.emplace(std::move(scene), options);
+    session_.emplace(scene.framed(options.width, options.height), options);
   }
   GuardedSession(const GuardedSession&) = delete;
 
@@ -57,10 +62,33 @@ public:
     return *session_;
   }
   void cancel() { session_->cancel(); }
+
+  PythonScene scene() {
+    PythonScene copy(idle().scene());
+    copy.camera = camera_;
+    copy.framing = camera_.framing;
+    return copy;
+  }
+  void set_camera(const FramedCamera& to) {
+    const RenderOptions& options = idle().options();
+    session_->set_camera(framed(to, options.width, options.height));
+    camera_ = to;
+  }
+  void replace(const PythonScene& scene) {
+    const RenderOptions& options = idle().options();
+    session_->replace(scene.framed(options.width, options.height));
+    camera_ = scene.framed_camera();
+  }
+  void set_picture(const py::kwargs& kwargs) {
+    RenderOptions options = idle().options();
+    set_picture_options(options, kwargs);
+    session_->set_picture(options);
+    if (camera_.framing != Framing::fixed) set_camera(camera_);
+  }
   const py::object& statistics() const { return statistics_; }
   const py::object& first_hits() const { return first_hits_; }
 
-  py::array render(const std::optional<py::array>& into, const py::object& progress) {
+  py::object render(const std::optional<py::array>& into, const py::object& progress) {
     Session& session = idle();
     if (into) session.set_framebuffer(framebuffer_of(*into, session.options()));
     Watch watch(progress);
@@ -80,7 +108,7 @@ public:
     watch.check(result.complete);
     statistics_ = py::module_::import("json").attr("loads")(to_json(result.statistics));
     first_hits_ = session.options().first_hits ? arrays_of(std::move(result.first_hits)) : py::none();
-    return into ? *into : array_of(result, session.options().colours);
+    return into ? py::object(*into) : array_of(result, session.options().colours);
   }
 
 private:
@@ -90,6 +118,7 @@ private:
   }
 
   std::optional<Session> session_;
+  FramedCamera camera_;
   Watch* watch_ = nullptr; ///< of the frame that is being rendered
   py::object statistics_ = py::none(), first_hits_ = py::none();
 };
@@ -103,17 +132,19 @@ std::filesystem::path path_of(const py::object& scene) {
 }
 
 /// One frame of a scene, or of a scene's file.
-py::array render_once(const py::object& scene, const py::object& progress, py::kwargs kwargs) {
+py::object render_once(const py::object& scene, const py::object& progress, py::kwargs kwargs) {
   Watch watch(progress);
   std::shared_ptr<const Scene> read;
   RenderOptions options;
   double done = 0;
-  const bool is_scene = py::isinstance<Scene>(scene);
+  const bool is_scene = py::isinstance<PythonScene>(scene);
+  if (is_scene) refuse_parse_options(kwargs);
   ParseOptions reading = is_scene ? ParseOptions() : take_parse_options(kwargs);
   set_render_options(options, kwargs);
   try {
     if (is_scene) {
-      read = std::make_shared<Scene>(scene.cast<const Scene&>()); // the lock is released, and who knows
+      // A copy: the lock is released, and other threads may change it.
+      read = std::make_shared<Scene>(scene.cast<const PythonScene&>().framed(options.width, options.height));
     } else {
       done = kReading;
       watch.set_part(0, done);
@@ -166,30 +197,35 @@ void bind_rendering(py::module_& module) {
   bind_options(module);
   module.def(
       "render", &render_once, py::arg("scene"), py::kw_only(), py::arg("progress") = py::none(),
-      "Renders a Scene or a file in POV-Ray's language: an array of (height, width, 4), top row first.\n\n"
-      "uint8, for display; with colours=True float32, linear, as rays brought them. With alpha=True it is\n"
-      "transparent where what is behind the scene is seen. progress: called\n"
-      "with the finished fraction, 0 to 1; where it returns False, Cancelled is raised. Further keywords\n"
-      "are those of Session, and of Scene.from_file where there is a file.");
+      signed_doc(
+          "render", "scene, *, progress=None, " + render_signature() + ", " + parse_signature(),
+          "Renders a Scene or a file in POV-Ray's language: a Picture, which is an array of (height, "
+          "width, 4), top\nrow first.\n\n"
+          "It is of uint8, for display; with colours=True of float32, linear, as rays brought them.\n"
+          "progress is called with the finished fraction, 0 to 1; where it returns False, Cancelled is "
+          "raised.\n\n" +
+              render_listing() + "\nOf a file also:\n\n" + parse_listing())
+          .c_str());
 
   py::class_<GuardedSession, std::shared_ptr<GuardedSession>> session(
       module, "Session",
-      "A scene on a machine, rendered frame after frame at the cost of what has changed.\n\n"
-      "It has a copy of the scene. Indices are those of the scene's lists.");
+      signed_doc("Session", "scene, *, " + render_signature(),
+                 "A scene on a machine, rendered frame after frame at the cost of what has changed.\n\n"
+                 "It has a copy of the scene. Indices are those of the scene's lists.\n\n" +
+                     render_listing())
+          .c_str());
+  const auto def = [&](const char* name, const auto& function, const std::string& parameters, const char* doc,
+                       const auto&... more) {
+    session.def(name, function, signed_doc(name, "$self" + parameters, doc).c_str(), more...);
+  };
   session
-      .def(py::init([](const Scene& scene, const py::kwargs& kwargs) {
+      .def(py::init([](const PythonScene& scene, const py::kwargs& kwargs) {
+             refuse_parse_options(kwargs);
              RenderOptions options;
              set_render_options(options, kwargs);
              return std::make_shared<GuardedSession>(scene, options);
            }),
-           py::arg("scene"))
-      .def("render", &GuardedSession::render, py::kw_only(), py::arg("into") = py::none(),
-           py::arg("progress") = py::none(),
-           "The scene as it is now, as the function render(). into: an array of (height, width, 3 or 4) "
-           "bytes,\n"
-           "which gets pixels when they are finished, and is returned.")
-      .def("cancel", &GuardedSession::cancel,
-           "Ends the frame that another thread is rendering, where Cancelled is raised.")
+           py::arg("scene"), signed_init("scene, *, " + render_signature()).c_str())
       .def_property_readonly(
           "statistics", &GuardedSession::statistics,
           "Of the last whole frame, a dict by the keys of docs/statistics.md; None before.")
@@ -198,59 +234,51 @@ void bind_rendering(py::module_& module) {
           "What each pixel of the last whole frame sees first, where first_hits was asked for: a dict of\n"
           "depth (height, width), from where the ray starts; normal (height, width, 3); object (height,\n"
           "width), 1 + the index of its interior, 0 where nothing is.")
-      .def_property_readonly(
-          "scene", [](GuardedSession& self) { return Scene(self.idle().scene()); },
-          "A copy of the scene as it is now.")
-      .def(
-          "set_camera", [](GuardedSession& self, const Camera& to) { self.idle().set_camera(to); },
-          py::arg("camera"))
-      .def(
-          "set_light",
-          [](GuardedSession& self, Index light, const Light& to) { self.idle().set_light(light, to); },
-          py::arg("light"), py::arg("to"))
-      .def(
-          "set_material",
-          [](GuardedSession& self, Index material, const Material& to) {
-            self.idle().set_material(material, to);
-          },
-          py::arg("material"), py::arg("to"))
-      .def(
-          "set_interior",
-          [](GuardedSession& self, Index interior, const Interior& to) {
-            self.idle().set_interior(interior, to);
-          },
-          py::arg("interior"), py::arg("to"))
-      .def(
-          "set_object",
-          [](GuardedSession& self, Index object, const Object& to) { self.idle().set_object(object, to); },
-          py::arg("object"), py::arg("to"))
-      .def(
-          "set_transform",
-          [](GuardedSession& self, Index object, const Transform& to) {
-            self.idle().set_transform(object, to);
-          },
-          py::arg("object"), py::arg("to"))
-      .def(
-          "set_material_of",
-          [](GuardedSession& self, Index object, Index material) {
-            self.idle().set_material_of(object, material);
-          },
-          py::arg("object"), py::arg("material"))
-      .def(
-          "show", [](GuardedSession& self, Index object, bool visible) { self.idle().show(object, visible); },
-          py::arg("object"), py::arg("visible") = true)
-      .def(
-          "replace", [](GuardedSession& self, const Scene& scene) { self.idle().replace(scene); },
-          py::arg("scene"), "Another scene.")
-      .def(
-          "set_picture",
-          [](GuardedSession& self, const py::kwargs& kwargs) {
-            RenderOptions options = self.idle().options();
-            set_picture_options(options, kwargs);
-            self.idle().set_picture(options);
-          },
-          "Another width, height, region, antialiasing, colours, alpha or first_hits; the scene stays on the "
-          "machine.");
+      .def_property_readonly("scene", &GuardedSession::scene, "A copy of the scene as it is now.");
+  def("render", &GuardedSession::render, ", *, into=None, progress=None",
+      "Renders the scene as it is now, as the function render(). into: an array of (height, width, 3 or 4)\n"
+      "bytes, which gets pixels when they are finished, and is returned.",
+      py::kw_only(), py::arg("into") = py::none(), py::arg("progress") = py::none());
+  def("cancel", &GuardedSession::cancel, "",
+      "Ends the frame that another thread is rendering, where Cancelled is raised.");
+  def("set_camera", &GuardedSession::set_camera, ", camera", "From the next frame on.", py::arg("camera"));
+  def(
+      "set_light",
+      [](GuardedSession& self, Index light, const Light& to) { self.idle().set_light(light, to); },
+      ", light, to", "light: an index of Scene.lights.", py::arg("light"), py::arg("to"));
+  def(
+      "set_material",
+      [](GuardedSession& self, Index material, const Material& to) {
+        self.idle().set_material(material, to);
+      },
+      ", material, to", "material: an index of Scene.materials.", py::arg("material"), py::arg("to"));
+  def(
+      "set_interior",
+      [](GuardedSession& self, Index interior, const Interior& to) {
+        self.idle().set_interior(interior, to);
+      },
+      ", interior, to", "interior: an index of Scene.interiors.", py::arg("interior"), py::arg("to"));
+  def(
+      "set_object",
+      [](GuardedSession& self, Index object, const Object& to) { self.idle().set_object(object, to); },
+      ", object, to", "object: an index of Scene.objects.", py::arg("object"), py::arg("to"));
+  def(
+      "set_transform",
+      [](GuardedSession& self, Index object, const Transform& to) { self.idle().set_transform(object, to); },
+      ", object, to", "object: an index of Scene.objects.", py::arg("object"), py::arg("to"));
+  def(
+      "set_material_of",
+      [](GuardedSession& self, Index object, Index material) {
+        self.idle().set_material_of(object, material);
+      },
+      ", object, material", "Gives an object another material of the scene's, both by their indices.",
+      py::arg("object"), py::arg("material"));
+  def(
+      "show", [](GuardedSession& self, Index object, bool visible) { self.idle().show(object, visible); },
+      ", object, visible=True", "Shows or hides an object.", py::arg("object"), py::arg("visible") = true);
+  def("replace", &GuardedSession::replace, ", scene", "Takes another scene.", py::arg("scene"));
+  def("set_picture", &GuardedSession::set_picture, ", *, " + picture_signature(),
+      ("Changes the picture; the scene stays on the machine.\n\n" + picture_listing()).c_str());
 }
 
 } // namespace celltrace

@@ -1,5 +1,6 @@
 // Cameras, lights, and what surfaces and insides look like.
 #include "python/bindings.hpp"
+#include "python/camera.hpp"
 #include "python/fields.hpp"
 
 #include "celltrace/error.hpp"
@@ -9,16 +10,34 @@
 #include <glm/trigonometric.hpp>
 
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 namespace celltrace {
 
 namespace {
 
-/// The material of a sphere of which `text` is written.
+/// The material of a sphere of which `text` is written, in a scene like Scene(). The text is a file of its
+/// own, for the places in messages to be those in it.
 Material material_from_pov(const std::string& text) {
-  const Scene scene = parse_string("sphere { 0, 1 " + text + "\n}", {}, "<material>");
+  constexpr std::string_view kName = "<material>";
+  ParseOptions options;
+  options.version = Scene().version;
+  options.file = [&](const std::string& name) { return name == kName ? std::optional(text) : std::nullopt; };
+  const Scene scene = parse_string("global_settings { assumed_gamma 1 } sphere { 0, 1\n#include \"" +
+                                       std::string(kName) + "\"\n}",
+                                   options, "<from_pov>");
   if (scene.objects.size() != 1) throw InputError("from_pov: that is not the texture of one object");
   return scene.materials[scene.objects[0].material];
+}
+
+FramedCamera look_at(const Vec3& from, const Vec3& to, double angle, std::optional<double> aspect,
+                     const Vec3& sky, bool is_right_handed) {
+  FramedCamera camera{aspect ? Camera::look_at(from, to, angle, *aspect, sky)
+                             : Camera::look_at(from, to, angle, 4.0 / 3, sky)};
+  if (!aspect) camera.framing = Framing::width;
+  if (is_right_handed) camera.right = -camera.right;
+  return camera;
 }
 
 /// A field of Material::finish.
@@ -30,21 +49,30 @@ template <class T> auto of_pigment(T Pigment::*member) {
 }
 
 void bind_camera(py::module_& module) {
-  bind_values<Camera>(module, "Camera",
-                      "POV-Ray's cameras, finished: after sky, look_at, angle and transformations.",
-                      Fields<Camera>()
-                          .add("kind", &Camera::kind, "perspective, orthographic, spherical, ...")
-                          .add("location", &Camera::location, "")
-                          .add("direction", &Camera::direction, "")
-                          .add("right", &Camera::right, "")
-                          .add("up", &Camera::up, "")
-                          .add("angle", &Camera::angle, "in degrees; perspective ones have it in direction")
-                          .add("vertical_angle", &Camera::vertical_angle, ""))
+  bind_values<FramedCamera>(
+      module, "Camera", "POV-Ray's cameras, finished: after sky, look_at, angle and transformations.",
+      Fields<FramedCamera>()
+          .add("kind", &Camera::kind, "perspective, orthographic, spherical, ...")
+          .add("location", &Camera::location, "where it is")
+          .add("direction", &Camera::direction, "where it looks")
+          .add("right", &Camera::right, "across the picture")
+          .add("up", &Camera::up, "from the bottom of the picture to its top")
+          .add("angle", &Camera::angle, "in degrees; perspective ones have it in direction")
+          .add("vertical_angle", &Camera::vertical_angle, "in degrees")
+          .add("framing", &FramedCamera::framing,
+               "in a picture of another shape than right by up: 'fixed' squeezes, 'width' shows more or less "
+               "above\nand below, 'whole' shows more at the sides, or above and below"))
       .def_static(
-          "look_at", &Camera::look_at, py::arg("location"), py::arg("target"), py::arg("angle") = 67.38,
-          py::arg("aspect") = 4.0 / 3, py::arg("sky") = Vec3(0, 1, 0),
-          "A perspective camera; angle: that the picture is wide, in degrees; aspect: its width by its\n"
-          "height.");
+          "look_at", &look_at, py::arg("location"), py::arg("target"), py::arg("angle") = 67.38,
+          py::arg("aspect") = py::none(), py::arg("sky") = Vec3(0, 1, 0), py::kw_only(),
+          py::arg("right_handed") = false,
+          signed_doc("look_at",
+                     "location, target, angle=67.38, aspect=None, sky=(0, 1, 0), *, right_handed=False",
+                     "A perspective camera. angle: that the picture is wide, in degrees. aspect: width by "
+                     "height of\nthe pictures that it is for; None: of whatever picture it is used for. sky: "
+                     "what is up.\nright_handed: the axes are those of mathematics, as matplotlib's, and not "
+                     "POV-Ray's.")
+              .c_str());
 }
 
 void bind_lights(py::module_& module) {
@@ -99,8 +127,13 @@ void bind_materials(py::module_& module) {
                         "A texture of one colour, with POV-Ray's finish and its defaults.", fields)
       .def_static(
           "from_pov", &material_from_pov, py::arg("text"), py::call_guard<py::gil_scoped_release>(),
-          "Of POV-Ray's language: what stands in an object, as \"pigment { checker rgb 1, rgb 0 }\" or\n"
-          "\"texture { ... }\". Patterns, layers and normals stay whatever replace() changes.");
+          signed_doc(
+              "from_pov", "text",
+              "Reads what stands in an object of POV-Ray's language, as \"pigment { checker rgb 1, rgb 0 "
+              "}\" or\n\"texture { ... }\", in a scene of version 3.7 with assumed_gamma 1: `rgb` is "
+              "linear, and `srgb` is\nwhat colour pickers say. Patterns, layers and normals stay whatever "
+              "replace() changes.")
+              .c_str());
   bind_values<Interior>(module, "Interior", "The inside of an object.",
                         Fields<Interior>()
                             .add("ior", &Interior::ior, "")
@@ -112,6 +145,19 @@ void bind_materials(py::module_& module) {
 }
 
 } // namespace
+
+Camera framed(const FramedCamera& camera, int width, int height) {
+  Camera made = camera;
+  const double own = glm::length(camera.right) / glm::length(camera.up);
+  // By which the picture is wider than the camera's view.
+  const double wider = static_cast<double>(width) / height / own;
+  if (camera.framing == Framing::fixed || !std::isfinite(wider)) return made;
+  if (camera.framing == Framing::whole && wider > 1)
+    made.right *= wider;
+  else
+    made.up /= wider;
+  return made;
+}
 
 void bind_surfaces(py::module_& module) {
   bind_camera(module);

@@ -1,7 +1,9 @@
 """The hints for type checkers say what the module has."""
 
 import ast
+import inspect
 import pathlib
+import pydoc
 
 import celltrace
 import pytest
@@ -75,6 +77,62 @@ def test_keywords_are_taken():
     celltrace.Scene.from_text("sphere { 0, 1 }", **keywords)
     with pytest.raises(celltrace.InputError, match="none.pov"):
         celltrace.render("none.pov", **given(FUNCTIONS["render"]))
+
+
+def said(function):
+    """Names of a function in the hints, as inspect.Parameter has kinds, and its defaults where they are literals."""
+    kinds, arguments = inspect.Parameter, function.args
+    positional = arguments.posonlyargs + arguments.args
+    names = {argument.arg: kinds.POSITIONAL_OR_KEYWORD for argument in positional}
+    names |= {argument.arg: kinds.KEYWORD_ONLY for argument in arguments.kwonlyargs}
+    defaults = dict(zip([argument.arg for argument in positional[len(positional) - len(arguments.defaults):]],
+                        arguments.defaults))
+    defaults |= {argument.arg: default for argument, default in zip(arguments.kwonlyargs, arguments.kw_defaults) if default}
+    return names, {name: ast.literal_eval(default) for name, default in defaults.items()}
+
+
+def is_same(default, other):
+    """Whether two defaults mean the same: one number stands for all three."""
+    if other is ... or default is ...:
+        return True
+    if isinstance(default, (tuple, list)) and isinstance(other, (int, float)):
+        return all(part == other for part in default)
+    return list(default) == list(other) if isinstance(default, (tuple, list)) else default == other
+
+
+SIGNED = ([(name, getattr(celltrace, name), node) for name, node in FUNCTIONS.items() if name != "srgb"]
+          + [(f"{name}.{item.name}", getattr(celltrace, name) if item.name == "__init__"
+              else getattr(getattr(celltrace, name), item.name), item)
+             for name, node in CLASSES.items() for item in node.body if isinstance(item, ast.FunctionDef)
+             and all(getattr(decorator, "id", "") == "staticmethod" for decorator in item.decorator_list)
+             and item.name not in ("replace", "__new__", "_repr_png_")])
+
+
+@pytest.mark.parametrize("name, made, node", SIGNED, ids=[name for name, *_ in SIGNED])
+def test_signatures_are_those_of_the_hints(name, made, node):
+    parameters = dict(inspect.signature(made).parameters)
+    names, defaults = said(node)
+    names.pop("self", None)
+    parameters.pop("self", None)
+    assert {name: parameter.kind for name, parameter in parameters.items()} == names
+    for name, parameter in parameters.items():
+        assert (parameter.default is inspect.Parameter.empty) == (name not in defaults), name
+        if name in defaults:
+            assert is_same(parameter.default, defaults[name]), name
+
+
+def test_signatures_of_what_replace_takes():
+    parameters = inspect.signature(celltrace.Sphere.replace).parameters
+    assert list(parameters) == ["centre", "radius"]
+    assert all(parameter.kind == inspect.Parameter.KEYWORD_ONLY for parameter in parameters.values())
+
+
+def test_help_names_every_keyword():
+    for name, made in (("render", celltrace.render), ("Session", celltrace.Session)):
+        text = pydoc.plain(pydoc.render_doc(made))
+        for keyword in inspect.signature(made).parameters:
+            assert name == "Session" and keyword == "scene" or f"{keyword}" in text.split("\n\n", 1)[1], keyword
+    assert "loop-steps" in celltrace.render.__doc__ and "library_paths: " in celltrace.render.__doc__
 
 
 def test_docstrings():

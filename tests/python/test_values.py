@@ -60,8 +60,8 @@ def test_smooth_meshes_and_surface_coordinates():
     ((numpy.zeros((3, 2)), numpy.zeros((1, 3), int)), "vertices: the shape has to be"),
     ((numpy.zeros((3, 3)), numpy.zeros((1, 4), int)), "triangles: the shape has to be"),
     ((numpy.zeros((3, 3)), numpy.zeros((1, 3))), "whole numbers"),
-    ((numpy.zeros((3, 3)), numpy.array([[0, 1, 3]])), "3 is none of 3"),
-    ((numpy.zeros((3, 3)), numpy.array([[0, 1, -1]])), "-1 is none of 3"),
+    ((numpy.zeros((3, 3)), numpy.array([[0, 1, 3]])), "row 0 has the index 3, and vertices has 3 rows"),
+    ((numpy.zeros((3, 3)), numpy.array([[0, 1, -1]])), "row 0 has the index -1, and vertices"),
 ])
 def test_wrong_arrays(arguments, text):
     with pytest.raises(ValueError, match=text):
