@@ -9,18 +9,18 @@
 #   python   to build the Python package and to test it
 #   docs     to make the documents a site
 #   clients  programs that call POV-Ray, which tools/test-clients.sh runs with celltrace in its place
-#   extras   POV-Ray, for the tests that compare with it, ImageMagick and ffmpeg, which tests have read pictures, clang
+#   extras   POV-Ray, for the tests that compare with it, ImageMagick and ffmpeg, which tests have read pictures, matplotlib, whose colours Python has, clang
 #            with its runtime, to compare builds and to fuzz, ccache, and the shells whose completions are tested
 set -euo pipefail
 
 declare -A packages=(
   [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libjpeg62-turbo-dev libopenexr-dev libpng-dev libsdl2-dev libsdl2-ttf-dev libxsimd-dev nlohmann-json3-dev zlib1g-dev"
   [tests]="catch2 fonts-dejavu-core libbenchmark-dev pkg-config python3 xz-utils"
-  [python]="pybind11-dev python3-dev python3-numpy python3-pytest"
+  [python]="pybind11-dev python3-dev python3-numpy python3-pip python3-pytest python3-setuptools python3-venv python3-wheel"
   [docs]="doxygen mkdocs"
   [clients]="blender imagemagick jmol mayavi2 openbabel povray povray-includes pymol python3-ase python3-skimage python3-vtk9 xauth xvfb"
   [bench]="libembree-dev povray povray-includes"
-  [extras]="ccache clang ffmpeg fish imagemagick libclang-rt-14-dev libmagickcore-6.q16-6-extra povray povray-includes xdotool xvfb zsh"
+  [extras]="ccache clang ffmpeg fish imagemagick libclang-rt-14-dev libmagickcore-6.q16-6-extra povray povray-includes python3-matplotlib xdotool xvfb zsh"
 )
 
 is_installed() {
