@@ -69,7 +69,9 @@ struct FirstHits {
   int height = 0;
   std::vector<float> depth;  ///< from where the ray starts, in the scene's unit; infinity where nothing is
   std::vector<float> normal; ///< x, y, z a pixel, of length 1, to the side that is seen; 0 where nothing is
-  /// 1 + the index in Scene::interiors of what is seen, by which objects are told apart; 0 where nothing is.
+  /// A number by which objects are told apart, 0 where nothing is: 1 + the index in Scene::interiors of what
+  /// is seen, so that the parts of a union that share one are one object; for an object without an interior 1
+  /// + the number of interiors + its index in Scene::objects, which is RayHit::object.
   std::vector<std::uint32_t> object;
 };
 

@@ -166,6 +166,12 @@ struct RenderOptions {
   bool ray_queries = false;
   /// RenderResult::work is wanted. Model `shared` only.
   bool work_map = false;
+  /// A call that renders ends after so many seconds as if its Progress had cancelled it, with the picture so
+  /// far; what it has to prepare counts. 0: no limit.
+  double most_seconds = 0;
+  /// Bytes of the scene's image with its accelerator, and bytes of the picture: more is an InputError before
+  /// they are taken. 0: no limit.
+  std::uint64_t most_memory = 0;
 };
 
 /// What a frame cost. Sums over all SPEs unless said otherwise; what building the accelerator took is only in

@@ -45,12 +45,21 @@ struct Camera {
   double angle = 90;           ///< that a picture is wide, in degrees, not negative; of kinds that mention it
   double vertical_angle = 180; ///< that it is high, likewise
 
+  /// How the camera adapts to the ratio of a picture's width to its height.
+  enum class Framing {
+    fixed, ///< not at all, as in POV-Ray: what it sees is squeezed into the picture
+    width, ///< what it sees is as wide as before, and higher or lower
+    whole  ///< what it sees is wider or higher, and never less
+  };
+  Framing framing = Framing::fixed;
+
   /// A perspective camera at `from` with `to` in the middle of its picture, which is `angle` degrees wide,
-  /// above 0 and below 180, and `aspect` times as wide as high, above 0. What lies along `sky` is up. Throws
-  /// InputError for numbers out of range or not finite, where `from` is `to`, and where `sky` is 0 or along
-  /// the way from one to the other.
+  /// above 0 and below 180. With `aspect`, above 0, it is for pictures that are `aspect` times as wide as
+  /// high, and others are squeezed; without, for pictures of any shape (Framing::width). What lies along
+  /// `sky` is up. Throws InputError for numbers out of range or not finite, where `from` is `to`, and where
+  /// `sky` is 0 or along the way from one to the other.
   CELLTRACE_EXPORT static Camera look_at(const Vec3& from, const Vec3& to, double angle = 67.38,
-                                         double aspect = 4.0 / 3, const Vec3& sky = {0, 1, 0});
+                                         std::optional<double> aspect = {}, const Vec3& sky = {0, 1, 0});
 };
 
 /// What colour values mean and how they become 8 bits.
@@ -279,7 +288,7 @@ struct Object {
       shape;
   Transform transform;
   Index material = 0;        ///< of a CSG: means nothing, its parts have their own
-  Index interior = kNoIndex; ///< likewise; kNoIndex: one as Interior() makes it, for all such objects
+  Index interior = kNoIndex; ///< likewise; kNoIndex: one of its own, as Interior() makes it
   // Of these three POV-Ray does not take all that parts of a CSG say: in unions all, but in those that are
   // clipped or parts of other operations only no_reflection; in merges all but no_shadow; in others nothing.
   // What a ray does not see of a merge hides nothing of its other parts from that ray.

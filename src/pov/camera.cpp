@@ -253,6 +253,10 @@ Camera CameraDefinition::finish() const {
   if (!is_finite(camera.location) || !is_finite(camera.direction) || !is_finite(camera.right) ||
       !is_finite(camera.up) || glm::length(camera.direction) == 0)
     throw InputError("the camera has no direction");
+  // A picture that is a line or a point; a Scene's cameras have axes that are not 0.
+  constexpr double kNearlyNothing = 1e-300;
+  for (Vec3* axis : {&camera.right, &camera.up})
+    if (*axis == Vec3(0)) axis->x = kNearlyNothing;
   return camera;
 }
 

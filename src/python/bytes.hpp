@@ -2,9 +2,9 @@
 // library on the same kind of machine.
 #pragma once
 
-#include "python/camera.hpp"
 #include "python/members.hpp"
 #include "python/mesh.hpp"
+#include "python/python_scene.hpp"
 
 #include "celltrace/error.hpp"
 #include "celltrace/version.hpp"
@@ -34,14 +34,9 @@ inline constexpr bool kIsBytes =
 template <class Archive, class T> void visit_members(Archive& archive, T& value) {
   std::apply([&](auto&... member) { (archive(member), ...); }, tie_members(value));
 }
-template <class Archive> void visit_members(Archive& archive, FramedCamera& camera) {
-  archive(static_cast<Camera&>(camera));
-  archive(camera.framing);
-}
 /// What is placed already is found by its address, which is another one elsewhere.
 template <class Archive> void visit_members(Archive& archive, PythonScene& scene) {
   archive(static_cast<Scene&>(scene));
-  archive(scene.framing);
 }
 template <class Archive> void visit_members(Archive& archive, MeshColours& colours) {
   archive(colours.palette);

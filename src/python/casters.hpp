@@ -4,8 +4,8 @@
 
 #include "celltrace/render.hpp"
 #include "celltrace/scene.hpp"
-#include "python/camera.hpp"
 #include "python/mesh.hpp"
+#include "python/python_scene.hpp"
 
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
@@ -81,9 +81,10 @@ template <> struct EnumStrings<Camera::Kind> {
       {"cylinder_3", K::cylinder_3},   {"cylinder_4", K::cylinder_4},
       {"fisheye", K::fisheye}};
 };
-template <> struct EnumStrings<Framing> {
-  static constexpr EnumString<Framing> values[] = {
-      {"fixed", Framing::fixed}, {"width", Framing::width}, {"whole", Framing::whole}};
+template <> struct EnumStrings<Camera::Framing> {
+  static constexpr EnumString<Camera::Framing> values[] = {{"fixed", Camera::Framing::fixed},
+                                                           {"width", Camera::Framing::width},
+                                                           {"whole", Camera::Framing::whole}};
 };
 template <> struct EnumStrings<Csg::Operation> {
   static constexpr EnumString<Csg::Operation> values[] = {{"union", Csg::Operation::union_},

@@ -63,7 +63,7 @@ template <> inline constexpr int kMembers<Normal> = 5;
 template <> inline constexpr int kMembers<Finish> = 21;
 template <> inline constexpr int kMembers<Material> = 6;
 
-template <> inline constexpr int kMembers<Camera> = 7;
+template <> inline constexpr int kMembers<Camera> = 8;
 template <> inline constexpr int kMembers<Interior> = 7;
 template <> inline constexpr int kMembers<Fog> = 10;
 template <> inline constexpr int kMembers<Rainbow> = 9;
@@ -90,7 +90,7 @@ template <> inline constexpr int kMembers<Scene> = 22;
 
 template <> inline constexpr int kMembers<Antialiasing> = 5;
 template <> inline constexpr int kMembers<CacheConfig> = 6;
-template <> inline constexpr int kMembers<Finding> = 6;
+template <> inline constexpr int kMembers<Finding> = 7;
 
 /// References to all members of a value.
 template <class T> auto tie_members(T& value) {

@@ -137,13 +137,7 @@ void bind_scene(py::module_& module) {
       },
       "text", "As from_file(), of a text in memory.");
   scene.def_readwrite("name", &Scene::name, "for messages: the file it came from")
-      .def_property(
-          "camera", &PythonScene::framed_camera,
-          [](PythonScene& self, const FramedCamera& to) {
-            self.camera = to;
-            self.framing = to.framing;
-          },
-          "a Camera")
+      .def_readwrite("camera", &Scene::camera, "a Camera")
       .def_readwrite("background", &Scene::background, "colour")
       .def_readwrite("mirrored_background", &Scene::mirrored_background,
                      "what reflected rays see in place of it in a picture with alpha, without a sky; or None")

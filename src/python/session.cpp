@@ -43,16 +43,15 @@ py::object arrays_of(FirstHits hits) {
   return arrays;
 }
 
-/// A Session that Python's threads may share: what changes it while it renders is refused. Its camera is
-/// adapted to its picture.
+/// A Session that Python's threads may share: what changes it while it renders is refused.
 class GuardedSession {
 public:
-  GuardedSession(const PythonScene& scene, RenderOptions options) : camera_(scene.framed_camera()) {
+  GuardedSession(const PythonScene& scene, RenderOptions options) {
     options.build_progress = [this](double fraction) {
       watch_->set_part(0, kBuilding);
       return (*watch_)(fraction);
     };
-    session_.emplace(scene.framed(options.width, options.height), options);
+    session_.emplace(scene, options);
   }
   GuardedSession(const GuardedSession&) = delete;
 
@@ -63,27 +62,13 @@ public:
   }
   void cancel() { session_->cancel(); }
 
-  PythonScene scene() {
-    PythonScene copy(idle().scene());
-    copy.camera = camera_;
-    copy.framing = camera_.framing;
-    return copy;
-  }
-  void set_camera(const FramedCamera& to) {
-    const RenderOptions& options = idle().options();
-    session_->set_camera(framed(to, options.width, options.height));
-    camera_ = to;
-  }
-  void replace(const PythonScene& scene) {
-    const RenderOptions& options = idle().options();
-    session_->replace(scene.framed(options.width, options.height));
-    camera_ = scene.framed_camera();
-  }
+  PythonScene scene() { return idle().scene(); }
+  void set_camera(const Camera& to) { idle().set_camera(to); }
+  void replace(const PythonScene& scene) { idle().replace(scene); }
   void set_picture(const py::kwargs& kwargs) {
     RenderOptions options = idle().options();
     set_picture_options(options, kwargs);
     session_->set_picture(options);
-    if (camera_.framing != Framing::fixed) set_camera(camera_);
   }
   const py::object& statistics() const { return statistics_; }
   const py::object& first_hits() const { return first_hits_; }
@@ -118,7 +103,6 @@ private:
   }
 
   std::optional<Session> session_;
-  FramedCamera camera_;
   Watch* watch_ = nullptr; ///< of the frame that is being rendered
   py::object statistics_ = py::none(), first_hits_ = py::none();
 };
@@ -144,7 +128,7 @@ py::object render_once(const py::object& scene, const py::object& progress, py::
   try {
     if (is_scene) {
       // A copy: the lock is released, and other threads may change it.
-      read = std::make_shared<Scene>(scene.cast<const PythonScene&>().framed(options.width, options.height));
+      read = std::make_shared<Scene>(scene.cast<const PythonScene&>());
     } else {
       done = kReading;
       watch.set_part(0, done);

@@ -1,7 +1,7 @@
 // Cameras, lights, and what surfaces and insides look like.
 #include "python/bindings.hpp"
-#include "python/camera.hpp"
 #include "python/fields.hpp"
+#include "python/python_scene.hpp"
 
 #include "celltrace/error.hpp"
 #include "celltrace/pov.hpp"
@@ -31,11 +31,9 @@ Material material_from_pov(const std::string& text) {
   return scene.materials[scene.objects[0].material];
 }
 
-FramedCamera look_at(const Vec3& from, const Vec3& to, double angle, std::optional<double> aspect,
-                     const Vec3& sky, bool is_right_handed) {
-  FramedCamera camera{aspect ? Camera::look_at(from, to, angle, *aspect, sky)
-                             : Camera::look_at(from, to, angle, 4.0 / 3, sky)};
-  if (!aspect) camera.framing = Framing::width;
+Camera look_at(const Vec3& from, const Vec3& to, double angle, std::optional<double> aspect, const Vec3& sky,
+               bool is_right_handed) {
+  Camera camera = Camera::look_at(from, to, angle, aspect, sky);
   if (is_right_handed) camera.right = -camera.right;
   return camera;
 }
@@ -49,9 +47,9 @@ template <class T> auto of_pigment(T Pigment::*member) {
 }
 
 void bind_camera(py::module_& module) {
-  bind_values<FramedCamera>(
+  bind_values<Camera>(
       module, "Camera", "POV-Ray's cameras, finished: after sky, look_at, angle and transformations.",
-      Fields<FramedCamera>()
+      Fields<Camera>()
           .add("kind", &Camera::kind, "perspective, orthographic, spherical, ...")
           .add("location", &Camera::location, "where it is")
           .add("direction", &Camera::direction, "where it looks")
@@ -59,7 +57,7 @@ void bind_camera(py::module_& module) {
           .add("up", &Camera::up, "from the bottom of the picture to its top")
           .add("angle", &Camera::angle, "in degrees; perspective ones have it in direction")
           .add("vertical_angle", &Camera::vertical_angle, "in degrees")
-          .add("framing", &FramedCamera::framing,
+          .add("framing", &Camera::framing,
                "in a picture of another shape than right by up: 'fixed' squeezes, 'width' shows more or less "
                "above\nand below, 'whole' shows more at the sides, or above and below"))
       .def_static(
@@ -145,19 +143,6 @@ void bind_materials(py::module_& module) {
 }
 
 } // namespace
-
-Camera framed(const FramedCamera& camera, int width, int height) {
-  Camera made = camera;
-  const double own = glm::length(camera.right) / glm::length(camera.up);
-  // By which the picture is wider than the camera's view.
-  const double wider = static_cast<double>(width) / height / own;
-  if (camera.framing == Framing::fixed || !std::isfinite(wider)) return made;
-  if (camera.framing == Framing::whole && wider > 1)
-    made.right *= wider;
-  else
-    made.up /= wider;
-  return made;
-}
 
 void bind_surfaces(py::module_& module) {
   bind_camera(module);

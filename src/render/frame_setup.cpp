@@ -124,10 +124,23 @@ void check(const Antialiasing& antialiasing, Model model) {
     throw InputError("the gamma of antialiasing has to be above 0");
 }
 
+std::uint64_t bytes_per_pixel(const RenderOptions& options) {
+  return 4u + (options.antialiasing ? 16 : 0) +
+         (options.colours || options.alpha || options.first_hits ? 32 : 0) + (options.first_hits ? 20 : 0);
+}
+
 /// Checks how many pixels are in memory at a time.
 void check_memory(const RenderOptions& options) {
   const PictureRegion region = region_of(options);
   const int height = region.bottom - region.top;
+  if (options.most_memory != 0) {
+    const int rows = options.rows_at_once == 0 ? options.height : std::min(options.rows_at_once, height);
+    const std::uint64_t bytes = bytes_per_pixel(options) * static_cast<std::uint64_t>(options.width) *
+                                static_cast<std::uint64_t>(rows);
+    if (bytes > options.most_memory)
+      throw InputError("the picture takes " + std::to_string(bytes) + " bytes, and " +
+                       std::to_string(options.most_memory) + " are allowed");
+  }
   if (options.rows_at_once == 0) {
     if (std::int64_t{options.width} * options.height <= kMaxImagePixels) return;
     throw InputError("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
@@ -192,6 +205,7 @@ void check(const RenderOptions& options) {
     throw InputError("the maximum trace level has to be 1 to 256");
   if (options.adc_bailout && !(*options.adc_bailout >= 0))
     throw InputError("the adaptive depth control's bailout must not be negative");
+  if (!(options.most_seconds >= 0)) throw InputError("the most seconds must not be negative");
   if (options.quality < 0 || options.quality > 11) throw InputError("the quality has to be 0 to 11");
   const PictureRegion region = region_of(options);
   if (region.left < 0 || region.left >= region.right || region.right > options.width || region.top < 0 ||
@@ -339,7 +353,25 @@ PictureOnGrid picture_on_grid(const RenderOptions& options) {
           first - region.top};
 }
 
-CameraRecord camera_record(const Camera& camera, const PictureOnGrid& picture) {
+namespace {
+
+/// Returns the camera for a picture of that width and height.
+Camera framed(Camera camera, double width, double height) {
+  const double own = glm::length(camera.right) / glm::length(camera.up);
+  // By which the picture is wider than the camera's view.
+  const double wider = width / height / own;
+  if (camera.framing == Camera::Framing::fixed || !(wider > 0) || !std::isfinite(wider)) return camera;
+  if (camera.framing == Camera::Framing::whole && wider > 1)
+    camera.right *= wider;
+  else
+    camera.up /= wider;
+  return camera;
+}
+
+} // namespace
+
+CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture) {
+  const Camera camera = framed(any_picture, picture.width, picture.height);
   CameraRecord record{};
   record.kind = static_cast<std::uint32_t>(camera.kind);
   Cameras::dispatch(record.kind, [&](auto kind) {
@@ -358,8 +390,7 @@ void set_camera(FrameBlock& frame, const Camera& camera, const PictureOnGrid& pi
   std::vector<std::pair<double, std::uint32_t>> around;
   for (const Medium& medium : media) {
     if (!medium.contains(camera.location)) continue;
-    around.emplace_back(medium.volume(), offset_of_interior(image.header().interior_offset,
-                                                            image.header().interior_count, medium.interior));
+    around.emplace_back(medium.volume(), offset_of_interior(image.header().interior_offset, medium.interior));
   }
   std::sort(around.begin(), around.end(), std::greater<>());
   const std::size_t kept = std::min<std::size_t>(around.size(), kMaxInteriorDepth);

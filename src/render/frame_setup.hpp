@@ -31,7 +31,8 @@ RenderOptions with_picture_of(RenderOptions options, const RenderOptions& given)
 bool brings_colours(const RenderOptions& options);
 /// The part of the picture that is rendered.
 PictureRegion region_of(const RenderOptions& options);
-kernel::CameraRecord camera_record(const Camera& camera, const PictureOnGrid& picture);
+/// Returns the camera of rays through a picture, to which it adapts as Camera::framing says.
+kernel::CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture);
 /// Fills the camera, and the interiors of the media of the scene that it is inside of.
 void set_camera(kernel::FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
                 const std::vector<Medium>& media, const SceneImage& image);

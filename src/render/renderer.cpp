@@ -70,6 +70,14 @@ public:
     new_diagnostics();
   }
 
+  /// Returns what hears of a call's progress, which ends it after RenderOptions::most_seconds. The caller's
+  /// has to live as long.
+  Progress within_time(const Progress& progress) const {
+    if (options_.most_seconds == 0) return progress;
+    return [&progress, watch = Stopwatch(), most = options_.most_seconds](double fraction) {
+      return watch.seconds() < most && (!progress || progress(fraction));
+    };
+  }
   RenderResult render(const Scene& scene, const Progress& progress) {
     check_room_for_all();
     if (!prepare(scene, progress)) return no_frame();
@@ -213,7 +221,7 @@ private:
     prepared_ = RenderStatistics();
     const Stopwatch build;
     retire_queries();
-    builder_->make_image(scene, {is_edited_, options_.ray_queries});
+    builder_->make_image(scene, {is_edited_, options_.ray_queries, options_.most_memory});
     has_scene_ = false;
     media_ = media_of(scene);
     prepared_.build_seconds = build.seconds();
@@ -514,14 +522,14 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 RenderResult Renderer::render(const Scene& scene, const Progress& progress) {
-  return impl_->render(scene, progress);
+  return impl_->render(scene, impl_->within_time(progress));
 }
 RenderResult Renderer::render(const Camera& camera, const Progress& progress) {
-  return impl_->render(camera, progress);
+  return impl_->render(camera, impl_->within_time(progress));
 }
 
 RenderResult Renderer::render(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
-  return impl_->render(scene, changes, progress);
+  return impl_->render(scene, changes, impl_->within_time(progress));
 }
 
 void Renderer::set_picture(const RenderOptions& options) {
@@ -529,17 +537,18 @@ void Renderer::set_picture(const RenderOptions& options) {
 }
 
 bool Renderer::prepare(const Scene& scene) {
-  return impl_->prepare(scene, {});
+  return impl_->prepare(scene, impl_->within_time({}));
 }
 RayQueries Renderer::ray_queries() const {
   return impl_->ray_queries();
 }
 RenderResult Renderer::render_rows(int top, int bottom, const Progress& progress) {
-  return impl_->render_rows(top, bottom, progress);
+  return impl_->render_rows(top, bottom, impl_->within_time(progress));
 }
 
 RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress) {
-  return Renderer(options).impl_->render_once(scene, progress);
+  Renderer renderer(options);
+  return renderer.impl_->render_once(scene, renderer.impl_->within_time(progress));
 }
 
 } // namespace celltrace

@@ -7,6 +7,7 @@
 #include "scene/convex_solid.hpp"
 #include "scene/csg_bounds.hpp"
 #include "scene/extent.hpp"
+#include "scene/interior_records.hpp"
 #include "scene/object_records.hpp"
 #include "scene/polytope.hpp"
 #include "scene/quadric_bounds.hpp"
@@ -654,6 +655,7 @@ CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const O
     if (steps.size() == first_step) solids.resize(first_solid);
     for (std::size_t part = first_part; part < parts.size(); ++part) {
       parts[part].whole = i;
+      parts[part].object.interior = interior_or_own(parts[part].object.interior, scene, i);
       parts[part].object.is_hidden = scene.objects[i].is_hidden;
     }
     for (std::size_t surface = first_replaced; surface < replaced.size(); ++surface)

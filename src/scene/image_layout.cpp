@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "scene/image_fields.hpp"
+#include "scene/interior_records.hpp"
 #include "scene/scene_image.hpp"
 #include "scene/surface_records.hpp"
 
@@ -58,8 +59,8 @@ std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, b
 
 /// The tables that come first: all that does not say where objects are. `blended`: objects of several
 /// materials.
-void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, const LightSets& light_sets,
-                    const TextureTables& textures, std::uint32_t blended) {
+void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, std::size_t interiors,
+                    const LightSets& light_sets, const TextureTables& textures, std::uint32_t blended) {
   layout.place<LightRecord>(scene.lights.size(), header.light_offset, header.light_count);
   header.light_set_count = light_sets.count();
   layout.place<std::uint32_t>(light_sets.words().size(), header.light_word_offset, header.light_word_count);
@@ -73,7 +74,7 @@ void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, con
   layout.place<WaveRecord>(textures.waves.size(), header.wave_offset, header.wave_count);
   layout.place<SlopeRecord>(textures.slopes.size(), header.slope_offset, header.slope_count);
   layout.place<BlendRecord>(blended, header.blend_offset, header.blend_count);
-  layout.place<InteriorRecord>(scene.interiors.size() + 1, header.interior_offset, header.interior_count);
+  layout.place<InteriorRecord>(interiors, header.interior_offset, header.interior_count);
   layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
   header.light_ways = light_ways_of(scene, textures, blended != 0);
   header.surface_nodes = textures.most_nodes(blended != 0);
@@ -103,7 +104,7 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   header.magic = kImageMagic;
   header.version = kImageVersion;
   Layout layout(sizeof(ImageHeader));
-  place_surfaces(layout, header, scene, light_sets, textures, census.blended);
+  place_surfaces(layout, header, scene, interior_records(scene), light_sets, textures, census.blended);
   if (has_near_surfaces) header.light_ways |= light_way::near_surfaces;
   // A ray that goes on behind a surface may find crossings that it did not find from where it started.
   if (textures.filters && !objects.csg().crossed_meshes.records().empty())
@@ -144,11 +145,12 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   return header;
 }
 
-ImageHeader with_surfaces(const ImageHeader& old, const Scene& scene, const LightSets& light_sets,
-                          const TextureTables& textures) {
+ImageHeader with_surfaces(const ImageHeader& old, const Scene& scene, std::size_t own_interiors,
+                          const LightSets& light_sets, const TextureTables& textures) {
   ImageHeader header = old;
   Layout layout(sizeof(ImageHeader));
-  place_surfaces(layout, header, scene, light_sets, textures, old.blend_count);
+  place_surfaces(layout, header, scene, scene.interiors.size() + own_interiors, light_sets, textures,
+                 old.blend_count);
   header.light_ways |= old.light_ways & (light_way::near_surfaces | light_way::unseen | light_way::restarts);
   return header;
 }

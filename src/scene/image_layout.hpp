@@ -30,9 +30,11 @@ kernel::ImageHeader make_header(const Scene& scene, const LightSets& light_sets,
                                 const InstancedMeshes& instanced, const MeshInstances& instances,
                                 bool has_near_surfaces);
 
-/// As `old`, but for the tables of a scene whose objects are where they were.
+/// As `old`, but for the tables of a scene whose objects are where they were; `own_interiors` are the records
+/// of those without an interior.
 kernel::ImageHeader with_surfaces(const kernel::ImageHeader& old, const Scene& scene,
-                                  const LightSets& light_sets, const TextureTables& textures);
+                                  std::size_t own_interiors, const LightSets& light_sets,
+                                  const TextureTables& textures);
 
 /// Whether all tables have the same places.
 bool have_same_layout(const kernel::ImageHeader& a, const kernel::ImageHeader& b);

@@ -1,5 +1,6 @@
 #include "scene/insides.hpp"
 
+#include "scene/interior_records.hpp"
 #include "scene/mesh_geometry.hpp"
 #include "scene/shape_geometry.hpp"
 #include "scene/shapes.hpp"
@@ -195,10 +196,11 @@ std::vector<Medium> media_of(const Scene& scene) {
     return {};
   std::vector<Medium> media;
   MeshExtents meshes;
-  for (const Object& object : scene.objects) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
     const std::optional<Index> interior = interior_of(object);
     if (interior && !object.is_hidden && may_have_inside(object))
-      media.push_back({object, *interior, box_around(object, meshes)});
+      media.push_back({object, interior_or_own(*interior, scene, i), box_around(object, meshes)});
   }
   return media;
 }

@@ -10,13 +10,9 @@ namespace celltrace {
 
 using namespace kernel;
 
-namespace {
-
 bool is_list(const Pattern& pattern) {
   return Patterns::kAreLists[pattern_words(pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask];
 }
-
-} // namespace
 
 bool blends_list(const Pattern& pattern) {
   const bool has_wave = pattern.wave != Pattern::Wave::ramp;

@@ -14,6 +14,9 @@ namespace celltrace {
 /// As many entries as any list has.
 constexpr std::size_t kMostListEntries = 6;
 
+/// Whether a pattern chooses an entry of its map by a number, as checker does.
+bool is_list(const Pattern& pattern);
+
 /// Whether the numbers of a list become others, between which its entries are blended.
 bool blends_list(const Pattern& pattern);
 

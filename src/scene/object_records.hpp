@@ -4,6 +4,7 @@
 #include "celltrace/scene.hpp"
 #include "kernel/accel/object_bounds.hpp"
 #include "kernel/records.hpp"
+#include "scene/interior_records.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -34,15 +35,14 @@ inline bool is_plain(std::uint32_t material_flags) {
   return (material_flags & kernel::object_flag::opaque) != 0 && is_of_points(material_flags);
 }
 
-/// In a table of `count`, of which the last one is that of objects without an interior.
-inline std::uint32_t offset_of_interior(std::uint32_t table_offset, std::uint32_t count, Index interior) {
-  return table_offset +
-         std::min(interior, count - 1) * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
+inline std::uint32_t offset_of_interior(std::uint32_t table_offset, Index interior) {
+  return table_offset + interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
 }
 
 /// Where records go that objects refer to, and where the tables lie in the image.
 struct RecordTables {
-  std::uint32_t material_offset, interior_offset, interior_count, extra_offset, blend_offset;
+  const Scene& scene;
+  std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
   std::uint32_t csg_offset, polygon_edge_offset, instance_offset;
   kernel::ExtraRecord* extras;                      ///< table
   kernel::BlendRecord* blends;                      ///< table
@@ -50,6 +50,12 @@ struct RecordTables {
 
   std::uint32_t offset_of_material(Index index) const {
     return material_offset + index * static_cast<std::uint32_t>(sizeof(kernel::MaterialRecord));
+  }
+  /// For objects of the scene, and for parts of CSGs, whose interior is known.
+  std::uint32_t interior_of(const Object& object) const {
+    if (object.interior != kNoIndex) return offset_of_interior(interior_offset, object.interior);
+    const auto index = static_cast<std::size_t>(&object - scene.objects.data());
+    return offset_of_interior(interior_offset, own_interior(scene, index));
   }
   /// Not blended.
   void set_material(kernel::ObjectRecord& record, Index material) const {
@@ -88,7 +94,7 @@ inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kin
       (is_seen_inverse(object) ? kernel::object_flag::inverse : 0) |
       (object.is_lit_through ? kernel::object_flag::lit_behind | kernel::object_flag::lit_through : 0) |
       light_set_of(object) << kernel::object_flag::light_set_shift;
-  r.interior = offset_of_interior(tables.interior_offset, tables.interior_count, object.interior);
+  r.interior = tables.interior_of(object);
   r.extra = kernel::kNoOffset;
   return r;
 }

@@ -41,11 +41,11 @@ std::vector<Object> triangles_of(const Object& object, const Mesh& mesh) {
   return triangles;
 }
 
-/// Without meshes, and of this material and interior.
-Object taken(const Object& object, Index material, Index interior) {
+/// Without meshes, of this material, and with an interior of its own.
+Object taken(const Object& object, Index material) {
   Object result = object;
   result.material = material;
-  result.interior = interior;
+  result.interior = kNoIndex;
   result.light_group = kNoIndex;
   result.no_image = result.no_reflection = false;
   const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
@@ -57,7 +57,7 @@ Object taken(const Object& object, Index material, Index interior) {
     for (Object& part : parts->parts) {
       if ((!is_union || object.clipped_by) && has_meshes(part))
         throw InputError("a light is projected through a CSG that has a mesh");
-      part = taken(part, material, interior);
+      part = taken(part, material);
     }
     result.shape = std::shared_ptr<const Csg>(std::move(parts));
   } else if (has_meshes(object)) {
@@ -69,15 +69,14 @@ Object taken(const Object& object, Index material, Index interior) {
 } // namespace
 
 SceneWithProjectors::SceneWithProjectors(const Scene& scene) : scene_(scene) {
-  Index material = kNoIndex, interior = kNoIndex;
+  Index material = kNoIndex;
   for (const Light& light : scene.lights) {
     if (!light.projected_through) continue;
     if (!copy_) {
       copy_ = scene;
       material = copy_->add(Material{});
-      interior = copy_->add(Interior{});
     }
-    copy_->objects.push_back(taken(*light.projected_through, material, interior));
+    copy_->objects.push_back(taken(*light.projected_through, material));
   }
 }
 

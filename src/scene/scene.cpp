@@ -86,6 +86,8 @@ void check(const Rainbow& bow, const Name& name) {
   for (const Rainbow::Colour& colour : bow.colours) {
     check_vectors({colour.rgb}, name);
     check_finite({colour.position, colour.filter, colour.transmit}, name);
+    if (&colour != bow.colours.data() && colour.position < (&colour)[-1].position)
+      throw InputError(name.text() + " has colours whose positions do not ascend");
   }
 }
 
@@ -218,21 +220,26 @@ void check_meshes(const Object& object, std::size_t materials, std::size_t index
 
 } // namespace
 
-Camera Camera::look_at(const Vec3& from, const Vec3& to, double angle, double aspect, const Vec3& sky) {
+Camera Camera::look_at(const Vec3& from, const Vec3& to, double angle, std::optional<double> aspect,
+                       const Vec3& sky) {
   check_vectors({from, to, sky}, {"the camera"});
   if (!(angle > 0 && angle < 180)) throw InputError("the camera's angle has to be above 0 and below 180");
-  if (!(aspect > 0) || !std::isfinite(aspect))
+  if (aspect && (!(*aspect > 0) || !std::isfinite(*aspect)))
     throw InputError("the camera's aspect ratio has to be above 0");
   const Vec3 way = to - from;
   const Vec3 across = glm::cross(sky, way);
   if (!(glm::dot(across, across) > 0))
-    throw InputError("the camera looks nowhere, or along what is to be up");
+    throw InputError(way == Vec3(0)
+                         ? "look_at: the camera is where it looks to"
+                         : "look_at: the camera looks along `sky`, or `sky` is 0: pass another `sky`");
   Camera camera;
   camera.location = from;
   const double half_angle = angle * std::numbers::pi / 360;
   camera.direction = glm::normalize(way);
   camera.right = 2 * std::tan(half_angle) * glm::normalize(across);
-  camera.up = glm::length(camera.right) / aspect * glm::normalize(glm::cross(camera.direction, across));
+  camera.framing = aspect ? Framing::fixed : Framing::width;
+  camera.up = glm::length(camera.right) / aspect.value_or(4.0 / 3) *
+              glm::normalize(glm::cross(camera.direction, across));
   return camera;
 }
 
@@ -250,6 +257,10 @@ void validate(const Camera& camera) {
   check_vectors({camera.location, camera.direction, camera.right, camera.up}, {"the camera"});
   check_finite({camera.angle, camera.vertical_angle}, {"the camera"});
   if (camera.angle < 0 || camera.vertical_angle < 0) throw InputError("the camera has a negative angle");
+  const std::pair<const Vec3*, const char*> axes[] = {
+      {&camera.direction, "direction"}, {&camera.right, "right"}, {&camera.up, "up"}};
+  for (const auto& [axis, name] : axes)
+    if (*axis == Vec3(0)) throw InputError(std::string("the camera's ") + name + " is 0");
 }
 
 void validate_all_but_objects(const Scene& scene) {

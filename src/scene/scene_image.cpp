@@ -183,7 +183,11 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
                                          instances, has_near_surfaces(given, textures.object_flags));
 
   BuildWatch::reach(0.6);
-  block_.reserve(header.bytes + bvh_bytes(header));
+  const std::size_t bytes = header.bytes + bvh_bytes(header);
+  if (remembered.most_bytes != 0 && bytes > remembered.most_bytes)
+    throw InputError("the scene takes " + std::to_string(bytes) + " bytes with its BVH, and " +
+                     std::to_string(remembered.most_bytes) + " are allowed");
+  block_.reserve(bytes);
   origin_.reset();
   touch(block_, header.bytes, threads);
   TableWriter writer(block_.data(), header, scene, textures,
@@ -215,6 +219,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   origin.groups = std::move(groups);
   origin.forms = forms_of(instanced, instances, given.objects.size());
   origin.order = objects.order();
+  origin.own_interiors = header.interior_count - scene.interiors.size();
   origin.material_flags = std::move(textures.object_flags);
   origin.surfaces_are_apart = textures.objects.empty() && !has_projectors(given);
 }
@@ -225,7 +230,7 @@ bool SceneImage::update_surfaces(const Scene& scene) {
   TextureTables textures(scene);
   if (!textures.objects.empty() || textures.object_flags != origin_->material_flags) return false;
   const LightSets light_sets(scene);
-  const ImageHeader updated = with_surfaces(header(), scene, light_sets, textures);
+  const ImageHeader updated = with_surfaces(header(), scene, origin_->own_interiors, light_sets, textures);
   if (!have_same_layout(header(), updated)) return false;
 
   std::memcpy(block_.data(), &updated, sizeof updated);

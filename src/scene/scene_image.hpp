@@ -29,6 +29,8 @@ constexpr std::uint32_t kImageVersion = 17;
 struct ImageMemory {
   bool updatable = false; ///< what update() and update_surfaces() need
   bool owners = false;    ///< for owner_of()
+  /// Bytes that the image and its BVH may take; 0: as many as there are.
+  std::uint64_t most_bytes = 0;
 };
 
 /// What an object is in the image: records of its own, a copy of a mesh, or an instance of one.
@@ -106,6 +108,7 @@ private:
     std::vector<ObjectForm> forms;     ///< by object of the scene
     std::vector<std::size_t> order;    ///< SceneObjects::order()
     std::vector<std::uint32_t> material_flags;
+    std::size_t own_interiors = 0;   ///< records of objects without an interior
     bool surfaces_are_apart = false; ///< no pattern and no light refers to objects
   };
 

@@ -44,9 +44,9 @@ std::span<const PlacedObject> part_of(std::span<const PlacedObject> all, unsigne
 TableWriter::TableWriter(std::byte* base, const ImageHeader& header, const Scene& scene,
                          const TextureTables& textures, std::uint32_t other_extras)
     : base_(base), header_(header), scene_(scene),
-      other_extras_(other_extras), tables_{header.material_offset,
+      other_extras_(other_extras), tables_{scene,
+                                           header.material_offset,
                                            header.interior_offset,
-                                           header.interior_count,
                                            header.extra_offset,
                                            header.blend_offset,
                                            header.csg_offset,
@@ -108,7 +108,7 @@ void TableWriter::write_surfaces(TextureTables& textures) {
   auto* const interiors = table<InteriorRecord>(header_.interior_offset);
   for (std::size_t i = 0; i < scene_.interiors.size(); ++i)
     interiors[i] = make_record(scene_.interiors[i]);
-  interiors[scene_.interiors.size()] = make_record(Interior());
+  std::fill(interiors + scene_.interiors.size(), interiors + header_.interior_count, make_record(Interior()));
   for (std::size_t i = 0; i < scene_.fogs.size(); ++i)
     table<FogRecord>(header_.fog_offset)[i] = make_record(scene_.fogs[i], scene_);
 }

@@ -8,6 +8,7 @@
 #include "scene/shapes.hpp"
 #include "scene/textures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <map>
@@ -77,12 +78,20 @@ private:
       fail("has a slope map of more than " + std::to_string(kMostMapEntries) + " entries");
     for (const SlopePoint& point : n.slopes)
       numbers({point.position, point.height, point.slope});
+    ascending(n.slopes);
     pattern(n.pattern, depth);
   }
   void check_depth(int depth) const {
     if (depth == kDeepestMap) fail("has maps that nest more than " + std::to_string(kDeepestMap) + " deep");
   }
   /// A map that several share is looked at once, or such trees would take for ever.
+  template <class Entries> void ascending(const Entries& entries) const {
+    const auto descends = [](const auto& a, const auto& b) { return a.position > b.position; };
+    const auto found = std::adjacent_find(entries.begin(), entries.end(), descends);
+    if (found != entries.end())
+      fail("has a map whose positions do not ascend: that of entry " +
+           std::to_string(found - entries.begin() + 1) + " is less than the one before");
+  }
   template <class T, class Visit> void map(const PatternMap<T>& map, int depth, Visit visit) {
     check_depth(depth);
     int& deepest = seen_.try_emplace(&map, -1).first->second;
@@ -101,6 +110,7 @@ private:
       visit(entry.value, inside);
     }
     if (map.is_average && weights == 0) fail("has an average whose weights add up to 0");
+    if (!map.is_average && !is_list(map.pattern)) ascending(map.entries);
   }
   void turbulence(const Turbulence& t) const {
     vectors({t.amount});

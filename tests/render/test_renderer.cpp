@@ -503,6 +503,37 @@ TEST_CASE("A change that is cancelled half-way is made anew") {
   }
 }
 
+TEST_CASE("A frame that is out of time is broken off, and the next one is as usual") {
+  const Scene scene = scene_named("highlights");
+  for (const TestBackend& backend : backends()) {
+    RenderOptions options = backend.options(kWidth, kHeight, 2);
+    options.most_seconds = 1e-9;
+    Renderer renderer(options);
+    const RenderResult result = renderer.render(scene);
+    CHECK_FALSE(result.complete);
+    CHECK(result.image.width == kWidth);
+    options.most_seconds = 1e9;
+    Renderer patient(options);
+    CHECK(patient.prepare(scene));
+    CHECK(patient.render(scene).complete);
+    CHECK(patient.render(scene.camera).image == render(scene, backend.options(kWidth, kHeight, 2)).image);
+    // The caller's own function is asked as well.
+    CHECK_FALSE(patient.render(scene, [](double) { return false; }).complete);
+  }
+}
+
+TEST_CASE("A scene that takes more memory than is allowed is refused") {
+  Scene scene = scene_named("highlights");
+  const Object object = scene.objects.front();
+  scene.objects.resize(1000, object);
+  RenderOptions options = backends().front().options(kWidth, kHeight, 2);
+  options.most_memory = static_cast<std::uint64_t>(kWidth) * kHeight * 4;
+  Renderer renderer(options);
+  CHECK_THROWS_AS(renderer.render(scene), InputError);
+  options.most_memory = 1 << 30;
+  CHECK(render(scene, options).complete);
+}
+
 TEST_CASE("A Renderer can be moved") {
   const Scene scene = scene_named("highlights");
   Renderer first(backends().front().options(kWidth, kHeight, 2));
@@ -531,6 +562,13 @@ TEST_CASE("Options out of range are refused") {
   refuses([](RenderOptions& o) { o.max_trace_level = 0; });
   refuses([](RenderOptions& o) { o.max_trace_level = 257; });
   refuses([](RenderOptions& o) { o.adc_bailout = -0.1; });
+  refuses([](RenderOptions& o) { o.most_seconds = -1; });
+  refuses([](RenderOptions& o) { o.most_seconds = std::numeric_limits<double>::quiet_NaN(); });
+  refuses([](RenderOptions& o) { o.most_memory = 16 * 16 * 4 - 1; });
+  refuses([](RenderOptions& o) {
+    o.most_memory = 16 * 16 * 4;
+    o.colours = true;
+  });
   refuses([](RenderOptions& o) { o.adc_bailout = std::numeric_limits<double>::quiet_NaN(); });
 }
 

@@ -1,0 +1,27 @@
+// Which record of an interior an object has. Rays tell objects apart by these records, so that an object
+// without an interior has a record as well: its own, behind those of the scene's interiors.
+#pragma once
+
+#include "celltrace/scene.hpp"
+
+#include <cstddef>
+
+namespace celltrace {
+
+/// Returns the record of an object without an interior, by the object's index in the scene.
+inline Index own_interior(const Scene& scene, std::size_t object) {
+  return static_cast<Index>(scene.interiors.size() + object);
+}
+
+/// Returns the record of a part of an object, by the interior that the part has itself: this one, or that of
+/// the whole object.
+inline Index interior_or_own(Index interior, const Scene& scene, std::size_t whole) {
+  if (interior != kNoIndex) return interior;
+  const Index shared = scene.objects[whole].interior;
+  return shared != kNoIndex ? shared : own_interior(scene, whole);
+}
+
+/// Returns how many records a scene has.
+std::size_t interior_records(const Scene& scene);
+
+} // namespace celltrace
