@@ -36,6 +36,7 @@ struct Finding {
   std::uint32_t line = 1, column = 1;  ///< from 1
   std::string text;                    ///< what it is
   std::vector<std::string> reached_by; ///< the includes and macros on the way there, from the inside out
+  bool is_unsupported = false;         ///< it is left out with ParseOptions::lenient
 };
 
 /// The text of a scene is wrong or uses what is not supported. what() starts with "file:line:column: error:"

@@ -39,6 +39,7 @@ public:
 
   int run() {
     catch_interrupts();
+    if (request_.most_seconds > 0) interrupt_after(request_.most_seconds);
     if (!request_.output.empty() && !is_film()) check_image_path(request_.output, request_.format);
     if (request_.resume) leave_out_finished();
     if (frames_.empty()) {
@@ -179,7 +180,7 @@ private:
 
   void print_summary(bool complete) const {
     if (sum_) print_dropped_rays(*sum_);
-    std::cerr << what() << ": " << (complete ? "" : "interrupted, ") << done_
+    std::cerr << what() << ": " << (complete ? "" : std::string(interruption()) + ", ") << done_
               << (done_ == 1 ? " frame" : " frames");
     if (sum_)
       std::cerr << ", " << request_.options.width << 'x' << request_.options.height << ", "

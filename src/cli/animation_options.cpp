@@ -69,7 +69,7 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
   command.add_option("--final-clock", animation.final_clock, "The clock in the last frame")
       ->capture_default_str();
   add_choice(command, "--cyclic", texts.cyclic, {{"on", "off"}, {}},
-             "Whether the final clock is that of one frame more, so that the first can follow the last");
+             "Whether the animation loops: the last frame leads into the first");
   command
       .add_option("--start-frame", animation.start_frame,
                   "The first frame to render; below 1 a part of the final frame's number")
@@ -78,7 +78,7 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
   command.add_option("--end-frame", animation.end_frame, "The last frame to render; the same")
       ->check(number_range(0, std::numeric_limits<double>::infinity()))
       ->type_name("N|FRACTION");
-  command.add_option("--frame-step", animation.step, "Render every so manieth frame only")
+  command.add_option("--frame-step", animation.step, "Render only every N-th frame")
       ->check(CLI::Range(1, kMaxFrame))
       ->capture_default_str();
   command.add_option("--frame-rate", texts.frame_rate, "Frames a second of a film")

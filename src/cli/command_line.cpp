@@ -6,16 +6,20 @@
 #include "cli/choice.hpp"
 #include "cli/completions.hpp"
 #include "cli/declares.hpp"
+#include "cli/help_page.hpp"
 #include "cli/keyword_page.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/man_page.hpp"
 #include "cli/message_options.hpp"
+#include "cli/option_errors.hpp"
 #include "cli/output_options.hpp"
 #include "cli/pov_numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <set>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -23,6 +27,11 @@
 namespace celltrace::cli {
 
 namespace {
+
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
@@ -32,17 +41,21 @@ std::pair<std::string, std::string> split(const std::string& text, char separato
   return {text.substr(0, at), text.substr(std::min(at + 1, text.size()))};
 }
 
+constexpr const char* kRenderSeconds = "render-seconds";
+constexpr const char* kRenderMemory = "render-memory";
+
 /// NAME=VALUE, where K, M and G behind the value stand for 2^10, 2^20 and 2^30.
-void set_limit(ParseLimits& limits, const std::string& text) {
+void set_limit(RenderRequest& request, const std::string& text) {
   const auto [wanted_name, value] = split(text, '=');
   const std::string& wanted = wanted_name;
   const auto& known = parse_limits();
   const auto limit = std::find_if(known.begin(), known.end(),
                                   [&wanted](const NamedLimit& each) { return each.name == wanted; });
-  if (limit == known.end()) {
-    std::string names;
+  const bool is_of_rendering = wanted == kRenderSeconds || wanted == kRenderMemory;
+  if (limit == known.end() && !is_of_rendering) {
+    std::string names = std::string(kRenderSeconds) + ", " + kRenderMemory;
     for (const NamedLimit& each : known)
-      names += (names.empty() ? "" : ", ") + std::string(each.name);
+      names += ", " + std::string(each.name);
     throw InputError("--max: '" + text + "' is not NAME=VALUE with a name of " + names);
   }
   const auto read = read_real(value);
@@ -55,11 +68,17 @@ void set_limit(ParseLimits& limits, const std::string& text) {
   if (!(number >= 0 && number <= 1e18))
     throw InputError("--max: '" + value +
                      "' is not a number from 0 to 1e18, perhaps with K, M or G behind it");
-  limits.*limit->limit = static_cast<std::uint64_t>(number);
+  if (wanted == kRenderSeconds)
+    request.most_seconds = number;
+  else if (wanted == kRenderMemory)
+    request.options.most_memory = static_cast<std::uint64_t>(number);
+  else
+    request.limits.*limit->limit = static_cast<std::uint64_t>(number);
 }
 
 /// What CLI11 fills in besides the request.
 struct RenderTexts {
+  std::vector<std::filesystem::path> scenes;
   MachineTexts machine;
   std::vector<std::string> declares;
   std::vector<std::string> limits;
@@ -74,7 +93,7 @@ struct RenderTexts {
 };
 
 void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
-  command.add_option("scene", request.scene, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
+  command.add_option("scene", texts.scenes, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
   RenderOptions& options = request.options;
   const CLI::Range side(1, kMaxImageSide);
   command.add_option("-W,--width", options.width, "Pixels a row")->check(side)->capture_default_str();
@@ -95,12 +114,17 @@ void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& t
       ->type_name("DIR")
       ->allow_extra_args(false);
   command
-      .add_option("--max", texts.limits, "Change a limit on what reading the scene may cost; may be repeated")
+      .add_option("--max", texts.limits,
+                  "Change a limit on what reading and rendering the scene may cost; may be repeated")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+  command.add_flag(
+      "--lenient", texts.machine.emulation.lenient,
+      "Leave out what of the scene is not supported; on an emulated or simulated Cell also ignore the "
+      "rules that the hardware has no objection to");
   command.add_option("--header", request.header, "Include this file before the scene begins")
       ->type_name("FILE");
   command
@@ -177,8 +201,7 @@ void let_the_last_count(CLI::App& command) {
 
 void add_quality_option(CLI::App& command, RenderRequest& request) {
   command
-      .add_option("--quality", request.options.quality,
-                  "What is left out: 0 all but colours, up to 8 and more nothing")
+      .add_option("--quality", request.options.quality, "From 0, colours alone, to 9 and more, everything")
       ->check(CLI::Range(0, 11))
       ->capture_default_str();
 }
@@ -233,6 +256,7 @@ void add_spu_options(CLI::App& command, SpuRequest& request, EmulationTexts& tex
   command.add_flag("--profile-all", request.profile_all,
                    "List the instructions of all functions, not of those only that take 95 % of the cycles");
   command.add_flag("--quiet", request.quiet, "No warnings");
+  command.add_flag("--lenient", texts.lenient, "Ignore the rules that the hardware has no objection to");
   add_emulation_options(command, texts, Schedule::lockstep);
 }
 
@@ -318,7 +342,7 @@ void finish_scene(RenderRequest& request, const RenderTexts& texts, Schedule sch
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
   for (const std::string& text : texts.limits)
-    set_limit(request.limits, text);
+    set_limit(request, text);
 }
 
 void finish(RenderRequest& request, const RenderTexts& texts) {
@@ -332,9 +356,54 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   finish_output(request, texts.output);
   finish_animation(request, texts.animation);
   finish_messages(request, texts.messages);
+  if (request.is_sandboxed && request.film == FilmFormat::ffmpeg)
+    throw InputError("--sandbox starts no process, and this film needs ffmpeg: .y4m does not");
+}
+
+/// Sees to it that no scene's picture takes the place of another's: the second one of a name gets its
+/// folder's name in front, or a number behind.
+void give_own_names(std::vector<RenderRequest>& renders) {
+  std::set<std::filesystem::path> taken;
+  for (RenderRequest& render : renders) {
+    const std::filesystem::path folder = render.output.parent_path();
+    const std::string name = render.output.stem().string(), extension = render.output.extension().string();
+    std::string parent = std::filesystem::absolute(render.scene).parent_path().filename().string();
+    if (!taken.count(render.output)) parent.clear();
+    std::filesystem::path output =
+        parent.empty() ? render.output : folder / (parent + '-' + name + extension);
+    for (int number = 2; !taken.insert(output).second; ++number)
+      output = folder / (name + '-' + std::to_string(number) + extension);
+    render.output = output;
+  }
+}
+
+/// Makes one request of each scene.
+BatchRequest batch_of(const RenderRequest& render, const RenderTexts& texts) {
+  const std::filesystem::path& output = render.output;
+  if (texts.output.picture == "off" || output.empty() || (output.has_filename() && !is_folder(output)))
+    throw InputError("'" + texts.scenes[1].string() +
+                     "' is one scene too many: many need a folder for their pictures, -o DIR/");
+  if (!render.stats.empty() || !texts.machine.emulation.trace.empty() ||
+      !texts.machine.emulation.cache_trace.empty())
+    throw InputError("--stats, --trace and --cache-trace are for one scene at a time");
+  BatchRequest batch;
+  batch.folder = render.output / "";
+  for (const std::filesystem::path& scene : texts.scenes) {
+    RenderRequest one = render;
+    one.scene = scene;
+    one.output = batch.folder;
+    finish(one, texts);
+    if (one.animation.is_on() || one.film != FilmFormat::none)
+      throw InputError("animations are rendered from one scene at a time");
+    batch.renders.push_back(std::move(one));
+  }
+  give_own_names(batch.renders);
+  return batch;
 }
 
 void finish(ViewRequest& view, const RenderTexts& texts) {
+  if (texts.scenes.size() > 1) throw InputError("a window shows one scene");
+  view.render.scene = texts.scenes.front();
   finish_scene(view.render, texts, Schedule::lockstep);
   if (!texts.antialias) view.render.options.antialiasing = Antialiasing(); // of pictures at rest
 }
@@ -363,12 +432,24 @@ void finish(ReplayRequest& request, const ReplayTexts& texts) {
   request.prefetches = !texts.demand;
 }
 
+class HelpFormatter : public CLI::Formatter {
+public:
+  std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
+    std::vector<DescribedCommand> commands = describe(*app);
+    DescribedCommand described = commands.front();
+    commands.erase(commands.begin());
+    if (app->get_parent() != nullptr) described.name = app->get_name();
+    return help_page(described, commands);
+  }
+};
+
 } // namespace
 
 Request parse_command_line(std::vector<std::string> arguments) {
   CLI::App app("Ray-traces POV-Ray scenes with a program written for the Cell's SPEs, on any machine.",
                "celltrace");
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", std::string("celltrace ") + version());
   app.add_flag_callback(
       "--list-keywords", [] { throw CLI::CallForVersion(keyword_page(), 0); },
@@ -401,6 +482,10 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_antialiasing_options(render_command, texts);
   add_machine_options(render_command, render.options, texts.machine);
   add_report_options(render_command, render);
+  render_command.add_flag(
+      "--sandbox", render.is_sandboxed,
+      "Let the kernel (Linux: Landlock, seccomp) see to it that nothing is opened but folders that "
+      "the options name, no process starts and no network is reached");
   add_message_options(render_command, texts.messages);
   add_client_options(render_command, texts);
   let_the_last_count(render_command);
@@ -449,7 +534,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
     app.exit(information, out, err);
     return InformationRequest{out.str()};
   } catch (const CLI::ParseError& error) {
-    throw InputError(std::string(error.what()) + " (celltrace --help says more)");
+    throw InputError(option_error(app, error));
   }
   if (compare_command.parsed()) return compare;
   if (view_command.parsed()) {
@@ -468,6 +553,8 @@ Request parse_command_line(std::vector<std::string> arguments) {
     finish(replay, replay_texts);
     return replay;
   }
+  if (texts.scenes.size() > 1) return batch_of(render, texts);
+  render.scene = texts.scenes.front();
   finish(render, texts);
   return render;
 }

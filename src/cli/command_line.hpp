@@ -36,7 +36,9 @@ struct RenderRequest {
   std::vector<std::filesystem::path> library_paths;
   std::vector<std::filesystem::path> readable_folders, writable_folders; ///< of the scene
   ParseLimits limits;
+  double most_seconds = 0; ///< of building and rendering, in animations of reading, too; 0: no limit
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
+  bool is_sandboxed = false;                                 ///< opens nothing but what the options name
   bool lenient = false;                                      ///< leave out what of the scene is not supported
   std::filesystem::path header;                              ///< included before the scene; empty: none
   std::optional<double> language_version;                    ///< of a scene that does not say its own
@@ -99,14 +101,20 @@ struct ViewRequest {
   std::vector<std::string> keys;
 };
 
+/// Many scenes, each rendered as if alone, and a page with all pictures.
+struct BatchRequest {
+  std::vector<RenderRequest> renders; ///< no two of them have the same output
+  std::filesystem::path folder;       ///< of outputs and page
+};
+
 /// A text such as that of --help or --version.
 struct InformationRequest {
   std::string text;
   bool is_for_stderr = false; ///< for stdout otherwise
 };
 
-using Request = std::variant<RenderRequest, ViewRequest, CompareRequest, SpuRequest, ReplayRequest,
-                             StudyRequest, InformationRequest>;
+using Request = std::variant<RenderRequest, BatchRequest, ViewRequest, CompareRequest, SpuRequest,
+                             ReplayRequest, StudyRequest, InformationRequest>;
 
 /// Reads a command line (without the program's name) after translate_pov_switches(). Throws InputError for
 /// whatever does not fit, and for what the program is to have and has not yet.

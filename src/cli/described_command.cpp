@@ -16,15 +16,35 @@ std::vector<std::string> choices_of(const std::string& type) {
   return words.find('|') == words.npos ? std::vector<std::string>() : CLI::detail::split(words, '|');
 }
 
+/// The name of a value of CLI11's types, in words.
+std::string value_of(const std::string& type) {
+  constexpr std::pair<const char*, const char*> kNames[] = {
+      {"INT", "N"}, {"UINT", "N"}, {"FLOAT", "NUMBER"}, {"TEXT", "WORD"}};
+  for (const auto& [known, name] : kNames)
+    if (type == known) return name;
+  return type;
+}
+
+/// The limits of "INT:INT in [1 - 9]" (CLI::Range) and "FLOAT:1 to 9" (choice.hpp).
+std::string limits_of(const std::string& type) {
+  const std::size_t colon = type.find(':');
+  std::string limits = colon == type.npos ? "" : type.substr(colon + 1);
+  if (const std::size_t open = limits.find('['); open != limits.npos && limits.back() == ']') {
+    limits = limits.substr(open + 1, limits.size() - open - 2);
+    if (const std::size_t dash = limits.find(" - "); dash != limits.npos) limits.replace(dash, 3, " to ");
+  }
+  return limits == "NONNEGATIVE" ? "" : limits == "POSITIVE" ? "above 0" : limits;
+}
+
 DescribedOption describe_option(const CLI::Option& option) {
   DescribedOption described;
   const bool is_flag = option.get_expected_max() == 0 || option.get_type_size_max() == 0;
   if (!is_flag) {
     const std::string type = option.get_type_name();
     described.choices = choices_of(type);
-    // Without the limits, which the error says.
-    described.value = described.choices.empty() ? type.substr(0, type.find(':'))
+    described.value = described.choices.empty() ? value_of(type.substr(0, type.find(':')))
                                                 : CLI::detail::join(described.choices, "|");
+    if (described.choices.empty()) described.limits = limits_of(type);
     described.default_value = option.get_default_str();
   }
   for (const std::string& name : option.get_snames())

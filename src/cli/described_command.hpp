@@ -14,6 +14,7 @@ struct DescribedOption {
   std::vector<std::string> names; ///< "-o", "--output"; none for a positional argument
   std::string value;              ///< what stands for its value: "N", "FILE", "free|lockstep"; "" for a flag
   std::vector<std::string> choices; ///< the only words that it takes
+  std::string limits;               ///< "1 to 65535"; "" where there are none, or words
   std::string description;
   std::string default_value;
   bool required = false;

@@ -84,10 +84,6 @@ void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule de
       .add_option("--seconds-limit", texts.seconds_limit,
                   "The same for seconds of this computer, which may be a fraction")
       ->type_name("SECONDS");
-  command.add_flag(
-      "--lenient", texts.lenient,
-      "Leave out what of a scene is not supported, and ignore the rules that the hardware has no "
-      "objection to");
   command.add_option("--trace", texts.trace, "Write what happened as a Chrome trace, in lockstep")
       ->type_name("FILE.json");
 }

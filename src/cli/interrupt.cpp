@@ -1,8 +1,10 @@
 #include "cli/interrupt.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <ctime>
+#include <optional>
 
 #include <signal.h>
 
@@ -13,6 +15,7 @@ namespace {
 /// Signals that come so close together are one: timeout(1) sends its signal to the program and to its group.
 constexpr std::int64_t kTogether = 300'000'000; // ns
 
+std::optional<std::chrono::steady_clock::time_point> deadline;
 std::atomic<std::int64_t> first{0}; ///< when the first signal came, in ns; 0: none has
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "a signal handler must not take a lock");
 
@@ -37,8 +40,18 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+void interrupt_after(double seconds) {
+  deadline =
+      std::chrono::steady_clock::now() +
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 bool interrupted() noexcept {
-  return first != 0;
+  return first != 0 || (deadline && std::chrono::steady_clock::now() >= *deadline);
+}
+
+const char* interruption() noexcept {
+  return first != 0 ? "interrupted" : "out of time (--max render-seconds)";
 }
 
 } // namespace celltrace::cli

@@ -1,4 +1,4 @@
-// Ctrl-C as a question that a render can ask.
+// Ctrl-C, and the end of the time that a run has, as a question that a render can ask.
 #pragma once
 
 namespace celltrace::cli {
@@ -6,7 +6,13 @@ namespace celltrace::cli {
 /// From now on the first SIGINT or SIGTERM only makes interrupted() true; a later one ends the process.
 void catch_interrupts();
 
-/// Async-signal-safe and safe from any thread.
+/// Makes interrupted() true after so many seconds, too. To be called before threads ask.
+void interrupt_after(double seconds);
+
+/// Safe from any thread.
 bool interrupted() noexcept;
+
+/// Says what has made interrupted() true, for messages.
+const char* interruption() noexcept;
 
 } // namespace celltrace::cli

@@ -1,4 +1,5 @@
 #include "celltrace/error.hpp"
+#include "cli/batch.hpp"
 #include "cli/command_line.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/invocation.hpp"
@@ -6,6 +7,7 @@
 #include "cli/output_files.hpp"
 #include "cli/render_command.hpp"
 #include "cli/replay_command.hpp"
+#include "cli/sandbox.hpp"
 #include "cli/spu_command.hpp"
 #include "cli/study_command.hpp"
 #include "cli/used_files.hpp"
@@ -53,6 +55,7 @@ void prepare_heap() {
 
 int run_with_files(RenderRequest render) {
   const bool has_all = prepare_outputs(render);
+  if (render.is_sandboxed) enter_sandbox(sandbox_files(render));
   const int code = run_render(render);
   return code == 0 && !has_all ? 1 : code;
 }
@@ -68,6 +71,11 @@ int run(const char* program, const std::vector<std::string>& arguments, MessageF
   if (const auto* spu = std::get_if<SpuRequest>(&request)) return run_spu(*spu);
   if (const auto* replay = std::get_if<ReplayRequest>(&request)) return run_replay(*replay);
   if (const auto* study = std::get_if<StudyRequest>(&request)) return run_study_command(*study);
+  if (const auto* batch = std::get_if<BatchRequest>(&request)) {
+    messages.open(batch->renders.front().messages);
+    if (!batch->renders.front().quiet) print_notes(notes);
+    return run_batch(*batch);
+  }
   const auto& render = std::get<RenderRequest>(request);
   messages.open(render.messages);
   if (!render.quiet) {
@@ -95,6 +103,10 @@ int main(int argc, char** argv) {
     return code;
   } catch (const celltrace::SceneError& error) {
     std::cerr << error.what() << '\n'; // says where, and "error:", itself
+    const std::vector<celltrace::Finding>& findings = error.findings();
+    if (std::any_of(findings.begin(), findings.end(), [](const auto& one) { return one.is_unsupported; }))
+      std::cerr << "note: --lenient renders the scene without what is not supported yet; in the environment, "
+                   "CELLTRACE_OPTIONS=--lenient does\n";
   } catch (const std::bad_alloc&) {
     std::cerr << "celltrace: error: out of memory\n";
   } catch (const std::exception& error) {

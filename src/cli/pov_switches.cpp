@@ -58,9 +58,21 @@ public:
 
   /// Takes note of a folder of -L.
   void folder(const std::string& name) { folders_.push_back(name); }
+  /// Takes note of the value of -o.
+  void output(const std::string& name) {
+    std::error_code ignored;
+    output_is_folder_ = ends_with(name, "/") || std::filesystem::is_directory(name, ignored);
+  }
 
   Translation take() {
     if (!scene_) return out_.take();
+    if (output_is_folder_ && plain_scenes_.size() > 1) {
+      // Many pictures have room there. Without a folder the last name counts, as in POV-Ray.
+      out_.fill(scene_place_, plain_scenes_.front());
+      std::for_each(plain_scenes_.begin() + 1, plain_scenes_.end(),
+                    [this](const auto& name) { out_.pass(name); });
+      return out_.take();
+    }
     // A name without an extension is one with .pov before it is one without.
     const std::string &name = *scene_, dos_name = name + ".POV", full_name = name + ".pov";
     const Names names =
@@ -115,6 +127,7 @@ private:
     if (ends_with(name.file, ".ini") || (name.names_section && found({name.file, name.file + ".ini"})))
       return ini(name);
     if (!ends_with(text, ".pov") && is_ini_without_its_extension(text)) return ini(name);
+    plain_scenes_.push_back(text);
     scene(text);
   }
 
@@ -179,6 +192,8 @@ private:
   PovTranslation out_;
   std::vector<std::string> folders_; ///< of -L, so far
   std::optional<std::string> scene_;
+  std::vector<std::string> plain_scenes_; ///< named without a switch or a setting
+  bool output_is_folder_ = false;
   std::size_t scene_place_ = 0; ///< among the arguments
   int open_ini_files_ = 0;
 };
@@ -196,8 +211,8 @@ PovFiles real_files() {
 }
 
 bool takes_the_next_argument(std::string_view argument) {
-  for (const std::string_view alone :
-       {"-h", "--help", "--version", "--quiet", "--faults", "--lenient", "--list-keywords", "--resume"})
+  for (const std::string_view alone : {"-h", "--help", "--version", "--quiet", "--faults", "--lenient",
+                                       "--list-keywords", "--resume", "--sandbox"})
     if (argument == alone) return false;
   return is_own_option(argument) && argument.find('=') == std::string_view::npos;
 }
@@ -224,6 +239,8 @@ Translation translate_pov_switches(const std::vector<std::string>& arguments, co
       translator.argument(argument);
     if (own_value && (arguments[i - 1] == "-L" || arguments[i - 1] == "--library"))
       translator.folder(argument);
+    if (own_value && (arguments[i - 1] == "-o" || arguments[i - 1] == "--output"))
+      translator.output(argument);
     only_files = only_files || (!own_value && argument == "--");
     own_value = !own_value && !only_files && takes_the_next_argument(argument);
   }

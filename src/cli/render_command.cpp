@@ -83,7 +83,7 @@ int height_of(const RenderOptions& options) {
 }
 
 int interrupted_early() {
-  std::cerr << "interrupted before the first pixel\n";
+  std::cerr << interruption() << " before the first pixel\n";
   return 2;
 }
 
@@ -121,6 +121,7 @@ int run_render(const RenderRequest& request) {
   report.begin_parsing();
   const ReadScene read = read_with_progress(request);
   if (!read.scene || interrupted()) return interrupted_early();
+  if (request.most_seconds > 0) interrupt_after(request.most_seconds);
   if (!request.resume) state.remove();
   RowsFile kept = state.rows_of(kStill, read.files);
   const int height = height_of(request.options);
@@ -148,8 +149,8 @@ int run_render(const RenderRequest& request) {
   if (!request.quiet) {
     const RenderStatistics& s = outcome.statistics;
     print_dropped_rays(s);
-    std::cerr << name << ": " << (outcome.complete ? "" : "interrupted, partial, ") << s.width << 'x'
-              << height << ", " << summary_of(s, read.seconds) << '\n';
+    std::cerr << name << ": " << (outcome.complete ? "" : std::string(interruption()) + ", partial, ")
+              << s.width << 'x' << height << ", " << summary_of(s, read.seconds) << '\n';
     if (!outcome.complete && state.is_kept() && outcome.rows_to_go < height)
       std::cerr << "the same command with +C goes on with the " << outcome.rows_to_go
                 << " rows that are missing\n";

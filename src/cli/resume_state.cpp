@@ -51,10 +51,8 @@ void check_same(const fs::path& path, const Settings& before, const Settings& no
   if (before == now) return;
   const auto [a, b] = std::mismatch(before.begin(), before.end(), now.begin(), now.end());
   const std::string name = a != before.end() ? a->first : b->first;
-  throw InputError(path.string() +
-                   ": what was stopped cannot go on, as something else is to be rendered now: " + name +
-                   " was " + value_of(before, name) + " and is " + value_of(now, name) +
-                   "; without +C it is rendered anew");
+  throw InputError(path.string() + ": cannot resume: " + name + " was " + value_of(before, name) + ", now " +
+                   value_of(now, name) + ". Leave out --resume (+C) to start again");
 }
 
 bool take_front(std::string_view& text, std::string_view front) {

@@ -95,6 +95,7 @@ void Diagnostics::note_unsupported(const Unsupported& unsupported, const Locatio
     return warn(unsupported.where, unsupported.what + " is not supported yet and left out");
   Finding error =
       finding(Finding::Severity::error, unsupported.where, unsupported.what + " is not supported yet");
+  error.is_unsupported = true;
   error.reached_by = stack();
   if (unsupported.where != used_at)
     error.reached_by.insert(error.reached_by.begin(), "used at " + place(used_at));

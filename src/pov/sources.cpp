@@ -18,10 +18,13 @@ namespace celltrace::pov {
 
 namespace fs = std::filesystem;
 
-namespace {
+std::span<const char* const> installed_include_folders() {
+  static constexpr const char* kFolders[] = {
+      "/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include", "/usr/share/povray/include"};
+  return kFolders;
+}
 
-const char* const kInstalledIncludes[] = {"/usr/share/povray-3.7/include",
-                                          "/usr/local/share/povray-3.7/include", "/usr/share/povray/include"};
+namespace {
 
 bool is_file(const fs::path& path) {
   std::error_code ignored;
@@ -110,7 +113,7 @@ Sources::Sources(const ParseOptions& options)
       writable_(canonical_folders(options.writable_folders)), permits_(options.permits) {
   if (working_folder_.empty() && !writable_.empty()) working_folder_ = writable_.front();
   readable_.insert(readable_.end(), writable_.begin(), writable_.end());
-  for (const char* folder : kInstalledIncludes) {
+  for (const char* folder : installed_include_folders()) {
     std::error_code ignored;
     if (fs::is_directory(folder, ignored)) library_paths_.emplace_back(folder);
   }

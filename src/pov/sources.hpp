@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -14,6 +15,9 @@
 #include "celltrace/pov.hpp"
 
 namespace celltrace::pov {
+
+/// Returns where POV-Ray's include files may be installed.
+std::span<const char* const> installed_include_folders();
 
 /// A file that a scene has named.
 struct FoundFile {

@@ -49,13 +49,12 @@ TEST_CASE("an animation's frames are pictures by number") {
 TEST_CASE("an animation goes where it is told, on every machine") {
   const TemporaryFolder folder;
   write_bytes(folder / "s.pov", kScene);
-  write_bytes(folder / "s.ini",
-              "Input_File_Name=s.pov\n+W16 +H12\nFinal_Frame=3\nCyclic_Animation=on\n");
+  write_bytes(folder / "s.ini", "Input_File_Name=s.pov\n+W16 +H12\nFinal_Frame=3\nCyclic_Animation=on\n");
   std::filesystem::create_directory(folder / "out");
   REQUIRE(celltrace_run(folder, {"s.ini", "+Oout/"}).exit_code == 0);
-  REQUIRE(
-      celltrace_run(folder, {"s.ini", "-o", "e.ppm", "--backend", "cell_emu", "--spes", "2", "--stats", "e.json"})
-          .exit_code == 0);
+  REQUIRE(celltrace_run(folder,
+                        {"s.ini", "-o", "e.ppm", "--backend", "cell_emu", "--spes", "2", "--stats", "e.json"})
+              .exit_code == 0);
   for (const char number : {'1', '2', '3'}) {
     const auto picture = [&](const std::string& name, const char* extension) {
       return load_image(folder / (name + number + extension));

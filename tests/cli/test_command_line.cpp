@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <sstream>
+
 using namespace celltrace;
 using namespace celltrace::cli;
 using Catch::Matchers::Contains;
@@ -504,4 +506,41 @@ TEST_CASE("help and version are information") {
   CHECK_THAT(help, Contains("render") && Contains("compare"));
   const std::string render_help = std::get<InformationRequest>(parse_command_line({"render", "--help"})).text;
   CHECK_THAT(render_help, Contains("--backend") && Contains("WAYSxSETS"));
+}
+
+TEST_CASE("help fits a terminal of 80 columns") {
+  for (const std::string command : {"", "render", "view", "compare", "spu", "replay", "study"}) {
+    std::vector<std::string> arguments = {"--help"};
+    if (!command.empty()) arguments.insert(arguments.begin(), command);
+    const std::string help = std::get<InformationRequest>(parse_command_line(arguments)).text;
+    std::istringstream lines(help);
+    for (std::string line; std::getline(lines, line);) {
+      INFO(command << ": " << line);
+      CHECK(line.size() <= 80);
+      CHECK((line.empty() || line.back() != ' '));
+    }
+    CHECK_THAT(help, Contains("Usage: celltrace"));
+    // Types of the parser's library are no words for people.
+    CHECK_THAT(help, !Contains("INT") && !Contains("FLOAT") && !Contains("NONNEGATIVE"));
+  }
+  const std::string render_help = std::get<InformationRequest>(parse_command_line({"render", "--help"})).text;
+  CHECK_THAT(render_help, Contains("  -W, --width N           Pixels a row (1 to 65535; default: 640)\n"));
+  // What works on every backend stands before what is for the emulated Cell.
+  CHECK(render_help.find("--lenient") < render_help.find("--schedule"));
+}
+
+TEST_CASE("a misspelt option suggests the nearest") {
+  CHECK_THAT(render_error({"--qualty", "9"}),
+             Contains("there is no option '--qualty': '--quality' perhaps?") &&
+                 Contains("celltrace render --help"));
+  CHECK_THAT(render_error({"--antilias=0.3"}), Contains("'--antialias' perhaps?"));
+  CHECK_THAT(render_error({"--colour-of-the-sky"}), Contains("there is no option '--colour-of-the-sky' ("));
+  CHECK_THAT(error_of({"compare", "a.png", "b.png", "c.png"}), Contains("'c.png' is one argument too many"));
+  CHECK_THAT(render_error({"--antialias"}), Contains("--antialias needs a value: THRESHOLD, 0 to 3"));
+  try {
+    parse_command_line({});
+    FAIL("took no arguments");
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Contains("celltrace SCENE.pov") && Contains("(celltrace --help"));
+  }
 }

@@ -27,7 +27,7 @@ std::string output_of(const std::vector<std::string>& arguments) {
 /// The long options that --help names at the beginning of a line.
 std::set<std::string> options_of(const std::string& help) {
   std::set<std::string> names;
-  const std::regex option("\n +(?:-[A-Za-z],)?(--[a-z][a-z-]*)");
+  const std::regex option("\n +(?:-[A-Za-z], )?(--[a-z][a-z-]*)");
   for (std::sregex_iterator found(help.begin(), help.end(), option), end; found != end; ++found)
     names.insert((*found)[1]);
   return names;

@@ -168,8 +168,7 @@ TEST_CASE("what was stopped does not go on as something else") {
   const Outcome wider = with("+W20");
   CHECK(wider.exit_code == 1);
   CHECK(lines(wider.err) == 1);
-  CHECK_THAT(wider.err,
-             Contains("s.png.resume: ") && Contains("width was 16 and is 20") && Contains("without +C"));
+  CHECK_THAT(wider.err, Contains("s.png.resume: ") && Contains("width was 16, now 20") && Contains("(+C)"));
   CHECK(with("+Q5").exit_code == 1);
   CHECK(with("+EF2").exit_code == 0); // a part of the same
   CHECK(with("-C").exit_code == 0);   // anew

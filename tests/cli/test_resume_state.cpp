@@ -142,11 +142,11 @@ TEST_CASE("rows of other settings and of files that changed are refused") {
   RowsFile file = ResumeState(folder / "p.png", kSettings).rows_of(0, kFiles);
   with_rows(0, 32).append_to(file);
   CHECK_THROWS_WITH(ResumeState(folder / "p.png", {{"width", "6"}, {"height", "70"}}).rows_of(0, kFiles),
-                    Contains("p.png.rows: ") && Contains("width was 5 and is 6"));
+                    Contains("p.png.rows: ") && Contains("width was 5, now 6"));
   CHECK_THROWS_WITH(ResumeState(folder / "p.png", kSettings).rows_of(0, {{"a.pov", "1"}, {"b.inc", "2"}}),
-                    Contains("b.inc was none and is 2"));
+                    Contains("b.inc was none, now 2"));
   CHECK_THROWS_WITH(ResumeState(folder / "p.png", kSettings).rows_of(0, {{"a.pov", "2"}}),
-                    Contains("a.pov was 1 and is 2"));
+                    Contains("a.pov was 1, now 2"));
 }
 
 TEST_CASE("of rows that are damaged or cut off the others count") {
@@ -221,7 +221,7 @@ TEST_CASE("finished frames are known as long as their files are what they were")
   again.load();
   CHECK(again.has_frame(1, picture(1)));
   CHECK(again.has_frame(4, picture(4)));
-  CHECK_THROWS_WITH(ResumeState(folder / "p.png", {{"width", "6"}}).load(), Contains("width was 5 and is 6"));
+  CHECK_THROWS_WITH(ResumeState(folder / "p.png", {{"width", "6"}}).load(), Contains("width was 5, now 6"));
   write_bytes(folder / "p.png.resume", "something else");
   CHECK_THROWS_WITH(again.load(), Contains("p.png.resume: is not what celltrace leaves there"));
 }
