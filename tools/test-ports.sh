@@ -9,8 +9,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 own_program=${CELLTRACE:-build-ci/src/cli/celltrace}
-scenes="examples/scenes/first.pov tests/scenes/csg.pov tests/scenes/textures.pov tests/scenes/glass.pov tests/scenes/lights.pov"
-least_psnr=60
 
 missing() {
   echo "tools/test-ports.sh: missing: $1 ($2)" >&2
@@ -35,33 +33,16 @@ configure() {
     -DCELLTRACE_EXAMPLES=OFF -DCELLTRACE_SPU_GXX= "${@:2}"
 }
 
-# pictures BACKEND...: this machine's and the other's.
-pictures() {
-  local backend scene psnr
-  for backend in "$@"; do
-    for scene in $scenes; do
-      for program in own other; do
-        local command=("$own_program")
-        [ $program = own ] || command=("${emulator[@]}" "$build/src/cli/celltrace")
-        "${command[@]}" "$scene" -W 160 -H 120 --backend "$backend" --quiet -o "$build/$program.ppm"
-      done
-      psnr=$(compare -metric PSNR "$build/own.ppm" "$build/other.ppm" null: 2>&1) || true # fails where they differ
-      echo "$scene, $backend: $psnr dB"
-      awk -v psnr="$psnr" -v least=$least_psnr 'BEGIN { exit !(psnr == "inf" || psnr + 0 >= least) }' || different=1
-    done
-  done
-}
-
 # port SUITES: builds the suites, runs them, compares pictures.
 port() {
-  local targets=() suites=$1 different=0
+  local targets=() suites=$1
   for suite in $suites; do
     targets+=("test_$suite")
   done
   ninja -C "$build" "${targets[@]}" celltrace_program
   ctest --test-dir "$build" --no-tests=error -j "$(nproc)" --output-on-failure -R "^(${suites// /|}):"
-  pictures native cell_emu
-  [ $different -eq 0 ] || { echo "tools/test-ports.sh: pictures differ by more than $least_psnr dB allow" >&2; exit 1; }
+  tools/same-pixels --program "$own_program" --also "${emulator[*]} $build/src/cli/celltrace"
+}
 }
 
 aarch64() {
@@ -93,7 +74,7 @@ powerpc64() {
 
 needs_command cmake "package cmake"
 needs_command ninja "package ninja-build"
-needs_command compare "package imagemagick"
+needs_command python3 "package python3"
 needs_file "$own_program" "this machine's program: ninja -C build-ci celltrace_program, or set CELLTRACE"
 [ $# -gt 0 ] || set -- aarch64 powerpc64
 for name in "$@"; do
