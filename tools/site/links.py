@@ -7,7 +7,7 @@ from mkdocs.structure.files import File
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 LINK = re.compile(r"\[([^\]]*)\]\(\.\./([^)#]+)(#[^)]*)?\)")
-PAGES = {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"}
+PAGES = {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md"}
 
 
 def linked():
