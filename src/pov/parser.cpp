@@ -1,7 +1,11 @@
 // What connects the generated parser with the token stream and the diagnostics.
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "pov/grammar.hpp"
+#include "pov/nearest_word.hpp"
+#include "pov/standard_includes.hpp"
 
 namespace celltrace::pov {
 
@@ -88,6 +92,23 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session) {
   return terminal.token;
 }
 
+namespace {
+
+/// Says what an undeclared name, in quotes, may be meant to be.
+std::string guess_at(const Session& session, const std::string& quoted) {
+  const std::string name = quoted.substr(1, std::max<std::size_t>(quoted.size(), 2) - 2);
+  if (const std::string include = include_that_declares(name); !include.empty())
+    return ": #include \"" + include + "\" declares it";
+  std::vector<std::string> known;
+  for (NameId id = 0; id < session.names.size(); ++id)
+    if (session.names[id].token != 0 || session.symbols.value_of(id) != nullptr)
+      known.push_back(session.names.text(id));
+  const std::string nearest = nearest_word(name, known);
+  return nearest.empty() ? "" : ": '" + nearest + "' perhaps?";
+}
+
+} // namespace
+
 void Parser::error(const Location& where, const std::string& message) {
   session.fail(where, message);
 }
@@ -104,7 +125,7 @@ void Parser::report_syntax_error(const context& ctx) const {
   case symbol_kind::S_UNSUPPORTED_ID:
     session.fail(where, found + " is not supported yet");
   case symbol_kind::S_UNDECLARED_ID:
-    session.fail(where, found + " is not declared");
+    session.fail(where, found + " is not declared" + guess_at(session, found));
   default:
     break;
   }

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
+
+#include "pov/sources.hpp"
 
 namespace celltrace::pov {
 
@@ -23,6 +27,26 @@ constexpr std::string_view kNames[] = {
     "whiteash.map", "woodmaps.inc", "woods.inc",
 };
 
+bool is_name_letter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// Whether `#declare` or `#macro` stands in front of the name, in any place of the text.
+bool declares(std::string_view text, std::string_view name) {
+  for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if (end < text.size() && is_name_letter(text[end])) continue;
+    std::string_view before = text.substr(0, at);
+    const std::size_t last = before.find_last_not_of(" \t");
+    if (last == before.npos || last + 1 == at) continue;
+    before = before.substr(0, last + 1);
+    for (const std::string_view directive : {"#declare", "#macro"})
+      if (before.size() >= directive.size() && before.substr(before.size() - directive.size()) == directive)
+        return true;
+  }
+  return false;
+}
+
 } // namespace
 
 bool is_standard_include(std::string_view name) {
@@ -31,6 +55,16 @@ bool is_standard_include(std::string_view name) {
                       [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
   };
   return std::any_of(std::begin(kNames), std::end(kNames), is_name);
+}
+
+std::string include_that_declares(std::string_view name) {
+  for (const char* const folder : installed_include_folders())
+    for (const std::string_view include : kNames) {
+      std::ifstream file(std::filesystem::path(folder) / include, std::ios::binary);
+      const std::string text{std::istreambuf_iterator<char>(file), {}};
+      if (declares(text, name)) return std::string(include);
+    }
+  return "";
 }
 
 } // namespace celltrace::pov
