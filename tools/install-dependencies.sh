@@ -10,7 +10,8 @@
 #   docs     to make the documents a site
 #   clients  programs that call POV-Ray, which tools/test-clients.sh runs with celltrace in its place
 #   extras   POV-Ray, for the tests that compare with it, ImageMagick and ffmpeg, which tests have read pictures, matplotlib, whose colours Python has, clang
-#            with its runtime, to compare builds and to fuzz, ccache, and the shells whose completions are tested
+#            with its runtime, to compare builds and to fuzz, ccache, Valgrind, which the emulator tells of transfers in
+#            flight, and the shells whose completions are tested
 set -euo pipefail
 
 declare -A packages=(
@@ -20,7 +21,7 @@ declare -A packages=(
   [docs]="doxygen mkdocs"
   [clients]="blender imagemagick jmol mayavi2 openbabel povray povray-includes pymol python3-ase python3-skimage python3-vtk9 xauth xvfb"
   [bench]="libembree-dev povray povray-includes"
-  [extras]="ccache clang ffmpeg fish imagemagick libclang-rt-14-dev libmagickcore-6.q16-6-extra povray povray-includes python3-matplotlib xdotool xvfb zsh"
+  [extras]="ccache clang ffmpeg fish imagemagick libclang-rt-14-dev libmagickcore-6.q16-6-extra povray povray-includes python3-matplotlib valgrind xdotool xvfb zsh"
 )
 
 is_installed() {

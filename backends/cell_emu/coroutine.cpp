@@ -1,27 +1,17 @@
 #include "backends/cell_emu/coroutine.hpp"
 
+#include "backends/cell_emu/access_checkers.hpp"
 #include "backends/cell_emu/switched_stack.hpp"
 
 #include <cxxabi.h>
 #include <utility>
 
-#if defined(__SANITIZE_ADDRESS__)
-#define CELLTRACE_HAS_ASAN 1
-#endif
 #if defined(__SANITIZE_THREAD__)
 #define CELLTRACE_HAS_TSAN 1
-#endif
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define CELLTRACE_HAS_ASAN 1
-#endif
+#elif defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define CELLTRACE_HAS_TSAN 1
 #endif
-#endif
-#ifdef CELLTRACE_HAS_ASAN
-#include <sanitizer/asan_interface.h>
-#include <sanitizer/common_interface_defs.h>
 #endif
 #ifdef CELLTRACE_HAS_TSAN
 #include <sanitizer/tsan_interface.h>
@@ -51,10 +41,6 @@ public:
 #ifdef CELLTRACE_HAS_TSAN
     tsan_fiber_ = __tsan_create_fiber(0);
 #endif
-#ifdef CELLTRACE_HAS_ASAN
-    // A stack that lay here before ended by a jump, with its last frames still marked.
-    __asan_unpoison_memory_region(stack_.bottom(), stack_.bytes());
-#endif
     stack_.start([this] { run(); });
   }
   ~Impl() {
@@ -70,14 +56,9 @@ public:
     tsan_caller_ = __tsan_get_current_fiber();
     __tsan_switch_to_fiber(tsan_fiber_, 0);
 #endif
-#ifdef CELLTRACE_HAS_ASAN
-    void* fake_stack = nullptr;
-    __sanitizer_start_switch_fiber(&fake_stack, stack_.bottom(), stack_.bytes());
-#endif
+    checked_.before_enter();
     stack_.enter();
-#ifdef CELLTRACE_HAS_ASAN
-    __sanitizer_finish_switch_fiber(fake_stack, nullptr, nullptr);
-#endif
+    checked_.after_leave();
     std::swap(running_stack_local, stack_local_);
     exchange_exceptions(exceptions_);
   }
@@ -85,7 +66,7 @@ public:
   void suspend() {
     leave(false);
     stack_.leave();
-    arrive();
+    checked_.after_enter();
   }
 
   bool ended() const {
@@ -94,35 +75,24 @@ public:
 
 private:
   void run() {
-    arrive();
+    checked_.after_enter();
     body_();
     body_ = nullptr;
     leave(true);
   }
 
-  void arrive() {
-#ifdef CELLTRACE_HAS_ASAN
-    __sanitizer_finish_switch_fiber(fake_stack_, &caller_bottom_, &caller_bytes_);
-#endif
-  }
-  void leave([[maybe_unused]] bool for_good) {
+  void leave(bool for_good) {
 #ifdef CELLTRACE_HAS_TSAN
     __tsan_switch_to_fiber(tsan_caller_, 0);
 #endif
-#ifdef CELLTRACE_HAS_ASAN
-    __sanitizer_start_switch_fiber(for_good ? nullptr : &fake_stack_, caller_bottom_, caller_bytes_);
-#endif
+    checked_.before_leave(for_good);
   }
 
   std::function<void()> body_;
   SwitchedStack stack_{kStackBytes};
+  CheckedStack checked_{stack_.bottom(), stack_.bytes()};
   ExceptionState exceptions_;
   void* stack_local_ = nullptr;
-#ifdef CELLTRACE_HAS_ASAN
-  void* fake_stack_ = nullptr;
-  const void* caller_bottom_ = nullptr;
-  std::size_t caller_bytes_ = 0;
-#endif
 #ifdef CELLTRACE_HAS_TSAN
   void* tsan_fiber_ = nullptr;
   void* tsan_caller_ = nullptr;

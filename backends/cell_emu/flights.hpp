@@ -35,6 +35,8 @@ struct Flight {
   bool drained = false;
   /// Something else may rightly write its local store, so that a change says nothing.
   bool shared = false;
+  /// The tool that the program runs under reports its accesses to the local store.
+  bool forbidden = false;
   std::uint64_t hash = 0; ///< of its local store, when `hashed`
   bool hashed = false;
 

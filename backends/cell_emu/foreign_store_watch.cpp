@@ -1,6 +1,6 @@
 #include "backends/cell_emu/foreign_store_watch.hpp"
 
-#include "backends/cell_emu/local_store_watch.hpp"
+#include "backends/cell_emu/access_checkers.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -34,12 +34,14 @@ bool ForeignStoreWatch::has_changed(Seen& seen, const Used& used) {
     if (seen.copy.size() > seen.allowance) seen.copy.resize(kWindow);
     seen.allowance -= std::min(seen.allowance, static_cast<std::uint32_t>(seen.copy.size()));
   }
+  const UncheckedScope unset_bytes_count;
   return std::memcmp(used.begin + seen.offset, seen.copy.data(), seen.copy.size()) != 0;
 }
 
 std::optional<ForeignStoreWatch::Change> ForeignStoreWatch::take_change(unsigned spe, const Used& used) {
   Seen& seen = seen_[spe];
   if (!has_changed(seen, used)) return std::nullopt;
+  const UncheckedScope unset_bytes_count;
   const auto first = std::mismatch(seen.copy.begin(), seen.copy.end(), used.begin + seen.offset).first;
   Change change{(seen.offset + static_cast<std::uint32_t>(first - seen.copy.begin())) & ~3u, {}};
   for (unsigned other = 0; other < seen_.size(); ++other)

@@ -1,5 +1,6 @@
 #include "backends/cell_emu/local_store_block.hpp"
 
+#include "backends/cell_emu/access_checkers.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 
 #include <cstring>

@@ -1,23 +1,37 @@
 #include "backends/cell_emu/local_store_watch.hpp"
 
-#include <cstring>
+#include "backends/cell_emu/access_checkers.hpp"
 
-#if defined(__SANITIZE_ADDRESS__)
-#define CELLTRACE_HAS_ASAN 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define CELLTRACE_HAS_ASAN 1
-#endif
-#endif
-#ifdef CELLTRACE_HAS_ASAN
-#include <sanitizer/asan_interface.h>
-#endif
+#include <cstring>
 
 namespace celltrace::cell_emu {
 namespace {
 
-// Two words 0x7FB0DEAD, a signalling NaN, as programs of this machine read them.
+// Pairs of words as programs of this machine read them.
 constexpr std::uint64_t kPoison = 0x7FB0DEAD'7FB0DEADu;
+constexpr std::uint32_t kInFlightWord = 0x7FB5DEADu;
+constexpr std::uint32_t kQuietAndSign = 0x80400000u;
+constexpr std::uint64_t kInFlight = std::uint64_t{kInFlightWord} << 32 | kInFlightWord;
+
+void fill(std::uint8_t* at, std::uint32_t bytes, std::uint64_t pattern) {
+  for (; bytes >= 8; at += 8, bytes -= 8)
+    std::memcpy(at, &pattern, sizeof pattern);
+  std::memcpy(at, &pattern, bytes);
+}
+
+bool is_filled(const std::uint8_t* at, std::uint32_t bytes, std::uint64_t pattern) {
+  std::uint64_t difference = 0;
+  for (; bytes >= 8; at += 8, bytes -= 8) {
+    std::uint64_t word;
+    std::memcpy(&word, at, sizeof word);
+    difference |= word ^ pattern;
+  }
+  std::uint64_t rest = pattern;
+  std::memcpy(&rest, at, bytes);
+  difference |= rest ^ pattern;
+  settle(&difference, sizeof difference);
+  return difference == 0;
+}
 
 } // namespace
 
@@ -40,43 +54,40 @@ std::uint64_t checksum(const std::uint8_t* at, std::uint32_t bytes) {
   std::uint64_t sum = 0;
   for (const std::uint64_t each : sums)
     sum = (sum ^ each) * 0xD1342543DE82EF95u;
+  settle(&sum, sizeof sum);
   return sum;
 }
 
 void fill_with_poison(std::uint8_t* at, std::uint32_t bytes) {
-  for (; bytes >= 8; at += 8, bytes -= 8)
-    std::memcpy(at, &kPoison, sizeof kPoison);
-  std::memcpy(at, &kPoison, bytes);
+  fill(at, bytes, kPoison);
 }
-
 bool is_poison(const std::uint8_t* at, std::uint32_t bytes) {
-  std::uint64_t difference = 0;
-  for (; bytes >= 8; at += 8, bytes -= 8) {
-    std::uint64_t word;
-    std::memcpy(&word, at, sizeof word);
-    difference |= word ^ kPoison;
-  }
-  return difference == 0 && std::memcmp(at, &kPoison, bytes) == 0;
+  return is_filled(at, bytes, kPoison);
 }
 
-#ifdef CELLTRACE_HAS_ASAN
-void forbid_access(const std::uint8_t* at, std::uint32_t bytes) {
-  __asan_poison_memory_region(at, bytes);
+void fill_as_in_flight(std::uint8_t* at, std::uint32_t bytes) {
+  fill(at, bytes, kInFlight);
 }
-void permit_access(const std::uint8_t* at, std::size_t bytes) {
-  __asan_unpoison_memory_region(at, bytes);
+bool is_as_in_flight(const std::uint8_t* at, std::uint32_t bytes) {
+  return is_filled(at, bytes, kInFlight);
 }
-bool may_access(const std::uint8_t* at, std::uint32_t bytes) {
-  return __asan_region_is_poisoned(const_cast<std::uint8_t*>(at), bytes) == nullptr;
+
+std::optional<std::uint32_t> find_in_flight_word(const std::uint8_t* at, std::uint32_t bytes) {
+  const auto is_one = [at](std::uint32_t offset) {
+    std::uint32_t word;
+    std::memcpy(&word, at + offset, sizeof word);
+    return (word & ~kQuietAndSign) == kInFlightWord;
+  };
+  std::uint32_t found = 0;
+  for (std::uint32_t offset = 0; offset + 4 <= bytes; offset += 4)
+    found |= is_one(offset);
+  settle(&found, sizeof found);
+  if (!found) return std::nullopt;
+  const UncheckedScope unset_bytes_count;
+  std::uint32_t offset = 0;
+  while (!is_one(offset))
+    offset += 4;
+  return offset;
 }
-#else
-void forbid_access(const std::uint8_t*, std::uint32_t) {
-}
-void permit_access(const std::uint8_t*, std::size_t) {
-}
-bool may_access(const std::uint8_t*, std::uint32_t) {
-  return true;
-}
-#endif
 
 } // namespace celltrace::cell_emu

@@ -2,6 +2,7 @@
 
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
+#include "backends/cell_emu/opened_local_store.hpp"
 #include "celltrace/spe/channels.hpp"
 #include "celltrace/spe/spu.hpp"
 
@@ -168,10 +169,10 @@ ForeignStoreWatch::Used Mfc::local_store_in_use() const {
 
 void Mfc::abandon() {
   allocations().end();
-  context_.flights.remove_if(spe_, [&](const Flight& flight) {
-    if (!flight.proxy) permit_access(local_store(flight.transfer), flight.bytes());
-    return !flight.proxy;
+  context_.flights.for_each(spe_, [&](Flight& flight) {
+    if (!flight.proxy) permit(flight);
   });
+  context_.flights.remove_if(spe_, [](const Flight& flight) { return !flight.proxy; });
   std::erase_if(queue_, [](const Entry& entry) { return !entry.proxy; });
   spu_entries_ = 0;
   stalled_tags_ = 0;
@@ -447,6 +448,7 @@ void Mfc::check_conditional(const MfcCommand& command, CallSite site, Cycle now)
 void Mfc::execute_immediate(const MfcCommand& command, Cycle now) {
   const auto [opcode, tag, lsa, size, ea] = command;
   const bool elsewhere = bus_.reserved_by_another(spe_, ea);
+  const OpenedLocalStore opened(*this, command);
   const TimingParameters& timing = context_.config.timing;
   atomic_due_ = now + timing.mfc_issue + (elsewhere ? timing.lock_line_spe : timing.lock_line_memory);
   if (opcode == MfcOpcode::getllar) {
@@ -523,7 +525,10 @@ void Mfc::start(Entry& entry, Cycle now) {
       kind_of(entry.command.opcode) == CommandKind::barrier || follows_its_tag(entry.command.opcode);
   if (releases)
     context_.flights.for_each(spe_, [&](Flight& flight) {
-      flight.released |= flight.command != entry.number && is_ordered_before(flight, entry);
+      if (flight.command == entry.number || !is_ordered_before(flight, entry)) return;
+      flight.released = true;
+      // The program may learn of it by a wait for the other tag.
+      if (flight.transfer.tag != entry.command.tag) permit(flight);
     });
   entry.due = time_of(entry, now) + random_.below(config.faults.dma_delay);
   entry.moved = false;
@@ -537,19 +542,21 @@ void Mfc::start(Entry& entry, Cycle now) {
     Flight& flight = context_.flights.at(spe_, i);
     if (flight.command != entry.number || flight.started) continue;
     flight.started = true;
-    if (flight.shared) continue;
     std::uint8_t* const local = local_store(flight.transfer);
-    flight.hashed = true;
+    const OpenedLocalStore opened(*this, flight.transfer);
     if (!flight.writes_local_store()) {
-      flight.hash = checksum(local, flight.bytes());
-    } else if (config.transfers != TransferTime::at_issue) {
-      bus_.count_local_store_write(spe_);
-      fill_with_poison(local, flight.bytes());
-      // Machine code may load it, and is judged by what it does with it.
-      if (watch_ == nullptr) forbid_access(local, flight.bytes());
-    } else {
-      flight.hashed = false;
+      flight.hashed = !flight.shared;
+      if (flight.hashed) flight.hash = checksum(local, flight.bytes());
+      check_source(flight, entry, now);
+      continue;
     }
+    // All that this get is ordered behind has moved its data: what lies there is nobody's.
+    if (config.transfers != TransferTime::at_issue) {
+      flight.hashed = !flight.shared;
+      bus_.count_local_store_write(spe_);
+      fill_as_in_flight(local, flight.bytes());
+    }
+    forbid(flight);
   }
   if (config.transfers == TransferTime::at_issue) move_data(entry, now);
 }

@@ -11,6 +11,7 @@
 // observed that it is complete.
 #pragma once
 
+#include "backends/cell_emu/access_checkers.hpp"
 #include "backends/cell_emu/bounds.hpp"
 #include "backends/cell_emu/bus.hpp"
 #include "backends/cell_emu/counters.hpp"
@@ -224,6 +225,8 @@ private:
   /// Reports a flight whose local store has another content than the emulator left there.
   void report_touched(const Flight& flight, Cycle now);
   void verify(const Flight& flight, Cycle now);
+  /// Reports a put of what host code has read, or computed from, where data were still to come.
+  void check_source(const Flight& flight, const Entry& entry, Cycle now);
   /// The program relies on what only the count of the queue has told it. False if that is not reported.
   bool note_drained(const FlightInfo& flight, Diagnostic& diagnostic, Cycle now);
   void report_drained(const FlightInfo& flight, Cycle now);
@@ -233,6 +236,9 @@ private:
   void observe_part(std::uint64_t command, Cycle now);
   void observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now);
   std::uint8_t* local_store(const MfcCommand& transfer) const;
+  /// Has the program's accesses to the target of a get reported, until it may know that the data are there.
+  void forbid(Flight& flight);
+  void permit(Flight& flight);
   void report_access(const FlightInfo& flight, Rule rule, const std::string& what, CallSite site, Cycle now);
   void watch(const Flight& flight);
   template <class Gone> void remove_flights(Gone gone);
@@ -255,8 +261,11 @@ private:
   void judge_tag_groups();
   std::uint32_t outstanding(bool proxy) const;
 
+  class OpenedLocalStore;
+
   const unsigned spe_;
   const MfcContext context_;
+  const bool has_checker_ = has_access_checker();
   void fit_arena(ArenaState& arena);
 
   ArenaRange arena_{0, kLocalStoreBytes};

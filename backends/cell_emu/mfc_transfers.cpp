@@ -1,8 +1,10 @@
 // The MFC's transfers in flight: what meets what, when data move, and whether the program kept its hands off.
+#include "backends/cell_emu/access_checkers.hpp"
 #include "backends/cell_emu/isa/state.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
+#include "backends/cell_emu/opened_local_store.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -47,6 +49,35 @@ bool Mfc::is_ordered_behind(const Flight& flight, const Entry& entry) const {
     chain.push_back(&later.command);
   }
   return false;
+}
+
+void Mfc::forbid(Flight& flight) {
+  // Machine code may load what is forbidden to host code, and is judged by what it does with it.
+  if (!has_checker_ || watch_ != nullptr) return;
+  flight.forbidden = true;
+  forbid_access(local_store(flight.transfer), flight.bytes());
+}
+
+void Mfc::permit(Flight& flight) {
+  if (!flight.forbidden) return;
+  flight.forbidden = false;
+  permit_access(local_store(flight.transfer), flight.bytes());
+}
+
+Mfc::OpenedLocalStore::OpenedLocalStore(const Mfc& mfc, const MfcCommand& transfer)
+    : mfc_(mfc), begin_(transfer.lsa), end_(transfer.lsa + transfer.size) {
+  for_each([&](const Flight& flight) { permit_access(mfc_.local_store(flight.transfer), flight.bytes()); });
+}
+
+Mfc::OpenedLocalStore::~OpenedLocalStore() {
+  for_each([&](const Flight& flight) { forbid_access(mfc_.local_store(flight.transfer), flight.bytes()); });
+}
+
+template <class Do> void Mfc::OpenedLocalStore::for_each(Do action) const {
+  if (!mfc_.has_checker_) return;
+  for (const Flight& flight : mfc_.context_.flights.of(mfc_.spe_))
+    if (flight.forbidden && flight.transfer.lsa < end_ && begin_ < flight.transfer.lsa + flight.bytes())
+      action(flight);
 }
 
 void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
@@ -104,10 +135,16 @@ template <class Gone> void Mfc::remove_flights(Gone gone) {
         std::memset(watch_ + flight.transfer.lsa / 16, 0,
                     (flight.transfer.lsa % 16 + flight.bytes() + 15) / 16);
   }
+  if (has_checker_)
+    context_.flights.for_each(spe_, [&](Flight& flight) {
+      if (gone(flight)) permit(flight);
+    });
   context_.flights.remove_if(spe_, gone);
   // What others that stay have in the same quadwords.
-  for (const Flight& flight : context_.flights.of(spe_))
+  for (const Flight& flight : context_.flights.of(spe_)) {
     watch(flight);
+    if (flight.forbidden) forbid_access(local_store(flight.transfer), flight.bytes());
+  }
 }
 
 void Mfc::report_access(const FlightInfo& flight, Rule rule, const std::string& what, CallSite site,
@@ -171,10 +208,20 @@ void Mfc::report_touched(const Flight& flight, Cycle now) {
   report({flight.transfer, flight.command, flight.site, flight.proxy, now}, rule, now);
 }
 
+void Mfc::check_source(const Flight& flight, const Entry& entry, Cycle now) {
+  // Machine code is judged by its loads, and may have variables that nobody has set.
+  if (watch_ != nullptr || flight.proxy) return;
+  const auto found = find_in_flight_word(local_store(flight.transfer), flight.bytes());
+  if (!found) return;
+  report({flight.transfer, entry.number, entry.site, false, now}, Rule::get_target_read, now,
+         "LS " + address_text(flight.transfer.lsa + *found) +
+             " has what lies where a get's data are still to come, in ");
+}
+
 void Mfc::verify(const Flight& flight, Cycle now) {
-  if (!flight.hashed || flight.shared ||
-      checksum(local_store(flight.transfer), flight.bytes()) == flight.hash)
-    return;
+  if (!flight.hashed || flight.shared) return;
+  const OpenedLocalStore opened(*this, flight.transfer);
+  if (checksum(local_store(flight.transfer), flight.bytes()) == flight.hash) return;
   if (flight.drained)
     report_drained(FlightInfo(flight), now);
   else
@@ -209,10 +256,12 @@ void Mfc::move(Flight& flight, Cycle now, bool observed) {
   flight.moved = true;
   const auto [opcode, tag, lsa, size, ea] = flight.transfer;
   std::uint8_t* const local = local_store(flight.transfer);
-  permit_access(local, size);
+  // The PPE's transfers are no secret once they have been made.
+  if (flight.proxy) permit(flight);
+  const OpenedLocalStore opened(*this, flight.transfer);
   const AddressMap::Place place = bus_.map().locate(ea, size);
   if (flight.writes_local_store()) {
-    const bool touched = flight.hashed && !flight.shared && !is_poison(local, size);
+    const bool touched = flight.hashed && !flight.shared && !is_as_in_flight(local, size);
     if (is_register(place.kind)) {
       move_word(flight, place, now);
     } else {
@@ -275,7 +324,9 @@ void Mfc::observe_empty_queue(CallSite site, Cycle now) {
       verify(flight, now);
   }
   context_.flights.for_each(spe_, [&](Flight& flight) {
-    if (!flight.proxy) flight.drained = flight.released = true;
+    if (flight.proxy) return;
+    flight.drained = flight.released = true;
+    permit(flight);
   });
 }
 

@@ -159,7 +159,7 @@ const Rows kTransfers = {
          [](Spu& spu, Stage& stage) {
            spell(spu, 0x20, 0x3FFF0, to_ea(stage.to), 16, 0);
            spu.wait_all(1);
-           stage.is(stage.to[0], kPoisonWord); // of the stack, which nobody has written
+           stage.is(stage.to[0], kUnwrittenWord); // of the stack, which nobody has written
          }),
     broken(Rule::local_store_end, "but not cross the end",
            [](Spu& spu, Stage& stage) {
@@ -450,7 +450,7 @@ const Rows kRegisters = {
            spu.put(line + 32, spu.addresses(1).local_store + lsa, 128, 0);
            spu.get(line, spu.addresses(1).local_store, 128, 0); // its code
            spu.wait_all(1);
-           stage.is(line[0], kPoisonWord);
+           stage.is(line[0], kUnwrittenWord);
            spu.send_signal(1, Signal::one, 1);
          })
         .spes(2)

@@ -1,5 +1,6 @@
 // Stall-and-notify on the emulated MFC.
 #include "celltrace/emulator.hpp"
+#include "spe/emu_peek.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -42,9 +43,9 @@ TEST_CASE("while a list is stopped its tag goes on, but for barriers") {
     spu.getb(buffer + 96, from, 16, 3);
     while (spu.cycles() < 5000)
       spu.in_mailbox_count();
-    CHECK(buffer[64] == 1);
-    CHECK(buffer[96] == 0);
-    CHECK(buffer[4] == 0);
+    CHECK(peek(buffer + 64) == 1);
+    CHECK(peek(buffer + 96) == 0);
+    CHECK(peek(buffer + 4) == 0);
     CHECK(spu.completed(1u << 3) == 0);
     spu.acknowledge_list_stall(3); // one acknowledge for both lists
     CHECK(spu.wait_all(1u << 3) == 1u << 3);

@@ -79,7 +79,8 @@ const isa::Instruction& SimulatedSpu::fetch(std::uint32_t pc) {
 }
 
 const isa::Instruction& SimulatedSpu::decode_again(std::uint32_t pc, std::uint32_t word) {
-  if (is_poison(state_of_spu_.local_store + (pc & ~7u), 8))
+  const std::uint8_t* const code = state_of_spu_.local_store + (pc & ~7u);
+  if (is_poison(code, 8) || is_as_in_flight(code, 8))
     fail_at(pc, Rule::unwritten_code, place_of(pc) + ": " + std::string(text_of(Rule::unwritten_code)));
   return decoded_[pc / 4] = isa::decode(word);
 }

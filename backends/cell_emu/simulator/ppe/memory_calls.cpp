@@ -94,7 +94,7 @@ void read_file(int descriptor, std::span<std::uint8_t> to, std::int64_t offset) 
   }
 }
 
-constexpr std::array kCalls = {
+constexpr std::array kMemoryCalls = {
     PpeCall{},
     PpeCall{answer_calloc, PpeCall::OnFailure::zero},
     PpeCall{answer_free, PpeCall::OnFailure::zero},
@@ -106,7 +106,7 @@ constexpr std::array kCalls = {
 } // namespace
 
 std::span<const PpeCall> memory_calls() {
-  return kCalls;
+  return kMemoryCalls;
 }
 
 CallResult map_memory(PpeState& state, const Arguments& arguments) {

@@ -519,7 +519,7 @@ CallResult refuse(PpeState&, const Arguments&) {
 
 constexpr auto kZero = PpeCall::OnFailure::zero;
 
-constexpr std::array kCalls = {
+constexpr std::array kPosixCalls = {
     PpeCall{},
     PpeCall{}, // adjtimex
     PpeCall{close_file},
@@ -590,12 +590,12 @@ constexpr std::array kCalls = {
     PpeCall{read_parts},
     PpeCall{write_parts},
 };
-static_assert(kCalls.size() == 69);
+static_assert(kPosixCalls.size() == 69);
 
 } // namespace
 
 std::span<const PpeCall> posix_calls() {
-  return kCalls;
+  return kPosixCalls;
 }
 
 } // namespace celltrace::cell_emu

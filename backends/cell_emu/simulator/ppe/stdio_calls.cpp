@@ -395,7 +395,7 @@ CallResult run_command(PpeState&, const Arguments& arguments) {
 
 constexpr auto kZero = PpeCall::OnFailure::zero;
 
-constexpr std::array kCalls = {
+constexpr std::array kStdioCalls = {
     PpeCall{},
     PpeCall{clear_errors, kZero},
     PpeCall{close_stream},
@@ -439,12 +439,12 @@ constexpr std::array kCalls = {
     PpeCall{print_string}, // 40
     PpeCall{scan_string},
 };
-static_assert(kCalls.size() == 42);
+static_assert(kStdioCalls.size() == 42);
 
 } // namespace
 
 std::span<const PpeCall> c99_calls() {
-  return kCalls;
+  return kStdioCalls;
 }
 
 } // namespace celltrace::cell_emu

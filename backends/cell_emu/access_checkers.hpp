@@ -1,0 +1,59 @@
+// Tools that check each access of a program to memory, where the program runs under one: the address
+// sanitizer, which the program may be built with though this library is not, and Valgrind's memcheck. They
+// report what they were told to forbid at the line that does it. Neither tells loads from stores.
+//
+// The address sanitizer marks units of 8 bytes, and can forbid no part of one; Valgrind marks bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace celltrace::cell_emu {
+
+bool runs_under_address_sanitizer();
+bool runs_under_valgrind();
+bool has_access_checker();
+
+/// Makes the tool report every access of the program. Nothing happens without a tool.
+void forbid_access(const std::uint8_t* at, std::size_t bytes);
+void permit_access(const std::uint8_t* at, std::size_t bytes);
+/// Returns whether no byte is forbidden.
+bool may_access(const std::uint8_t* at, std::size_t bytes);
+
+/// Declares what the emulator derived from bytes of the program, which may never have set some, as set.
+void settle(const void* at, std::size_t bytes);
+
+/// Silences Valgrind on this thread, for what the emulator does with such bytes itself.
+class UncheckedScope {
+public:
+  UncheckedScope();
+  ~UncheckedScope();
+  UncheckedScope(const UncheckedScope&) = delete;
+  UncheckedScope& operator=(const UncheckedScope&) = delete;
+};
+
+/// Tells the tools of a stack that they could not know.
+class CheckedStack {
+public:
+  CheckedStack(const void* bottom, std::size_t bytes);
+  ~CheckedStack();
+  CheckedStack(const CheckedStack&) = delete;
+  CheckedStack& operator=(const CheckedStack&) = delete;
+
+  // Around each switch: the first two on the side that leaves, the others on the one that arrives.
+  void before_enter();
+  void before_leave(bool for_good);
+  void after_enter();
+  void after_leave();
+
+private:
+  const void* bottom_;
+  std::size_t bytes_;
+  unsigned valgrind_id_ = 0;
+  void* callers_fake_stack_ = nullptr;
+  void* own_fake_stack_ = nullptr;
+  const void* callers_bottom_ = nullptr;
+  std::size_t callers_bytes_ = 0;
+};
+
+} // namespace celltrace::cell_emu
