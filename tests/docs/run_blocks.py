@@ -19,8 +19,10 @@ Comments before a block, one after the other:
 
     <!-- given CODE -->        what the reader has already
     <!-- file: NAME -->        written to the file, as well
-    <!-- needs: PROGRAM -->    skipped where there is no such program
+    <!-- needs: PROGRAM -->    skipped where there is no such program, or for python:MODULE no such module
+    <!-- output within 2 % -->  numbers may be that far from those that are shown; words and signs are as they are
     <!-- output varies -->     what is shown is an example
+    <!-- fails -->             each command has to fail
     <!-- not run: REASON -->
 
 A block that is in no language of these, without a reason, is an error.
@@ -36,13 +38,39 @@ import textwrap
 
 FENCE = re.compile(r"^( *)```(\S*)\n(.*?)^\1```$", re.M | re.S)
 COMMENTS = re.compile(r"((?:<!--(?:(?!-->).)*-->\s*)*)\Z", re.S)
-COMMENT = re.compile(r"<!--\s*(given|file:|needs:|output varies|not run:)(.*?)-->", re.S)
+COMMENT = re.compile(r"<!--\s*(given|file:|needs:|output varies|output within|fails|not run:)(.*?)-->", re.S)
 # What cannot stand in a function.
 OUTSIDE = re.compile(r"^(TEST_CASE|int main|template|namespace|using namespace)", re.M)
 
 
 class Failed(Exception):
     pass
+
+
+# A number that is no part of a word, such as 1,024 or -3.5e-7.
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:,\d{3})*(?:\.\d+)?(?:[eE][-+]?\d+)?(?!\w)")
+
+
+def is_output(shown, printed, percent=None):
+    """Whether a command printed what is shown, in which `...` is any text. With `percent` numbers may be that far off, and
+    columns be as wide as these take."""
+    shown, printed = shown.strip(), printed.strip()
+    parts = shown.split("...")
+    if percent is None:
+        return re.fullmatch(".*".join(re.escape(part) for part in parts), printed, re.S) is not None
+    numbers = []
+
+    def pattern_of(part):
+        pieces = NUMBER.split(part)
+        numbers.extend(NUMBER.findall(part))
+        words = (re.sub(r"(?:\\?\s)+", r"\\s+", re.escape(piece)) for piece in pieces)
+        return f"({NUMBER.pattern})".join(words)
+
+    found = re.fullmatch(".*".join(pattern_of(part) for part in parts), printed, re.S)
+    if not found:
+        return False
+    value = lambda text: float(text.replace(",", ""))
+    return all(abs(value(a) - value(b)) <= abs(value(a)) * percent / 100 for a, b in zip(numbers, found.groups()))
 
 
 class Block:
@@ -54,11 +82,11 @@ class Block:
         self.notes = {note: textwrap.dedent(more).strip() for note, more in COMMENT.findall(before)}
 
 
-def run(command, folder, environment, text=None, seconds=300):
-    """What it printed; Failed with it if it fails."""
+def run(command, folder, environment, text=None, seconds=300, has_to_fail=False):
+    """What it printed; Failed with it if it fails, or does not though it has to."""
     done = subprocess.run(command, cwd=folder, env=environment, input=text, text=True, timeout=seconds,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    if done.returncode:
+    if (done.returncode != 0) != has_to_fail:
         raise Failed(f"{' '.join(map(str, command))}: {done.returncode}\n{done.stdout}{done.stderr}")
     return done.stdout
 
@@ -130,15 +158,15 @@ class Page:
         commands = re.split(r"^\$ ", block.text, flags=re.M)[1:]
         if not commands:
             raise Failed("no line begins with `$ `")
+        within = block.notes.get("output within")
+        percent = float(within.removesuffix("%")) if within is not None else None
         setting = given + "\n"
         for command in commands:
             line, _, shown = command.partition("\n")
-            printed = self.run(["bash", "-euo", "pipefail", "-c", setting + line])
+            printed = self.run(["bash", "-euo", "pipefail", "-c", setting + line], has_to_fail="fails" in block.notes)
             if line.startswith(("export ", "cd ")):
                 setting += line + "\n"
-            pattern = ".*".join(re.escape(part) for part in shown.strip().split("..."))
-            if shown.strip() and "output varies" not in block.notes and \
-                    not re.fullmatch(pattern, printed.strip(), re.S):
+            if shown.strip() and "output varies" not in block.notes and not is_output(shown, printed, percent):
                 raise Failed(f"{line}\nprints\n{printed}\nand not\n{shown}")
 
     def python(self, block, given):
@@ -163,7 +191,11 @@ class Page:
         if "not run:" in block.notes:
             return "not run: " + block.notes["not run:"]
         for program in block.notes.get("needs:", "").split():
-            if not shutil.which(program, path=self.environment["PATH"]):
+            if program.startswith("python:"):
+                module = program.removeprefix("python:")
+                if subprocess.run(["python3", "-c", f"import {module}"], env=self.environment, stderr=subprocess.DEVNULL).returncode:
+                    return f"not run: Python has no {module}"
+            elif not shutil.which(program, path=self.environment["PATH"]):
                 return f"not run: there is no {program}"
         languages = {"cpp", "c", "cmake", "sh", "console", "python", "pov", "text"}
         if block.language not in languages:
