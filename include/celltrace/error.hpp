@@ -33,14 +33,14 @@ struct Finding {
   };
   Severity severity = Severity::error;
   std::string file;                    ///< as messages name it
-  std::uint32_t line = 1, column = 1;  ///< from 1
+  std::uint32_t line = 1, column = 1;  ///< from 1; both 0: the file as a whole, which cannot be read
   std::string text;                    ///< what it is
   std::vector<std::string> reached_by; ///< the includes and macros on the way there, from the inside out
   bool is_unsupported = false;         ///< it is left out with ParseOptions::lenient
 };
 
 /// The text of a scene is wrong or uses what is not supported. what() starts with "file:line:column: error:"
-/// and may continue with the include stack, and with further errors, on further lines.
+/// ("file: error:" if it cannot be read) and may go on with the include stack and further errors, a line each.
 class CELLTRACE_EXPORT SceneError : public InputError {
 public:
   /// At least one of `findings` is an error.

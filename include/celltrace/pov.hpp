@@ -136,7 +136,8 @@ CELLTRACE_EXPORT Scene parse_file(const std::filesystem::path& path, const Parse
 CELLTRACE_EXPORT Scene parse_string(std::string_view text, const ParseOptions& options = {},
                                     std::string name = "<string>");
 
-/// "file:line:column: severity: text", and a line for each place that it was reached by.
+/// "file:line:column: severity: text", without line and column if these are 0, and a line for each place that
+/// it was reached by.
 CELLTRACE_EXPORT std::string to_text(const Finding& finding);
 
 /// A word that the language reserves; directives with their #.

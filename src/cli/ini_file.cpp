@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "cli/blanks.hpp"
 #include "cli/pov_settings.hpp"
+#include "cli/unreadable_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -30,10 +31,10 @@ template <class Take> void for_each_line(std::string_view text, Take take) {
 std::string read_ini_text(const std::string& name) {
   constexpr std::streamsize kMostBytes = 1 << 20;
   std::ifstream file(name, std::ios::binary);
-  if (!file) throw InputError(name + ": cannot be read");
+  if (!file) throw unreadable(name);
   std::string text(kMostBytes + 1, '\0');
   file.read(text.data(), kMostBytes + 1);
-  if (file.bad() || (file.gcount() == 0 && !file.eof())) throw InputError(name + ": cannot be read");
+  if (file.bad() || (file.gcount() == 0 && !file.eof())) throw unreadable(name);
   if (file.gcount() > kMostBytes) throw InputError(name + ": is longer than a megabyte");
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;

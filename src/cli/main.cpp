@@ -85,6 +85,16 @@ int run(const char* program, const std::vector<std::string>& arguments, MessageF
   return run_with_files(render);
 }
 
+/// The text says where, and "error:", itself, but for a file that cannot be read: of all such files the same
+/// is said.
+void print(const celltrace::SceneError& error) {
+  const celltrace::Finding& first = error.findings().front();
+  if (first.line == 0)
+    std::cerr << "celltrace: error: " << first.file << ": " << first.text << '\n';
+  else
+    std::cerr << error.what() << '\n';
+}
+
 /// For errors: `spu` leaves 1 to the programs that it runs.
 int error_code(const std::vector<std::string>& arguments) {
   return !arguments.empty() && arguments.front() == "spu" ? kSpuRunFailed : 1;
@@ -102,7 +112,7 @@ int main(int argc, char** argv) {
     check_standard_output();
     return code;
   } catch (const celltrace::SceneError& error) {
-    std::cerr << error.what() << '\n'; // says where, and "error:", itself
+    print(error);
     const std::vector<celltrace::Finding>& findings = error.findings();
     if (std::any_of(findings.begin(), findings.end(), [](const auto& one) { return one.is_unsupported; }))
       std::cerr << "note: --lenient renders the scene without what is not supported yet; in the environment, "

@@ -2,6 +2,7 @@
 
 #include "celltrace/cache/replay.hpp"
 #include "celltrace/error.hpp"
+#include "cli/unreadable_file.hpp"
 
 #include <array>
 #include <cstdio>
@@ -17,7 +18,7 @@ namespace {
 
 std::vector<CacheTrace> read(const ReplayRequest& request) {
   std::ifstream file(request.trace, std::ios::binary);
-  if (!file) throw InputError(request.trace.string() + ": cannot be read");
+  if (!file) throw unreadable(request.trace);
   try {
     std::vector<CacheTrace> traces = read_cache_traces(file);
     if (traces.empty()) throw InputError("no cache was used");

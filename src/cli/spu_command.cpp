@@ -5,6 +5,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/output_files.hpp"
 #include "cli/spu_report.hpp"
+#include "cli/unreadable_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -28,7 +29,7 @@ using Bytes = std::vector<std::uint8_t>;
 Bytes read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   Bytes bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file || std::filesystem::is_directory(path)) throw InputError(path.string() + ": cannot be read");
+  if (!file || std::filesystem::is_directory(path)) throw unreadable(path);
   return bytes;
 }
 

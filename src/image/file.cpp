@@ -100,7 +100,7 @@ void write_bytes(std::FILE* file, const void* bytes, std::size_t count) {
 File open_for_reading(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) throw InputError("no such file");
+  if (status.type() == fs::file_type::not_found) throw InputError("there is no such file");
   if (error) throw InputError("cannot be opened: " + error.message());
   if (fs::is_directory(status)) throw InputError("is a folder");
   if (!fs::is_regular_file(status)) throw InputError("is not a regular file");

@@ -29,6 +29,7 @@ std::string quoted_name(std::string_view name) {
 void refuse_scene(const std::string& name, const std::string& what, const ParseOptions& options) {
   Finding error;
   error.file = name;
+  error.line = error.column = 0;
   error.text = what;
   if (options.finding) options.finding(error);
   throw SceneError(to_text(error), {error});
@@ -160,9 +161,9 @@ namespace celltrace {
 
 std::string to_text(const Finding& finding) {
   static constexpr const char* kSeverities[] = {"note", "warning", "error"};
-  std::string text = finding.file + ':' + std::to_string(finding.line) + ':' +
-                     std::to_string(finding.column) + ": " + kSeverities[static_cast<int>(finding.severity)] +
-                     ": " + finding.text;
+  std::string text = finding.file + ':';
+  if (finding.line != 0) text += std::to_string(finding.line) + ':' + std::to_string(finding.column) + ':';
+  text += std::string(" ") + kSeverities[static_cast<int>(finding.severity)] + ": " + finding.text;
   for (const std::string& place : finding.reached_by)
     text += "\n    " + place;
   return text;

@@ -43,8 +43,10 @@ void raise(const SceneError& error) {
   });
   if (first != findings.end()) {
     raised.attr("file") = first->file;
-    raised.attr("line") = first->line;
-    raised.attr("column") = first->column;
+    if (first->line != 0) { // else of the file as a whole
+      raised.attr("line") = first->line;
+      raised.attr("column") = first->column;
+    }
   }
   PyErr_SetObject(types.scene, raised.ptr());
 }
@@ -62,7 +64,7 @@ void bind_errors(py::module_& module) {
           },
           "note, warning or error")
       .def_readonly("file", &Finding::file)
-      .def_readonly("line", &Finding::line, "from 1")
+      .def_readonly("line", &Finding::line, "from 1; 0: the file as a whole, which cannot be read")
       .def_readonly("column", &Finding::column, "from 1")
       .def_readonly("text", &Finding::text)
       .def_readonly("reached_by", &Finding::reached_by,

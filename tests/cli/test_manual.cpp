@@ -81,6 +81,24 @@ TEST_CASE("the manual page has every option that --help has") {
   CHECK(options > 60);
 }
 
+TEST_CASE("the synopsis of the documentation has every command that --help has") {
+  std::istringstream help(output_of({"--help"}));
+  const std::string page = read_bytes(CELLTRACE_SOURCE_DIR "/docs/program.md");
+  const std::string synopsis = page.substr(0, page.find("## render"));
+  int commands = 0;
+  bool is_command = false;
+  for (std::string line; std::getline(help, line);) {
+    std::smatch name;
+    if (line.rfind("Subcommands:", 0) == 0 || line.rfind("SUBCOMMANDS:", 0) == 0) is_command = true;
+    if (!is_command || !std::regex_search(line, name, std::regex("^  ([a-z]+) "))) continue;
+    CAPTURE(name[1]);
+    CHECK_THAT(synopsis, Contains("celltrace " + name[1].str()) || Contains("[" + name[1].str() + "]"));
+    ++commands;
+  }
+  CHECK(commands >= 5);
+  CHECK_THAT(synopsis, Contains("celltrace view") && Contains("(viewer.md)"));
+}
+
 TEST_CASE("the manual page is one that man reads") {
   if (!has_shell("man")) return;
   const std::string page = output_of({"--man-page"});

@@ -72,6 +72,32 @@ TEST_CASE("messages go into files beside the picture, and the scene has a header
              Contains("s.png: this file would be written twice"));
 }
 
+TEST_CASE("files that are not there are told of in one way") {
+  const TemporaryFolder folder;
+  write(folder, "s.pov", kScene);
+  const std::string all = "celltrace: error: none.pov: there is no such file\n";
+  std::filesystem::create_directory(folder / "d.pov");
+  const std::vector<std::vector<std::string>> missing = {{"none.pov"},
+                                                         {"render", "none.pov"},
+                                                         {"+Inone"},
+                                                         {"compare", "none.pov", "none.pov"},
+                                                         {"replay", "none.pov"},
+                                                         {"spu", "none.pov"},
+                                                         {"s.pov", "none.ini"}};
+  for (const auto& arguments : missing) {
+    INFO(arguments.front() << ' ' << arguments.back());
+    const Outcome outcome = celltrace_run(folder, arguments);
+    CHECK(outcome.exit_code != 0);
+    const bool is_ini = arguments.back() == "none.ini";
+    CHECK_THAT(outcome.err, Contains(is_ini ? "celltrace: error: none.ini: there is no such file\n" : all));
+    CHECK(outcome.err.find(":1:1:") == std::string::npos);
+  }
+  CHECK_THAT(celltrace_run(folder, {"s.pov", "--header", "none"}).err,
+             Contains("header none: there is no such file"));
+  CHECK_THAT(celltrace_run(folder, {"d.pov"}).err,
+             Contains("celltrace: error: d.pov: this is a directory, not a file"));
+}
+
 TEST_CASE("numbers out of range are not printed in full") {
   const TemporaryFolder folder;
   write(folder, "s.pov", kScene);

@@ -66,13 +66,12 @@ fs::path first_scenes() {
 
 TEST_CASE("files that cannot be scenes") {
   const Folder folder;
-  CHECK(file_error(folder.path("none.pov")) ==
-        folder.path("none.pov") + ":1:1: error: there is no such file");
-  CHECK(file_error(folder.path("")) == folder.path("") + ":1:1: error: this is a directory, not a file");
+  CHECK(file_error(folder.path("none.pov")) == folder.path("none.pov") + ": error: there is no such file");
+  CHECK(file_error(folder.path("")) == folder.path("") + ": error: this is a directory, not a file");
   ParseOptions options;
   options.limits.file_bytes = 10;
   CHECK(file_error(folder.write("long.pov", "sphere { 0, 1 }"), options) ==
-        folder.path("long.pov") + ":1:1: error: this file is larger than 10 bytes");
+        folder.path("long.pov") + ": error: this file is larger than 10 bytes");
 }
 
 TEST_CASE("include files are searched for in order") {
@@ -109,8 +108,9 @@ TEST_CASE("a header is read before the scene") {
   const std::string scene = folder.write("scene.pov", "#debug str(A, 0, 0) #ifdef (B) #debug \"leak\" #end");
   CHECK(file_output(scene, options) == "header included 5");
   options.header = elsewhere.write("wrong.inc", "\noops");
-  CHECK(file_error(scene, options) ==
-        elsewhere.path("wrong.inc") + ":2:1: error: 'oops' is not declared\n    included from " + scene + ":1");
+  CHECK(file_error(scene, options) == elsewhere.path("wrong.inc") +
+                                          ":2:1: error: 'oops' is not declared\n    included from " + scene +
+                                          ":1");
   options.header = elsewhere.path("none.inc");
   CHECK_THROWS_WITH(parse_file(scene, options),
                     Catch::StartsWith("header " + elsewhere.path("none.inc") + ": "));

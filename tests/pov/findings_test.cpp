@@ -67,6 +67,7 @@ TEST_CASE("scenes that are refused before their first token have findings, too")
   } catch (const SceneError& error) {
     REQUIRE(error.findings().size() == 1);
     CHECK(error.findings()[0].file == "no/such.pov");
+    CHECK(error.findings()[0].line == 0);
     CHECK(error.findings()[0].text == "there is no such file");
   }
 }
