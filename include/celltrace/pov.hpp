@@ -71,6 +71,17 @@ struct AnimationFrame {
 
 enum class FileUse { read, write };
 
+/// Where an object of a Scene stands in its text. CSG is one object, but for unions that are no more than
+/// their parts. The strings last as long as the call that has them.
+struct ObjectOrigin {
+  std::string_view kind; ///< the language's word, as "sphere"
+  std::string_view name; ///< that it, or else the innermost object around it, was declared with; empty: none
+  std::string_view file; ///< as messages name it
+  std::uint32_t line = 1, column = 1; ///< of its first word, or of the `object` that refers to it, from 1
+  std::string_view placed_file;
+  std::uint32_t placed_line = 1; ///< of what places it in the scene: itself, what it is part of, or a name
+};
+
 struct ParseOptions {
   /// Searched for include files after the including file's folder and the scene's; POV-Ray's installed
   /// include folder comes last by itself.
@@ -122,6 +133,9 @@ struct ParseOptions {
   std::function<bool(std::uint64_t bytes, std::uint64_t total)> progress;
   /// Hears of every file of the scene, from the parsing thread, when it is about to be read.
   std::function<void(const std::filesystem::path& path)> reads_file;
+  /// Hears where each object of the scene comes from, from the parsing thread, when it is placed; `object` is
+  /// its index in Scene::objects. None: nothing of that is kept.
+  std::function<void(Index object, const ObjectOrigin& origin)> places_object;
   ParseLimits limits;
 };
 

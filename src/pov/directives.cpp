@@ -175,6 +175,8 @@ void TokenStream::declare(bool is_local) {
       expect_semicolon(name);
   }
   if (const auto* text = std::get_if<std::string>(&value)) session_.count_text(text->size(), name.where);
+  if (session_.origins.are_wanted())
+    if (auto* object = std::get_if<ObjectPtr>(&value)) *object = named(*object, name.name);
   if (!subscripts.empty()) {
     const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
     if (!slot) session_.fail(name.where, "'" + session_.names.text(name.name) + "' is not declared");

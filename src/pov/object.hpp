@@ -13,6 +13,7 @@
 #include "pov/location.hpp"
 #include "pov/memory.hpp"
 #include "pov/texture.hpp"
+#include "pov/token.hpp"
 #include "scene/triangle_tree.hpp"
 
 namespace celltrace::pov {
@@ -82,7 +83,8 @@ struct ObjectDefinition {
   std::variant<Shape, std::shared_ptr<MeshDefinition>, std::shared_ptr<TriangleDefinition>,
                std::shared_ptr<const Compound>, HeapValue<LightDefinition>>
       shape;
-  Location where; ///< where it is written, or referred to within other objects
+  Location where;        ///< where it is written, or referred to within other objects
+  NameId name = kNoName; ///< that it was declared with, if somebody asks for such (origins.hpp)
   Transform transform;
   TexturePtr inside;                 ///< what it looks like from inside; null: the same, or the parent's
   TexturePtr texture;                ///< null: the parent's, then the default

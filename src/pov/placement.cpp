@@ -144,6 +144,8 @@ void SceneBuilder::place(const ObjectDefinition& object, const Inherited& around
     if (!has_shapes(*placed)) return;
     make_room(scene_.objects, tokens_);
     scene_.objects.push_back(std::move(*placed));
+    if (origins_.are_wanted())
+      origins_.tell(static_cast<Index>(scene_.objects.size() - 1), object, around.name, where);
   }
 }
 
@@ -166,6 +168,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   own.is_lit_through = object.is_lit_through || around.is_lit_through;
   own.hollow = object.hollow.value_or(around.hollow);
   own.is_copy = object.is_declared || around.is_copy;
+  if (object.name != kNoName) own.name = object.name;
   if (object.texture) {
     own.texture = object.texture;
     own.has_cut_texture = false;

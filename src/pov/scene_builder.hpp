@@ -12,6 +12,7 @@
 #include "pov/camera.hpp"
 #include "pov/diagnostics.hpp"
 #include "pov/object.hpp"
+#include "pov/origins.hpp"
 
 namespace celltrace::pov {
 
@@ -19,8 +20,9 @@ class TokenStream;
 
 class SceneBuilder {
 public:
-  SceneBuilder(const ParseLimits& limits, Diagnostics& diagnostics, TokenStream& tokens)
-      : limits_(limits), diagnostics_(diagnostics), tokens_(tokens) {}
+  SceneBuilder(const ParseLimits& limits, Diagnostics& diagnostics, TokenStream& tokens,
+               const Origins& origins)
+      : limits_(limits), diagnostics_(diagnostics), tokens_(tokens), origins_(origins) {}
 
   /// What textures start from and objects without one get: black, with the default finish, until #default
   /// changes it. It does not move with the objects that get it.
@@ -100,6 +102,7 @@ private:
     Transform inner_transform;    ///< to the scene
     bool is_part = false;         ///< placed in the space of a CSG, not of the scene
     bool clips = false;           ///< only its inside matters
+    NameId name = kNoName;        ///< of the innermost object around it that has one
     int depth = 0;                ///< CSG and clipping around it
     Index light_group = kNoIndex; ///< whose lights shine on it
     bool is_copy = false;         ///< it is part of an object that has a name
@@ -155,6 +158,7 @@ private:
   const ParseLimits& limits_;
   Diagnostics& diagnostics_;
   TokenStream& tokens_;
+  const Origins& origins_;
   Scene scene_;
   std::shared_ptr<const CameraDefinition> camera_;
   std::optional<double> version_;

@@ -23,7 +23,8 @@ class Parser;
 struct Session {
   explicit Session(const ParseOptions& parse_options)
       : options(parse_options), sources(parse_options), diagnostics(sources, names, input, parse_options),
-        tokens(*this), builder(parse_options.limits, diagnostics, tokens) {}
+        tokens(*this), origins(parse_options, names, sources),
+        builder(parse_options.limits, diagnostics, tokens, origins) {}
 
   const ParseOptions& options;
   MemoryCount memory{options.limits}; ///< before all that it counts
@@ -33,6 +34,7 @@ struct Session {
   Diagnostics diagnostics;
   Symbols symbols;
   TokenStream tokens;
+  Origins origins;
   SceneBuilder builder;
   FunctionMachine functions;
   std::vector<std::uint32_t> random_streams; ///< what seed() handed out

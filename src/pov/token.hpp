@@ -11,6 +11,7 @@ namespace celltrace::pov {
 
 /// The number of an interned text: see Names.
 using NameId = std::uint32_t;
+constexpr NameId kNoName = ~NameId{0};
 
 struct Token {
   enum class Kind : std::uint8_t {
