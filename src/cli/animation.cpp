@@ -125,7 +125,7 @@ private:
     line_.set_job("frame " + std::to_string(frame.number) + ", ");
     report_.begin_rendering(request_.options);
     const PictureOutcome result = render_picture(
-        *frame.renderer, request_, file, kept,
+        *frame.renderer, request_, file, kept, RowCosts(height_of(request_.options)),
         [&](double fraction) {
           report_.update(fraction);
           line_.update((static_cast<double>(done_) + fraction) / static_cast<double>(frames_.size()));

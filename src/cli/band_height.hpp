@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/render.hpp"
+#include "cli/row_costs.hpp"
 
 namespace celltrace::cli {
 
@@ -9,19 +10,21 @@ namespace celltrace::cli {
 /// models other than `shared` get all rows at once, unless memory has no room for them.
 class BandHeight {
 public:
-  explicit BandHeight(const RenderOptions& options);
+  BandHeight(const RenderOptions& options, const RowCosts& costs);
 
-  /// Returns how many of `rows` rows that follow each other come next, in a picture of `height` rows.
-  int of(int rows, int height) const;
-  /// Takes note of how long the last band took.
-  void learn(int rows, double seconds) { seconds_a_row_ = seconds / rows; }
+  /// Returns how many of the `rows` rows that follow each other from `top` on come next.
+  int of(int top, int rows) const;
+  /// Takes note of how long a band took.
+  void learn(int top, int rows, double seconds) { seconds_ = seconds / costs_.of(top, top + rows); }
 
 private:
-  int wanted(int rows, int height) const;
+  int wanted(int top, int rows) const;
 
   bool in_bands_;
-  int most_;                  ///< rows that there is room for; 0: all
-  double seconds_a_row_ = -1; ///< of the last band; below 0: not known
+  bool loses_bands_; ///< of one that is broken off nothing is kept
+  int most_;         ///< rows that there is room for; 0: all
+  RowCosts costs_;
+  double seconds_ = -1; ///< that all rows would take, by the last band; below 0: not known
 };
 
 } // namespace celltrace::cli

@@ -85,6 +85,13 @@ int PartialPicture::missing_rows() const {
   return missing;
 }
 
+double PartialPicture::finished_share(const RowCosts& costs) const {
+  double share = 0;
+  for (std::size_t block = 0; block < finished_.size(); ++block)
+    if (finished_[block]) share += costs.of(block_rows(block).top, block_rows(block).bottom);
+  return share;
+}
+
 PartialPicture::Rows PartialPicture::block_rows(std::size_t block) const {
   const int top = static_cast<int>(block) * kStep;
   return {top, std::min(top + kStep, height())};
@@ -137,20 +144,20 @@ void PartialPicture::take(RowsFile& file) {
 }
 
 RenderResult render_remaining(Renderer& renderer, const RenderOptions& options, PartialPicture& picture,
-                              const Progress& progress, const std::function<void()>& save) {
+                              const RowCosts& costs, const Progress& progress,
+                              const std::function<void()>& save) {
   RenderResult sum;
-  BandHeight bands(options);
-  const int height = picture.height();
-  int done = height - picture.missing_rows();
+  BandHeight bands(options, costs);
   bool first = true;
   while (!picture.is_complete() && sum.complete) {
     PartialPicture::Rows rows = picture.next();
-    rows.bottom = rows.top + bands.of(rows.bottom - rows.top, height);
+    rows.bottom = rows.top + bands.of(rows.top, rows.bottom - rows.top);
     const int count = rows.bottom - rows.top;
-    const RenderResult result = renderer.render_rows(
-        rows.top, rows.bottom, [&](double fraction) { return progress((done + fraction * count) / height); });
-    done += count;
-    bands.learn(count, result.statistics.render_seconds);
+    const double done = picture.finished_share(costs) - costs.above(rows.top);
+    const RenderResult result = renderer.render_rows(rows.top, rows.bottom, [&](double fraction) {
+      return progress(std::clamp(done + costs.above(rows.top + fraction * count), 0.0, 1.0));
+    });
+    bands.learn(rows.top, count, result.statistics.render_seconds);
     // What is missing of blocks is black.
     picture.take(result, rows, !options.antialiasing && !options.blocks);
     sum.complete = result.complete;

@@ -4,6 +4,7 @@
 #include "celltrace/image.hpp"
 #include "celltrace/render.hpp"
 #include "cli/picture_rows.hpp"
+#include "cli/row_costs.hpp"
 #include "cli/rows_file.hpp"
 
 #include <functional>
@@ -27,6 +28,8 @@ public:
   bool is_complete() const;
   bool is_empty() const; ///< not a single block is finished
   int missing_rows() const;
+  /// The share of all that rows take that the finished ones have taken.
+  double finished_share(const RowCosts& costs) const;
 
   /// The first rows that are not finished, as many as follow each other.
   struct Rows {
@@ -53,9 +56,11 @@ private:
 };
 
 /// What remains of a picture is rendered: at once, or on threads of this computer in bands of rows that take
-/// some seconds each. After each `save` is called. The statistics are of all that was rendered now. Where
-/// `progress` breaks it off, the result is not complete; image and colours stay empty.
+/// some seconds each. After each `save` is called. The statistics are of all that was rendered now.
+/// `progress` hears of shares of the time by `costs`. Where it breaks off, the result is not complete; image
+/// and colours stay empty.
 RenderResult render_remaining(Renderer& renderer, const RenderOptions& options, PartialPicture& picture,
-                              const Progress& progress, const std::function<void()>& save);
+                              const RowCosts& costs, const Progress& progress,
+                              const std::function<void()>& save);
 
 } // namespace celltrace::cli

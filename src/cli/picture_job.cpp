@@ -70,12 +70,12 @@ void save_picture(const RenderRequest& request, const std::filesystem::path& pat
 namespace {
 
 PictureOutcome render_whole(Renderer& renderer, const RenderRequest& request,
-                            const std::filesystem::path& path, RowsFile& kept, const Progress& progress,
-                            const std::function<void(const Image&)>& use_image) {
+                            const std::filesystem::path& path, RowsFile& kept, const RowCosts& costs,
+                            const Progress& progress, const std::function<void(const Image&)>& use_image) {
   PartialPicture picture(request.options);
   picture.take(kept);
   RowKeeper keeper(kept);
-  RenderResult result = render_remaining(renderer, request.options, picture, progress,
+  RenderResult result = render_remaining(renderer, request.options, picture, costs, progress,
                                          [&] { keeper.save(picture, interrupted()); });
   if (use_image && result.complete) use_image(picture.image());
   if (!path.empty()) save_picture(request, path, picture, result.statistics);
@@ -85,10 +85,10 @@ PictureOutcome render_whole(Renderer& renderer, const RenderRequest& request,
 } // namespace
 
 PictureOutcome render_picture(Renderer& renderer, const RenderRequest& request,
-                              const std::filesystem::path& path, RowsFile& kept, const Progress& progress,
-                              const std::function<void(const Image&)>& use_image) {
-  if (rows_at_once(request) != 0) return render_poster(renderer, request, path, kept, progress);
-  return render_whole(renderer, request, path, kept, progress, use_image);
+                              const std::filesystem::path& path, RowsFile& kept, const RowCosts& costs,
+                              const Progress& progress, const std::function<void(const Image&)>& use_image) {
+  if (rows_at_once(request) != 0) return render_poster(renderer, request, path, kept, costs, progress);
+  return render_whole(renderer, request, path, kept, costs, progress, use_image);
 }
 
 void print_dropped_rays(const RenderStatistics& statistics) {

@@ -45,11 +45,12 @@ struct PictureOutcome {
 };
 
 /// Renders the scene that is prepared to `path`, which may be empty, but for the rows that `kept` has, and
-/// adds others to these. `renderer` has RenderOptions::rows_at_once as rows_at_once() says. If `progress`
-/// breaks it off, the rest of the picture is blank. `use_image` is for pictures that are complete and in
-/// memory whole.
+/// adds others to these, `costs` saying how far it is. `renderer` has RenderOptions::rows_at_once as
+/// rows_at_once() says. If `progress` breaks it off, the rest of the picture is blank. `use_image` is for
+/// pictures that are complete and in memory whole.
 PictureOutcome render_picture(Renderer& renderer, const RenderRequest& request,
-                              const std::filesystem::path& path, RowsFile& kept, const Progress& progress,
+                              const std::filesystem::path& path, RowsFile& kept, const RowCosts& costs,
+                              const Progress& progress,
                               const std::function<void(const Image&)>& use_image = {});
 
 /// To a file or, where `path` is kStandardOutput, to stdout. Of a picture that becomes blocks only now,

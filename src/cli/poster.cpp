@@ -52,15 +52,16 @@ PictureRows make_rows(const RenderOptions& options, int count) {
 class PosterRun {
 public:
   PosterRun(Renderer& renderer, const RenderRequest& request, const std::filesystem::path& path,
-            RowsFile& kept, const Progress& progress)
+            RowsFile& kept, const RowCosts& costs, const Progress& progress)
       : renderer_(renderer), options_(request.options), region_(region_of(options_)),
         width_(region_.right - region_.left), height_(region_.bottom - region_.top), kept_(kept),
-        keeps_all_(request.resume), keeper_(kept), progress_(progress), output_(request, path) {
+        keeps_all_(request.resume), keeper_(kept), costs_(costs), progress_(progress),
+        output_(request, path) {
     options_.rows_at_once = rows_at_once(request);
   }
 
   PictureOutcome run() {
-    BandHeight bands(options_);
+    BandHeight bands(options_, costs_);
     for (int top = 0; top < height_;) {
       if (const std::optional<RowsFile::Rows> part = kept_.next(top);
           part && part->top == top && take_kept(*part)) {
@@ -74,8 +75,8 @@ public:
         top += gap;
         continue;
       }
-      const int rows = bands.of(gap, height_);
-      bands.learn(rows, render(top, top + rows));
+      const int rows = bands.of(top, gap);
+      bands.learn(top, rows, render(top, top + rows));
       top += rows;
     }
     output_.finish();
@@ -98,8 +99,9 @@ private:
 
   /// Returns how many seconds it took.
   double render(int top, int bottom) {
-    RenderResult result = renderer_.render_rows(
-        top, bottom, [&](double fraction) { return progress_((top + fraction * (bottom - top)) / height_); });
+    RenderResult result = renderer_.render_rows(top, bottom, [&](double fraction) {
+      return progress_(costs_.above(top + fraction * (bottom - top)));
+    });
     const double seconds = result.statistics.render_seconds;
     if (has_statistics_)
       add_rows(result_.statistics, result.statistics);
@@ -145,6 +147,7 @@ private:
   RowsFile& kept_;
   bool keeps_all_; ///< however fast rows were rendered
   RowKeeper keeper_;
+  const RowCosts& costs_;
   const Progress& progress_;
   RowOutput output_;
   PictureOutcome result_;
@@ -179,8 +182,9 @@ int rows_at_once(const RenderRequest& request) {
 }
 
 PictureOutcome render_poster(Renderer& renderer, const RenderRequest& request,
-                             const std::filesystem::path& path, RowsFile& kept, const Progress& progress) {
-  return PosterRun(renderer, request, path, kept, progress).run();
+                             const std::filesystem::path& path, RowsFile& kept, const RowCosts& costs,
+                             const Progress& progress) {
+  return PosterRun(renderer, request, path, kept, costs, progress).run();
 }
 
 } // namespace celltrace::cli

@@ -17,6 +17,7 @@ int rows_at_once(const RenderRequest& request);
 
 /// Does what render_picture() does, band by band.
 PictureOutcome render_poster(Renderer& renderer, const RenderRequest& request,
-                             const std::filesystem::path& path, RowsFile& kept, const Progress& progress);
+                             const std::filesystem::path& path, RowsFile& kept, const RowCosts& costs,
+                             const Progress& progress);
 
 } // namespace celltrace::cli

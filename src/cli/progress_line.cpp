@@ -1,5 +1,7 @@
 #include "cli/progress_line.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 #include <utility>
@@ -19,12 +21,29 @@ std::string minutes(double seconds) {
 
 } // namespace
 
-std::string progress_text(double fraction, std::chrono::duration<double> elapsed) {
-  const double gone = elapsed.count();
+void TimeToGo::learn(double fraction, double seconds) {
+  if (!first_) first_ = fraction_ = fraction;
+  if (fraction <= fraction_) return;
+  fraction_ = fraction;
+  constexpr double kLeastSeconds = 1, kLeastDone = 0.01, kPart = 0.1;
+  if (seconds < kLeastSeconds || fraction - *first_ < kLeastDone) return;
+  const double end = seconds * (1 - *first_) / (fraction - *first_);
+  end_ = end_ ? *end_ + kPart * (end - *end_) : end;
+}
+
+std::optional<double> TimeToGo::at(double seconds) const {
+  if (!end_) return std::nullopt;
+  if (fraction_ >= 1) return 0;
+  // It is not over yet, whatever was guessed.
+  const double even = seconds * (1 - fraction_) / (fraction_ - *first_);
+  return std::max(*end_ - seconds, even / 2);
+}
+
+std::string progress_text(double fraction, double seconds, std::optional<double> to_go) {
   char percent[16];
   std::snprintf(percent, sizeof percent, "%3.0f %%  ", 100 * fraction);
-  std::string text = percent + minutes(gone);
-  if (gone >= 1 && fraction >= 0.01) text += ", " + minutes(gone * (1 - fraction) / fraction) + " to go";
+  std::string text = percent + minutes(seconds);
+  if (to_go) text += ", " + minutes(std::ceil(*to_go)) + " to go";
   return text;
 }
 
@@ -44,10 +63,12 @@ void ProgressLine::wipe() {
 void ProgressLine::update(double fraction) {
   if (!visible_) return;
   const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  to_go_.learn(fraction, seconds);
   if (now < next_) return;
   next_ = now + std::chrono::milliseconds(100);
   drawn_ = true;
-  out_ << "\r\x1b[K" << job_ << progress_text(fraction, now - start_) << std::flush;
+  out_ << "\r\x1b[K" << job_ << progress_text(fraction, seconds, to_go_.at(seconds)) << std::flush;
 }
 
 bool stderr_is_terminal() {

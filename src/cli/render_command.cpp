@@ -69,17 +69,21 @@ std::optional<PictureOutcome> render_with_progress(const ReadScene& read, const 
     if (options.rows_at_once != 0) return std::nullopt;
     return save_kept(renderer, request, *read.scene, kept);
   }
+  RowCosts costs(height_of(options));
+  std::optional<RenderStatistics> preparation;
+  if (visible)
+    costs = measured_costs(
+        renderer, options, [](double) { return !interrupted(); }, preparation);
   ProgressLine line(std::cerr, visible);
   report.begin_rendering(options);
-  return render_picture(renderer, request, request.output, kept, [&](double fraction) {
-    line.update(fraction);
-    report.update(fraction);
-    return !interrupted();
-  });
-}
-
-int height_of(const RenderOptions& options) {
-  return options.region ? options.region->bottom - options.region->top : options.height;
+  PictureOutcome outcome =
+      render_picture(renderer, request, request.output, kept, costs, [&](double fraction) {
+        line.update(fraction);
+        report.update(fraction);
+        return !interrupted();
+      });
+  if (preparation) take_preparation(outcome.statistics, *preparation);
+  return outcome;
 }
 
 int interrupted_early() {

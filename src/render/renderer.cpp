@@ -341,14 +341,16 @@ private:
     RenderResult result;
     std::vector<ReportRecord> reports(machine_->spe_count());
     if (options_.antialiasing) {
-      // Half of the progress is the grid's.
+      const double grid_share = grid_share_;
       frame_.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
-      result.complete = render_pass(*plan_, part_of(progress, 0, 0.5), reports);
+      result.complete = render_pass(*plan_, part_of(progress, 0, grid_share), reports);
+      const double grid_seconds = render.seconds();
       picture_.keep_colours(rows);
       if (result.complete) {
         traced_ = grid_rows_of(rows);
         frame_.purpose = static_cast<std::uint32_t>(FramePurpose::samples);
-        result.complete = render_pass(*sample_plan_, part_of(progress, 0.5, 1), reports);
+        result.complete = render_pass(*sample_plan_, part_of(progress, grid_share, 1), reports);
+        if (result.complete) grid_share_ = grid_seconds / render.seconds();
       }
     } else {
       result.complete = render_pass(*plan_, progress, reports);
@@ -502,6 +504,7 @@ private:
   std::unique_ptr<AcceleratorBuilder> builder_;
   std::unique_ptr<StageTeam> stages_;
   ReportPace pace_, sample_pace_; ///< of passes by the plans
+  double grid_share_ = 0.5;       ///< of the time of the last picture with antialiasing
   std::vector<WorkRecord> work_;  ///< of the last pass
   std::size_t known_diagnostics_ = 0;
   bool is_last_frame_ = false;
