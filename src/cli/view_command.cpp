@@ -1,11 +1,17 @@
 #include "cli/view_command.hpp"
 
 #include "cli/scene_reading.hpp"
+#include "cli/unreadable_file.hpp"
 #include "viewer/viewer.hpp"
 
 namespace celltrace::cli {
 
 int run_view(const ViewRequest& request) {
+  // A scene that is wrong may be mended while its window is open; of a name that is wrong nothing comes.
+  std::error_code none;
+  const std::filesystem::path& scene = request.render.scene;
+  if (!std::filesystem::exists(scene, none) || std::filesystem::is_directory(scene, none))
+    throw unreadable(scene);
   viewer::ViewOptions options;
   options.scene = request.render.scene;
   options.parse = parse_options(request.render, 0);
@@ -13,8 +19,7 @@ int run_view(const ViewRequest& request) {
   options.font = request.font;
   options.state = request.state;
   options.keys = request.keys;
-  viewer::view(options);
-  return 0;
+  return viewer::view(options) ? 0 : 1;
 }
 
 } // namespace celltrace::cli

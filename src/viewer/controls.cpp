@@ -4,13 +4,13 @@ namespace celltrace::viewer {
 
 const std::vector<Control>& controls() {
   static const std::vector<Control> all = {
-      {Action::left, {SDLK_LEFT, SDLK_a}, "Left, A", "move to the left; radial: around the scene"},
+      {Action::left, {SDLK_LEFT, SDLK_a}, "Left, A", "move to the left; radial: around the middle"},
       {Action::right, {SDLK_RIGHT, SDLK_d}, "Right, D", "move to the right"},
-      {Action::forward, {SDLK_UP, SDLK_w}, "Up, W", "move forward; radial: over the scene"},
+      {Action::forward, {SDLK_UP, SDLK_w}, "Up, W", "move forward; radial: over the middle"},
       {Action::back, {SDLK_DOWN, SDLK_s}, "Down, S", "move back"},
-      {Action::rise, {SDLK_PAGEUP, SDLK_r}, "Page up, R", "rise; radial: away from the scene"},
-      {Action::sink, {SDLK_PAGEDOWN, SDLK_v}, "Page down, V", "sink; radial: towards the scene"},
-      {Action::switch_mode, {SDLK_m, 0}, "M", "move planar or radial"},
+      {Action::rise, {SDLK_PAGEUP, SDLK_r}, "Page up, R", "rise; radial: away from the middle"},
+      {Action::sink, {SDLK_PAGEDOWN, SDLK_v}, "Page down, V", "sink; radial: towards the middle"},
+      {Action::switch_mode, {SDLK_m, 0}, "M", "keys move in the plane, or around the middle"},
       {Action::zoom_in, {SDLK_PLUS, SDLK_KP_PLUS}, "+, wheel", "zoom in"},
       {Action::zoom_out, {SDLK_MINUS, SDLK_KP_MINUS}, "-, wheel", "zoom out"},
       {Action::reset, {SDLK_HOME, SDLK_0}, "Home, 0", "back to where the view began"},
@@ -21,7 +21,8 @@ const std::vector<Control>& controls() {
       {Action::next_backend, {SDLK_b, 0}, "B", "next backend"},
       {Action::next_model, {SDLK_n, 0}, "N", "next programming model"},
       {Action::antialiasing, {SDLK_x, 0}, "X", "antialiasing at rest"},
-      {Action::screenshot, {SDLK_p, SDLK_F12}, "P, F12", "save a screenshot"},
+      {Action::screenshot, {SDLK_p, SDLK_F12}, "P, F12", "save the picture"},
+      {Action::copy_camera, {SDLK_t, 0}, "T", "copy the camera as POV-Ray's text"},
       {Action::pause, {SDLK_SPACE, 0}, "Space", "pause"},
       {Action::help, {SDLK_h, SDLK_F1}, "H, F1", "this help"},
       {Action::full_screen, {SDLK_f, SDLK_F11}, "F, F11", "full screen"},

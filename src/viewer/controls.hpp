@@ -27,6 +27,7 @@ enum class Action : std::uint8_t {
   next_model,
   antialiasing,
   screenshot,
+  copy_camera,
   pause,
   help,
   full_screen,

@@ -70,7 +70,15 @@ std::optional<Frame> FrameSource::take() {
 void FrameSource::pick(double x, double y) {
   {
     const std::lock_guard lock(mutex_);
-    place_ = {x, y};
+    place_ = {x, y, false};
+  }
+  changed_.notify_one();
+}
+
+void FrameSource::ask_middle() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!place_) place_ = {0.5, 0.5, true};
   }
   changed_.notify_one();
 }
@@ -119,6 +127,9 @@ void FrameSource::run() {
 
 Picked FrameSource::look_at(const Place& place) {
   Picked picked;
+  picked.scene = scene_;
+  picked.is_middle = place.is_middle;
+  picked.number = number_;
   try {
     constexpr int kFine = 4096; // pixels a side, that places are counted in
     const auto ray = camera_ray(camera_, kFine, kFine, place.x * kFine, place.y * kFine);
@@ -139,6 +150,7 @@ void FrameSource::show(const Wanted& wanted) {
   take_machine(wanted);
   session_->set_camera(wanted.camera);
   camera_ = wanted.camera;
+  number_ = wanted.number;
   const double pixels = pixels_of(wanted.options);
   int scale = pace_.first_scale(pixels);
   if (!render(wanted, scale, true, false)) return;

@@ -48,10 +48,13 @@ struct Frame {
 
 /// What a point of the picture shows.
 struct Picked {
-  std::optional<Index> object; ///< its index in Scene::objects; nothing where there is none
-  Vec3 point{0, 0, 0};         ///< on it
-  double distance = 0;         ///< from where the camera's ray starts
-  std::string error;           ///< what went wrong instead
+  std::shared_ptr<const Scene> scene; ///< that was asked
+  bool is_middle = false;             ///< ask_middle() asked
+  std::uint64_t number = 0;           ///< Wanted::number of the picture
+  std::optional<Index> object;        ///< its index in Scene::objects; nothing where there is none
+  Vec3 point{0, 0, 0};                ///< on it
+  double distance = 0;                ///< from where the camera's ray starts
+  std::string error;                  ///< what went wrong instead
 };
 
 /// Thread safety: for one thread, which is not the one that renders.
@@ -72,6 +75,8 @@ public:
   /// Asks what the last picture shows `x` of its width from the left and `y` of its height from above. Does
   /// not wait: the answer comes when nothing is rendered.
   void pick(double x, double y);
+  /// Asks the same about the middle of the picture.
+  void ask_middle();
   std::optional<Picked> take_picked();
 
 private:
@@ -79,6 +84,7 @@ private:
 
   struct Place {
     double x, y;
+    bool is_middle;
   };
 
   void run();
@@ -105,6 +111,7 @@ private:
   std::uint64_t machine_ = 0;
   std::shared_ptr<const Scene> scene_;
   Camera camera_; ///< of the last picture
+  std::uint64_t number_ = 0;
   Pace pace_;
   /// A picture that grows while it is rendered; none if that is quick.
   std::optional<Frame> growing_;

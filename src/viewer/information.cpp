@@ -44,8 +44,8 @@ std::vector<std::string> information_on(const Frame& frame, const Situation& sit
       s.spu + ", " + name_of(s.model) + text(", %zu SPEs", s.spes.size()),
       text("%d x %d%s%s", frame.image.width, frame.image.height, frame.is_antialiased ? ", antialiased" : "",
            frame.is_complete ? "" : ", growing"),
-      text("%.1f frames/s, %.1f ms, %.2f million rays/s", situation.frames_per_second, s.render_seconds * 1e3,
-           rays / 1e6),
+      (situation.is_still ? "still" : text("%.1f frames/s", situation.frames_per_second)) +
+          text(", %.1f ms, %.2f million rays/s", s.render_seconds * 1e3, rays / 1e6),
       text("%llu objects, BVH %s", static_cast<unsigned long long>(s.objects), name_of(s.preparation)),
       text("imbalance %.1f %%, %llu exchanges", s.imbalance * 100,
            static_cast<unsigned long long>(s.balance_exchanges))};
@@ -61,7 +61,7 @@ std::vector<std::string> information_on(const Frame& frame, const Situation& sit
   if (s.render_cycles != 0)
     lines.push_back(text("%.2f million virtual cycles", static_cast<double>(s.render_cycles) / 1e6));
   if (!s.diagnostics.empty()) lines.push_back(text("%zu rules broken", s.diagnostics.size()));
-  lines.push_back(situation.mode + ", view: " + situation.view + "; H for help");
+  lines.push_back("keys: " + situation.mode + ", view: " + situation.view + "; H for help");
   return lines;
 }
 
@@ -109,8 +109,10 @@ std::vector<std::pair<std::string, std::string>> help_table() {
   std::vector<std::pair<std::string, std::string>> table;
   for (const Control& control : controls())
     table.emplace_back(control.name, control.help);
-  table.emplace_back("Left button", "turn; radial: turn the scene");
-  table.emplace_back("Right button", "move");
+  table.emplace_back("Click", "say which object is there");
+  table.emplace_back("Left drag", "go around the middle");
+  table.emplace_back("Right drag", "look around; also Shift and left drag");
+  table.emplace_back("Middle drag", "move");
   return table;
 }
 

@@ -14,6 +14,7 @@ struct Situation {
   std::string scene;
   std::string mode, view;
   double frames_per_second = 0;
+  bool is_still = false; ///< nothing has been asked for since the frame is as good as it gets
   bool is_paused = false;
 };
 

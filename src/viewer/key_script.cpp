@@ -20,6 +20,10 @@ KeyScript::Step KeyScript::step_of(const std::string& word) {
     step.kind = Kind::drag;
     return step;
   }
+  if (std::sscanf(word.c_str(), "look:%d,%d%n", &step.x, &step.y, &end) == 2 && is_all()) {
+    step.kind = Kind::look;
+    return step;
+  }
   if (std::sscanf(word.c_str(), "click:%d,%d%n", &step.x, &step.y, &end) == 2 && is_all()) {
     step.kind = Kind::click;
     return step;
@@ -36,7 +40,7 @@ KeyScript::Step KeyScript::step_of(const std::string& word) {
   step.key.keysym.sym = sdl().SDL_GetKeyFromName(word.c_str());
   if (step.key.keysym.sym == SDLK_UNKNOWN)
     throw InputError("--keys: '" + word +
-                     "' is neither a key nor WIDTHxHEIGHT, drag:X,Y, click:X,Y or wheel:N");
+                     "' is neither a key nor WIDTHxHEIGHT, drag:X,Y, look:X,Y, click:X,Y or wheel:N");
   return step;
 }
 

@@ -11,7 +11,7 @@ namespace celltrace::viewer {
 
 class KeyScript {
 public:
-  enum class Kind { key, size, drag, wheel, click };
+  enum class Kind { key, size, drag, look, wheel, click };
   struct Step {
     Kind kind = Kind::key;
     SDL_KeyboardEvent key{}; ///< of a key

@@ -33,18 +33,16 @@ const View kViews[] = {{"front", {0, 0, 1}, {0, 1, 0}},  {"right", {-1, 0, 0}, {
 
 Navigator::Navigator(const Camera& camera, const Vec3& low, const Vec3& high)
     : camera_(camera), own_(camera), low_(low), high_(high) {
-  double size = glm::length(high - low);
-  if (!(size > 0) || !std::isfinite(size)) size = std::max(glm::length(camera.location), 1.0);
-  step_ = kStep * size;
+  size_ = glm::length(high - low);
+  if (!(size_ > 0) || !std::isfinite(size_)) size_ = std::max(glm::length(camera.location), 1.0);
   names_.push_back("the scene's own");
   for (const View& view : kViews)
     names_.push_back(view.name);
-  pivot_ = point_looked_at();
+  forget_pivot();
 }
 
 void Navigator::set_mode(Mode mode) {
   mode_ = mode;
-  pivot_ = point_looked_at();
 }
 
 Vec3 Navigator::up() const {
@@ -55,7 +53,26 @@ Vec3 Navigator::up() const {
 Vec3 Navigator::point_looked_at() const {
   const Vec3 axis = unit(camera_.direction);
   const double along = glm::dot(0.5 * (low_ + high_) - camera_.location, axis);
-  return camera_.location + axis * std::max(along, 5 * step_);
+  return camera_.location + axis * std::max(along, 5 * kStep * size_);
+}
+
+void Navigator::forget_pivot() {
+  knows_pivot_ = false;
+  pivot_ = point_looked_at();
+  step_ = kStep * std::min(size_, 2 * glm::length(pivot_ - camera_.location));
+}
+
+/// The point in the middle is another one, but steps stay what they are until somebody says how far it is:
+/// going back leads back.
+void Navigator::keep_looking() {
+  knows_pivot_ = false;
+  pivot_ = point_looked_at();
+}
+
+void Navigator::set_pivot(double distance) {
+  pivot_ = camera_.location + unit(camera_.direction) * distance;
+  knows_pivot_ = true;
+  step_ = kStep * std::min(size_, 2 * distance);
 }
 
 void Navigator::rotate(const Vec3& axis, double degrees, const Vec3& around) {
@@ -82,16 +99,24 @@ void Navigator::orbit(double right, double up) {
 }
 
 void Navigator::go(double right, double forward) {
-  if (mode_ == Mode::radial) return orbit(right * kDegreesPerStep, forward * kDegreesPerStep);
+  if (mode_ == Mode::radial)
+    orbit(right * kDegreesPerStep, forward * kDegreesPerStep);
+  else
+    walk(right, forward);
+}
+
+void Navigator::walk(double right, double forward) {
   Vec3 ahead = camera_.direction;
   ahead.y = 0;
   if (glm::length(ahead) < 1e-6 * glm::length(camera_.direction)) ahead = {camera_.up.x, 0, camera_.up.z};
   camera_.location += step_ * (right * unit(camera_.right) + forward * unit(ahead));
+  keep_looking();
 }
 
 void Navigator::rise(double steps) {
   if (mode_ == Mode::planar) {
     camera_.location.y += step_ * steps;
+    keep_looking();
     return;
   }
   const Vec3 away = camera_.location - pivot_;
@@ -100,9 +125,9 @@ void Navigator::rise(double steps) {
 }
 
 void Navigator::turn(double right, double up) {
-  if (mode_ == Mode::radial) return orbit(-right, -up);
   rotate({0, 1, 0}, right, camera_.location);
   rotate(camera_.right, -up, camera_.location);
+  keep_looking();
 }
 
 void Navigator::zoom(double factor) {
@@ -120,6 +145,7 @@ void Navigator::zoom(double factor) {
     return;
   default:
     camera_.location += unit(camera_.direction) * (step_ * 5 * std::log(factor));
+    keep_looking();
   }
 }
 
@@ -141,7 +167,7 @@ Camera Navigator::camera_towards(const Vec3& direction, const Vec3& up) const {
 void Navigator::look_from(std::size_t view) {
   view_ = view % names_.size();
   camera_ = view_ == 0 ? own_ : camera_towards(kViews[view_ - 1].direction, kViews[view_ - 1].up);
-  pivot_ = point_looked_at();
+  forget_pivot();
 }
 
 } // namespace celltrace::viewer

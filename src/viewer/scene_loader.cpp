@@ -55,6 +55,7 @@ void SceneLoader::read() {
   ParseOptions options = options_;
   options.message = [&](std::string_view text) { loaded.warnings += text; };
   options.progress = [this](std::uint64_t, std::uint64_t) { return !quits_; };
+  options.places_object = [&](Index object, const ObjectOrigin& origin) { loaded.names.add(object, origin); };
   options.reads_file = [&](const std::filesystem::path& path) { files.push_back(state_of(path)); };
   try {
     loaded.scene = std::make_shared<const Scene>(parse_file(scene_, options));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/pov.hpp"
+#include "viewer/object_names.hpp"
 
 #include <atomic>
 #include <filesystem>
@@ -18,6 +19,7 @@ namespace celltrace::viewer {
 /// What has come of reading it.
 struct Loaded {
   std::shared_ptr<const Scene> scene; ///< null: it could not be read
+  ObjectNames names;                  ///< of its objects
   std::string error;                  ///< then
   std::string warnings;
 };

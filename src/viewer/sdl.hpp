@@ -18,6 +18,7 @@ namespace celltrace::viewer {
   function(SDL_GetCurrentVideoDriver);                                                                       \
   function(SDL_GetError);                                                                                    \
   function(SDL_GetKeyFromName);                                                                              \
+  function(SDL_GetModState);                                                                                 \
   function(SDL_GetWindowSize);                                                                               \
   function(SDL_GetWindowSurface);                                                                            \
   function(SDL_InitSubSystem);                                                                               \
@@ -27,6 +28,7 @@ namespace celltrace::viewer {
   function(SDL_Quit);                                                                                        \
   function(SDL_QuitSubSystem);                                                                               \
   function(SDL_RegisterEvents);                                                                              \
+  function(SDL_SetClipboardText);                                                                            \
   function(SDL_SetMainReady);                                                                                \
   function(SDL_SetSurfaceBlendMode);                                                                         \
   function(SDL_SetWindowFullscreen);                                                                         \

@@ -40,10 +40,13 @@ void StateLog::write(const State& state) {
                                  {"costs", state.costs},
                                  {"patches", frame.work.size()},
                                  {"help", state.help},
+                                 {"help_pages", state.help_pages},
+                                 {"hint", state.hint},
                                  {"full_screen", state.full_screen},
                                  {"antialiasing", state.antialiasing},
                                  {"paused", state.situation.is_paused},
                                  {"frames_per_second", state.situation.frames_per_second},
+                                 {"still", state.situation.is_still},
                                  {"render_seconds", frame.statistics.render_seconds},
                                  {"virtual_cycles", frame.statistics.render_cycles},
                                  {"latency", state.latency},
@@ -58,7 +61,16 @@ void StateLog::write(const State& state) {
   if (state.picked) {
     json["picked"] = {
         {"object", nullptr}, {"distance", state.picked->distance}, {"point", json_of(state.picked->point)}};
-    if (state.picked->object) json["picked"]["object"] = *state.picked->object;
+    if (const auto& object = state.picked->object) {
+      json["picked"]["object"] = *object;
+      if (state.names != nullptr && state.names->knows(*object)) {
+        const ObjectNames::Place written = state.names->written(*object);
+        json["picked"]["kind"] = state.names->kind(*object);
+        json["picked"]["name"] = state.names->name(*object);
+        json["picked"]["file"] = written.file;
+        json["picked"]["line"] = written.line;
+      }
+    }
   }
   out_ << json.dump() << std::endl;
 }

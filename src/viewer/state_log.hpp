@@ -2,6 +2,7 @@
 #pragma once
 
 #include "viewer/information.hpp"
+#include "viewer/object_names.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -23,6 +24,9 @@ struct State {
   double seconds = 0;        ///< since the start
   std::optional<Camera> camera;
   std::optional<Picked> picked;
+  const ObjectNames* names = nullptr; ///< of the objects that may have been picked
+  std::string hint;
+  std::size_t help_pages = 0;
 };
 
 class StateLog {

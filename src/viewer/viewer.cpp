@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/spe/machine.hpp"
+#include "viewer/camera_text.hpp"
 #include "viewer/controls.hpp"
 #include "viewer/frame_source.hpp"
 #include "viewer/information.hpp"
@@ -10,6 +11,7 @@
 #include "viewer/scene_loader.hpp"
 #include "viewer/sdl.hpp"
 #include "viewer/state_log.hpp"
+#include "viewer/text_layout.hpp"
 #include "viewer/window.hpp"
 
 #include <algorithm>
@@ -18,9 +20,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <set>
+
+#include <glm/geometric.hpp>
 
 namespace celltrace::viewer {
 
@@ -28,15 +33,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Steps a second of a key that is held down, after the one that it makes at once.
-constexpr double kStepsPerSecond = 15;
+/// Steps a second of a key that is held down, after the one that it makes at once: a fifth of the distance.
+constexpr double kStepsPerSecond = 5;
 constexpr std::chrono::milliseconds kHold(200);
 constexpr double kDegreesPerPixel = 0.2;
 constexpr double kZoomPerStep = 1.1;
 /// Pixels that the mouse may go while its button is down without turning the camera.
 constexpr int kClick = 2;
 constexpr std::chrono::milliseconds kBetweenLooks(250);
-constexpr std::chrono::seconds kMessage(3);
+constexpr std::chrono::seconds kMessage(3), kLongMessage(10), kHint(5);
+/// How long nothing is asked for before a picture is still.
+constexpr std::chrono::milliseconds kStill(500);
 
 double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
@@ -59,10 +66,12 @@ public:
         window_("celltrace - " + options.scene.filename().string(), options.render.width,
                 options.render.height, options.font),
         source_([event = wake_event_] { wake(event); }) {
+    hint("H: help, left drag: go around, keys: planar");
     redraw();
   }
 
-  void run() {
+  /// Returns whether there was ever a scene.
+  bool run() {
     while (!quits_) {
       SDL_Event event;
       if (sdl().SDL_WaitEventTimeout(&event, held_.empty() ? 50 : 5) != 0) {
@@ -70,15 +79,16 @@ public:
           handle(event);
         while (!quits_ && sdl().SDL_PollEvent(&event) != 0);
       }
-      if (quits_) return;
+      if (quits_) break;
       move_on();
       take_scene();
       take_frame();
       take_picked();
       look_at_files();
-      forget_message();
+      forget_messages();
       if (is_dirty_) redraw();
     }
+    return scene_ != nullptr;
   }
 
 private:
@@ -102,13 +112,15 @@ private:
       return;
     case SDL_MOUSEBUTTONDOWN:
       dragged_ = 0;
+      if (event.button.button == SDL_BUTTON_LEFT) ask_middle();
       return;
     case SDL_MOUSEBUTTONUP:
       if (event.button.button == SDL_BUTTON_LEFT && dragged_ <= kClick) pick(event.button.x, event.button.y);
       return;
     case SDL_MOUSEMOTION:
       dragged_ += std::abs(event.motion.xrel) + std::abs(event.motion.yrel);
-      return drag(event.motion.state, event.motion.xrel, event.motion.yrel);
+      return drag(event.motion.state, (sdl().SDL_GetModState() & KMOD_SHIFT) != 0, event.motion.xrel,
+                  event.motion.yrel);
     case SDL_MOUSEWHEEL:
       return zoom(event.wheel.y);
     case SDL_WINDOWEVENT:
@@ -139,9 +151,7 @@ private:
       quits_ = true;
       return;
     case Action::switch_mode:
-      if (navigator_)
-        navigator_->set_mode(navigator_->mode() == Navigator::Mode::planar ? Navigator::Mode::radial
-                                                                           : Navigator::Mode::planar);
+      switch_mode();
       break;
     case Action::reset:
       if (navigator_) navigator_->reset();
@@ -176,12 +186,15 @@ private:
     case Action::screenshot:
       save_screenshot();
       break;
+    case Action::copy_camera:
+      copy_camera();
+      break;
     case Action::pause:
       is_paused_ = !is_paused_;
       if (!is_paused_) return want();
       break;
     case Action::help:
-      shows_help_ = !shows_help_;
+      if (++help_page_ > help_pages().size()) help_page_ = 0;
       break;
     case Action::full_screen:
       is_full_screen_ = !is_full_screen_;
@@ -193,8 +206,22 @@ private:
     is_dirty_ = true;
   }
 
+  void switch_mode() {
+    if (!navigator_) return;
+    const bool is_radial = navigator_->mode() == Navigator::Mode::planar;
+    navigator_->set_mode(is_radial ? Navigator::Mode::radial : Navigator::Mode::planar);
+    hint(is_radial ? "keys: radial, around the middle" : "keys: planar");
+    if (is_radial) ask_middle();
+  }
+
+  /// What the picture shows in its middle is what the camera goes around, as soon as that is known.
+  void ask_middle() {
+    if (navigator_ && !navigator_->knows_pivot()) source_.ask_middle();
+  }
+
   void move(Action action, double steps) {
     if (!navigator_) return;
+    if (navigator_->mode() == Navigator::Mode::radial) ask_middle();
     switch (action) {
     case Action::left:
       return navigator_->go(-steps, 0);
@@ -231,12 +258,15 @@ private:
     if (moved) want();
   }
 
-  void drag(Uint32 buttons, int x, int y) {
+  void drag(Uint32 buttons, bool has_shift, int x, int y) {
     if (!navigator_ || (x == 0 && y == 0) || dragged_ <= kClick) return;
-    if ((buttons & SDL_BUTTON_LMASK) != 0)
+    const bool is_left = (buttons & SDL_BUTTON_LMASK) != 0;
+    if (is_left && !has_shift)
+      navigator_->orbit(-kDegreesPerPixel * x, kDegreesPerPixel * y);
+    else if (is_left || (buttons & SDL_BUTTON_RMASK) != 0)
       navigator_->turn(kDegreesPerPixel * x, -kDegreesPerPixel * y);
-    else if ((buttons & (SDL_BUTTON_RMASK | SDL_BUTTON_MMASK)) != 0)
-      navigator_->go(0.1 * x, -0.1 * y);
+    else if ((buttons & SDL_BUTTON_MMASK) != 0)
+      navigator_->walk(0.1 * x, -0.1 * y);
     else
       return;
     want();
@@ -266,8 +296,9 @@ private:
     case KeyScript::Kind::click:
       return pick(step.x, step.y);
     case KeyScript::Kind::drag:
+    case KeyScript::Kind::look:
       dragged_ = kClick + 1;
-      return drag(SDL_BUTTON_LMASK, step.x, step.y);
+      return drag(SDL_BUTTON_LMASK, step.kind == KeyScript::Kind::look, step.x, step.y);
     case KeyScript::Kind::wheel:
       return zoom(step.y);
     }
@@ -329,13 +360,18 @@ private:
     std::optional<Loaded> loaded = loader_.take();
     if (!loaded) return;
     is_dirty_ = true;
+    std::cerr << loaded->warnings << std::flush;
     if (!loaded->scene) {
+      if (!loaded->error.empty()) std::cerr << loaded->error << std::endl;
       say(loaded->error, true);
       return;
     }
     const bool is_first = scene_ == nullptr;
     error_.clear();
     scene_ = loaded->scene;
+    names_ = std::move(loaded->names);
+    if (scene_->lights.empty())
+      say("this scene has no light source: it is black but for what glows by itself", false, kLongMessage);
     if (!is_first) {
       // Whoever edits a scene wants to see the same part of it again, unless the camera is what was edited.
       has_new_camera_ = !same(scene_->camera, scene_camera_);
@@ -375,14 +411,19 @@ private:
   void take_picked() {
     const std::optional<Picked> picked = source_.take_picked();
     if (!picked) return;
+    if (picked->is_middle) {
+      if (navigator_ && picked->object && !navigator_->knows_pivot())
+        navigator_->set_pivot(glm::length(picked->point - navigator_->camera().location));
+      return;
+    }
     is_picking_ = false;
     picked_ = *picked;
     if (!picked->error.empty()) return say(picked->error, false);
     if (!picked->object) return say("nothing", false);
-    char text[160];
-    std::snprintf(text, sizeof text, "object %u, %.4g away, at <%.4g, %.4g, %.4g>", *picked->object,
-                  picked->distance, picked->point.x, picked->point.y, picked->point.z);
-    say(text, false);
+    char text[120];
+    std::snprintf(text, sizeof text, ", %.4g away, at <%.4g, %.4g, %.4g>", picked->distance, picked->point.x,
+                  picked->point.y, picked->point.z);
+    say((picked->scene == scene_ ? names_ : ObjectNames()).describe(*picked->object) + text, false);
   }
 
   void look_at_files() {
@@ -393,20 +434,32 @@ private:
 
   // --- what is seen ---
 
-  void say(const std::string& text, bool is_error) {
+  void say(const std::string& text, bool is_error, std::chrono::seconds long_ = kMessage) {
     if (is_error) {
       error_ = text;
     } else {
       message_ = text;
-      message_ends_ = Clock::now() + kMessage;
+      message_ends_ = Clock::now() + long_;
     }
     is_dirty_ = true;
   }
-  void forget_message() {
-    if (message_.empty() || Clock::now() < message_ends_) return;
-    message_.clear();
+  /// For some seconds at the top right.
+  void hint(const std::string& text) {
+    hint_ = text;
+    hint_ends_ = Clock::now() + kHint;
     is_dirty_ = true;
   }
+  void forget_messages() {
+    const auto forget = [&](std::string& text, Clock::time_point end) {
+      if (text.empty() || Clock::now() < end) return;
+      text.clear();
+      is_dirty_ = true;
+    };
+    forget(message_, message_ends_);
+    forget(hint_, hint_ends_);
+    if (is_still() != was_still_) is_dirty_ = true;
+  }
+  bool is_still() const { return is_final_ && Clock::now() - asked_ > kStill; }
 
   void save_screenshot() {
     const std::string stem = options_.scene.stem().string();
@@ -417,11 +470,27 @@ private:
       if (!std::filesystem::exists(screenshot_)) break;
     }
     try {
-      save_image(screenshot_, window_.screenshot());
+      save_image(screenshot_, window_.without_text(frame_.image, patches()));
       say("saved " + screenshot_, false);
     } catch (const std::exception& error) {
       say(error.what(), true);
     }
+  }
+
+  void copy_camera() {
+    if (!navigator_) return;
+    const std::string text = camera_text(fitted(navigator_->camera()), render_.width, render_.height);
+    std::cout << text << std::flush;
+    const bool is_copied = sdl().SDL_SetClipboardText(text.c_str()) == 0;
+    say(is_copied ? "the camera is in the clipboard and on stdout" : "the camera is on stdout", false);
+  }
+
+  std::vector<Overlay::Patch> patches() const {
+    if (shows_costs_) return costs_of(frame_);
+    return shows_strips_ ? strips_of(frame_) : std::vector<Overlay::Patch>();
+  }
+  std::vector<std::vector<std::string>> help_pages() const {
+    return pages_of(help_table(), window_.columns(), window_.rows());
   }
 
   Situation situation() const {
@@ -432,6 +501,7 @@ private:
       situation.view = navigator_->views()[navigator_->view()];
     }
     situation.frames_per_second = static_cast<double>(times_.size());
+    situation.is_still = is_still();
     situation.is_paused = is_paused_;
     return situation;
   }
@@ -439,18 +509,24 @@ private:
   void redraw() {
     is_dirty_ = false;
     Overlay overlay;
-    if (shows_strips_) overlay.patches = strips_of(frame_);
-    if (shows_costs_) overlay.patches = costs_of(frame_);
+    was_still_ = is_still();
+    overlay.patches = patches();
     if (shows_information_) {
       overlay.lines = information_on(frame_, situation());
       overlay.bars = load_of(frame_);
     }
-    if (shows_help_) overlay.table = help_table();
+    if (help_page_ != 0) {
+      const auto pages = help_pages();
+      help_page_ = std::min(help_page_, pages.size()); // the window may be larger than it was
+      overlay.page = pages[help_page_ - 1];
+    }
+    overlay.hint = hint_;
     overlay.is_error = !error_.empty();
     overlay.message = error_.empty() ? message_ : error_;
     if (!scene_ && overlay.message.empty()) overlay.message = "reading " + options_.scene.string() + " ...";
     window_.show(frame_.image, overlay);
-    window_.set_title("celltrace - " + options_.scene.filename().string() + (is_paused_ ? " (paused)" : ""));
+    window_.set_title("celltrace - " + options_.scene.filename().string() +
+                      (navigator_ ? " - " + situation().mode : "") + (is_paused_ ? " (paused)" : ""));
     log_state();
     if (is_picking_) return;
     if ((is_final_ || (!error_.empty() && shown_number_ >= number_)) && !is_dirty_)
@@ -476,7 +552,9 @@ private:
     state.information = shows_information_;
     state.strips = shows_strips_;
     state.costs = shows_costs_;
-    state.help = shows_help_;
+    state.help = help_page_ != 0;
+    state.help_pages = help_pages().size();
+    state.hint = hint_;
     state.full_screen = is_full_screen_;
     state.antialiasing = antialiasing_.has_value();
     state.is_final = is_final_;
@@ -486,6 +564,7 @@ private:
     state.seconds = seconds_since(start_);
     if (navigator_) state.camera = navigator_->camera();
     state.picked = picked_;
+    if (picked_ && picked_->scene == scene_) state.names = &names_;
     state_.write(state);
   }
 
@@ -503,19 +582,22 @@ private:
   const Uint32 wake_event_;
 
   std::shared_ptr<const Scene> scene_;
+  ObjectNames names_; ///< of its objects
   Camera scene_camera_;
   bool has_new_camera_ = false;
   std::optional<Navigator> navigator_; ///< as soon as the scene's size is known
   Frame frame_;                        ///< that is shown
   std::uint64_t machine_ = 1, number_ = 0, shown_number_ = 0;
   bool is_final_ = false;
-  Clock::time_point asked_ = start_, next_look_ = start_, message_ends_ = start_;
+  Clock::time_point asked_ = start_, next_look_ = start_, message_ends_ = start_, hint_ends_ = start_;
   double latency_ = 0; ///< seconds from the last input to the first picture of what it asked for
   std::deque<Clock::time_point> times_; ///< of the frames of the last second
   std::map<Action, Clock::time_point> held_;
-  bool shows_information_ = false, shows_strips_ = false, shows_costs_ = false, shows_help_ = false;
+  bool shows_information_ = false, shows_strips_ = false, shows_costs_ = false;
+  std::size_t help_page_ = 0; ///< that is shown, from 1; 0: none
+  bool was_still_ = false;    ///< when it was drawn last
   bool is_full_screen_ = false, is_paused_ = false, is_dirty_ = true, quits_ = false;
-  std::string error_, message_, screenshot_;
+  std::string error_, message_, hint_, screenshot_;
 
   SceneLoader loader_;
   Window window_;
@@ -535,10 +617,10 @@ public:
 
 } // namespace
 
-void view(const ViewOptions& options) {
+bool view(const ViewOptions& options) {
   const Events events;
   Viewer viewer(options);
-  viewer.run();
+  return viewer.run();
 }
 
 } // namespace celltrace::viewer

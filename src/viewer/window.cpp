@@ -2,12 +2,13 @@
 
 #include "celltrace/error.hpp"
 #include "viewer/sdl.hpp"
+#include "viewer/text_layout.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
-#include <sstream>
+#include <utility>
 
 namespace celltrace::viewer {
 
@@ -38,14 +39,6 @@ bool has_display() {
 #else
   return true;
 #endif
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
-    lines.push_back(line);
-  return lines;
 }
 
 } // namespace
@@ -115,11 +108,34 @@ void Window::set_size(int width, int height) {
 }
 
 void Window::show(const Image& picture, const Overlay& overlay) {
+  if (!compose(picture, overlay)) return;
   SDL_Surface* const own = sdl().SDL_GetWindowSurface(window_);
-  if (own == nullptr) return; // while the window is being resized
+  sdl().SDL_SetSurfaceBlendMode(together_.get(), SDL_BLENDMODE_NONE);
+  sdl().SDL_BlitSurface(together_.get(), nullptr, own, nullptr);
+  sdl().SDL_UpdateWindowSurface(window_);
+}
+
+Image Window::without_text(const Image& picture, std::vector<Overlay::Patch> patches) {
+  Overlay overlay;
+  overlay.patches = std::move(patches);
+  if (!compose(picture, overlay)) return picture;
+  Image image(together_->w, together_->h);
+  const auto* from = static_cast<const std::uint8_t*>(together_->pixels);
+  for (int y = 0; y < image.height; ++y, from += together_->pitch) {
+    std::memcpy(image.pixel(0, y), from, static_cast<std::size_t>(image.width) * 4);
+    for (int x = 0; x < image.width; ++x)
+      image.pixel(x, y)[3] = 255;
+  }
+  return image;
+}
+
+/// Returns false while the window is being resized.
+bool Window::compose(const Image& picture, const Overlay& overlay) {
+  const SDL_Surface* const own = sdl().SDL_GetWindowSurface(window_);
+  if (own == nullptr) return false;
   if (!together_ || together_->w != own->w || together_->h != own->h)
     together_.reset(sdl().SDL_CreateRGBSurfaceWithFormat(0, own->w, own->h, 32, SDL_PIXELFORMAT_RGBA32));
-  if (!together_) return;
+  if (!together_) return false;
   sdl().SDL_FillRect(together_.get(), nullptr, sdl().SDL_MapRGBA(together_->format, 0, 0, 0, 255));
   if (!picture.rgba.empty()) {
     // SDL only reads.
@@ -130,21 +146,7 @@ void Window::show(const Image& picture, const Overlay& overlay) {
     sdl().SDL_BlitScaled(pixels.get(), nullptr, together_.get(), nullptr);
   }
   draw(overlay, picture);
-  sdl().SDL_SetSurfaceBlendMode(together_.get(), SDL_BLENDMODE_NONE);
-  sdl().SDL_BlitSurface(together_.get(), nullptr, own, nullptr);
-  sdl().SDL_UpdateWindowSurface(window_);
-}
-
-Image Window::screenshot() const {
-  Image image(together_ ? together_->w : 1, together_ ? together_->h : 1);
-  if (!together_) return image;
-  const auto* from = static_cast<const std::uint8_t*>(together_->pixels);
-  for (int y = 0; y < image.height; ++y, from += together_->pitch) {
-    std::memcpy(image.pixel(0, y), from, static_cast<std::size_t>(image.width) * 4);
-    for (int x = 0; x < image.width; ++x)
-      image.pixel(x, y)[3] = 255;
-  }
-  return image;
+  return true;
 }
 
 void Window::draw(const Overlay& overlay, const Image& picture) {
@@ -158,16 +160,30 @@ void Window::draw(const Overlay& overlay, const Image& picture) {
     shade(left, top, scaled(patch.region.right, picture.width, width) - left,
           scaled(patch.region.bottom, picture.height, height) - top, patch.colour);
   }
-  const int line = line_height();
-  int y = kMargin;
-  if (!overlay.lines.empty() || !overlay.bars.empty()) {
-    int widest = 160;
-    for (const std::string& text : overlay.lines)
-      widest = std::max(widest, width_of(text));
-    const auto rows = static_cast<int>(overlay.lines.size() + overlay.bars.size());
-    shade(0, 0, widest + 2 * kMargin, rows * line + 2 * kMargin, kShade);
+  draw_lines(overlay);
+  if (!overlay.hint.empty()) {
+    const int hint = width_of(overlay.hint);
+    shade(width - hint - 2 * kMargin, 0, hint + 2 * kMargin, line_height() + 2 * kMargin, kShade);
+    write(overlay.hint, width - hint - kMargin, kMargin, kText);
   }
+  if (!overlay.page.empty()) draw_page(overlay.page);
+  if (!overlay.message.empty()) draw_message(overlay);
+}
+
+void Window::draw_lines(const Overlay& overlay) {
+  if (overlay.lines.empty() && overlay.bars.empty()) return;
+  const int line = line_height();
+  std::vector<std::string> lines;
+  int widest = 160;
   for (const std::string& text : overlay.lines)
+    for (const std::string& part : wrapped(text, columns(), 2)) {
+      lines.push_back(part);
+      widest = std::max(widest, width_of(part));
+    }
+  const auto rows = static_cast<int>(lines.size() + overlay.bars.size());
+  shade(0, 0, widest + 2 * kMargin, rows * line + 2 * kMargin, kShade);
+  int y = kMargin;
+  for (const std::string& text : lines)
     y += write(text, kMargin, y, kText);
   for (const Overlay::Bar& bar : overlay.bars) {
     const int label = write(bar.label, kMargin, y, kText) == 0 ? 0 : width_of("SPE 000 ");
@@ -176,31 +192,37 @@ void Window::draw(const Overlay& overlay, const Image& picture) {
     shade(kMargin + label, y + 3, length, line - 5, kBar);
     y += line;
   }
-  if (!overlay.table.empty()) {
-    int first = 0, second = 0;
-    for (const auto& [what, text] : overlay.table) {
-      first = std::max(first, width_of(what + "   "));
-      second = std::max(second, width_of(text));
-    }
-    const auto rows = static_cast<int>(overlay.table.size());
-    const int left = std::max((width - first - second) / 2, kMargin);
-    int at = std::max((height - rows * line) / 2, kMargin);
-    shade(left - kMargin, at - kMargin, first + second + 2 * kMargin, rows * line + 2 * kMargin,
-          {0, 0, 0, 200});
-    for (const auto& [what, text] : overlay.table) {
-      write(what, left, at, kText);
-      write(text, left + first, at, kText);
-      at += line;
-    }
-  }
-  if (overlay.message.empty()) return;
-  const std::vector<std::string> lines = lines_of(overlay.message);
-  const auto rows = static_cast<int>(lines.size());
-  const int top = std::max(height - rows * line - 2 * kMargin, 0);
-  shade(0, top, width, rows * line + 2 * kMargin, overlay.is_error ? kError : kShade);
+}
+
+void Window::draw_page(const std::vector<std::string>& page) {
+  int widest = 0;
+  for (const std::string& text : page)
+    widest = std::max(widest, width_of(text));
+  const int height = static_cast<int>(page.size()) * line_height();
+  const int left = std::max((together_->w - widest) / 2, kMargin);
+  int at = std::max((together_->h - height) / 2, kMargin);
+  shade(left - kMargin, at - kMargin, widest + 2 * kMargin, height + 2 * kMargin, {0, 0, 0, 200});
+  for (const std::string& text : page)
+    at += write(text, left, at, kText);
+}
+
+void Window::draw_message(const Overlay& overlay) {
+  const std::vector<std::string> lines = wrapped(overlay.message, columns(), 2);
+  const int height = static_cast<int>(lines.size()) * line_height() + 2 * kMargin;
+  const int top = std::max(together_->h - height, 0);
+  shade(0, top, together_->w, height, overlay.is_error ? kError : kShade);
   int at = top + kMargin;
   for (const std::string& text : lines)
     at += write(text, kMargin, at, kText);
+}
+
+int Window::columns() const {
+  const int letter = std::max(width_of("M"), 1);
+  return std::max((width() - 2 * kMargin) / letter, 1);
+}
+
+int Window::rows() const {
+  return std::max((height() - 2 * kMargin) / std::max(line_height(), 1), 1);
 }
 
 int Window::line_height() const {

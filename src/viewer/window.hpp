@@ -2,7 +2,7 @@
 //
 // Three surfaces, as the thesis has them: the window's own; the picture, whose memory the SPEs' pixels come
 // to; and what is written over it. They are put together in a fourth one, so that a half-drawn one is never
-// seen and a screenshot is what was seen.
+// seen.
 #pragma once
 
 #include "celltrace/image.hpp"
@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 struct SDL_Surface;
@@ -36,11 +35,12 @@ struct Overlay {
   };
 
   std::vector<Patch> patches;
-  std::vector<std::string> lines;                         ///< at the top left
-  std::vector<Bar> bars;                                  ///< below them
-  std::vector<std::pair<std::string, std::string>> table; ///< in the middle: what, and what about it
-  std::string message;                                    ///< at the bottom, in any number of lines
-  bool is_error = false;                                  ///< the message is one
+  std::vector<std::string> lines; ///< at the top left
+  std::vector<Bar> bars;          ///< below them
+  std::vector<std::string> page;  ///< in the middle
+  std::string hint;               ///< at the top right
+  std::string message;            ///< at the bottom, in any number of lines
+  bool is_error = false;          ///< the message is one
 };
 
 class Window {
@@ -61,8 +61,12 @@ public:
 
   /// The picture fills the window; an empty one leaves it black.
   void show(const Image& picture, const Overlay& overlay);
-  /// What was shown last.
-  Image screenshot() const;
+  /// The picture in the window's size, with patches, but with nothing written over it. show() is to be called
+  /// again.
+  Image without_text(const Image& picture, std::vector<Overlay::Patch> patches);
+  /// Letters beside each other, and lines below each other, that it has room for.
+  int columns() const;
+  int rows() const;
 
 private:
   struct Free {
@@ -71,6 +75,10 @@ private:
   using Surface = std::unique_ptr<SDL_Surface, Free>;
 
   void open_font(const std::filesystem::path& font);
+  bool compose(const Image& picture, const Overlay& overlay);
+  void draw_lines(const Overlay& overlay);
+  void draw_page(const std::vector<std::string>& page);
+  void draw_message(const Overlay& overlay);
   void draw(const Overlay& overlay, const Image& picture);
   /// Returns the height of what was written.
   int write(const std::string& text, int x, int y, Overlay::Colour colour);

@@ -11,7 +11,7 @@ using namespace celltrace;
 using namespace celltrace::viewer;
 
 TEST_CASE("Scripts are of keys, sizes and the mouse") {
-  KeyScript script({"Left", "q", "PageUp", "800x600", "drag:-5,20", "wheel:-2", "click:7,9"});
+  KeyScript script({"Left", "q", "PageUp", "800x600", "drag:-5,20", "look:6,-7", "wheel:-2", "click:7,9"});
   CHECK(script.next()->key.keysym.sym == SDLK_LEFT);
   CHECK(script.next()->key.keysym.sym == SDLK_q);
   const auto page = script.next();
@@ -25,6 +25,10 @@ TEST_CASE("Scripts are of keys, sizes and the mouse") {
   CHECK(drag->kind == KeyScript::Kind::drag);
   CHECK(drag->x == -5);
   CHECK(drag->y == 20);
+  const auto look = script.next();
+  CHECK(look->kind == KeyScript::Kind::look);
+  CHECK(look->x == 6);
+  CHECK(look->y == -7);
   const auto wheel = script.next();
   CHECK(wheel->kind == KeyScript::Kind::wheel);
   CHECK(wheel->y == -2);
@@ -36,7 +40,7 @@ TEST_CASE("Scripts are of keys, sizes and the mouse") {
 }
 
 TEST_CASE("Scripts with anything else are refused") {
-  for (const char* word : {"nothing", "0x5", "800x", "800x600x", "drag:1", "wheel:", "-3x4"}) {
+  for (const char* word : {"nothing", "0x5", "800x", "800x600x", "drag:1", "look:3", "wheel:", "-3x4"}) {
     INFO(word);
     CHECK_THROWS_AS(KeyScript({word}), InputError);
   }

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 using namespace celltrace;
@@ -139,4 +141,38 @@ TEST_CASE("Scenes without a size have steps, too") {
   n.go(1, 0);
   CHECK(n.camera().location.x > 0);
   CHECK(n.camera().location.x < 10);
+}
+
+TEST_CASE("Going around keeps what is in the middle there, in any mode") {
+  for (const Navigator::Mode mode : {Navigator::Mode::planar, Navigator::Mode::radial}) {
+    Navigator n = navigator();
+    n.set_mode(mode);
+    CHECK(!n.knows_pivot());
+    n.set_pivot(4);
+    CHECK(n.knows_pivot());
+    const Vec3 pivot(0, 0, -6);
+    for (int i = 0; i < 10; ++i) {
+      n.orbit(20, i - 5);
+      CHECK(glm::length(n.camera().location - pivot) == Approx(4));
+      check_near(glm::normalize(pivot - n.camera().location), glm::normalize(n.camera().direction));
+    }
+    CHECK(n.knows_pivot());
+    // Looking elsewhere, something else is in the middle.
+    const Vec3 place = n.camera().location;
+    n.turn(10, 5);
+    check_near(n.camera().location, place);
+    CHECK(!n.knows_pivot());
+  }
+}
+
+TEST_CASE("Steps are small where the scene is large and what is looked at is near") {
+  Navigator large(straight(), {-1000, -1000, -1000}, {1000, 1000, 1000});
+  large.set_pivot(5);
+  large.walk(0, 1);
+  CHECK(large.camera().location.z == Approx(-10 + 0.02 * 2 * 5));
+  // A second of a key that is held down, some five steps, leads through a quarter of the scene at most.
+  Navigator n = navigator();
+  for (int step = 0; step < 6; ++step)
+    n.walk(0, 1);
+  CHECK(n.camera().location.z < -10 + 0.25 * 2 * std::sqrt(3.0));
 }

@@ -125,6 +125,12 @@ class Viewer:
             time.sleep(0.01)
         raise AssertionError("%s: not within %d s; the state is %s" % (what, seconds, self.state))
 
+    def wait_until_still(self):
+        """Returns the state when nothing has been asked for a while, with nothing written over the picture."""
+        if not (self.state["still"] and self.state["message"] == "" and self.state["hint"] == ""):
+            self.wait("still", lambda s: s["still"] and s["message"] == "" and s["hint"] == "")
+        return self.state
+
     def key(self, name):
         # Not checked: a key that ends the program takes the window away before it is up again.
         subprocess.run(["xdotool", "key", "--window", self.window, name], env=self.display.environment, timeout=20,
@@ -133,6 +139,12 @@ class Viewer:
     def press(self, name, what, condition):
         self.key(name)
         return self.wait("%s (key %s)" % (what, name), condition)
+
+    def leave_help(self, key):
+        """In a small window help has several pages."""
+        for _ in range(self.state["help_pages"]):
+            self.key(key)
+        self.wait("no help", lambda s: not s["help"])
 
     def place(self):
         values = dict(line.split("=") for line in
@@ -180,6 +192,21 @@ def turned(before):
     return lambda s: s["final"] and s["camera"]["direction"] != before["camera"]["direction"]
 
 
+def near(a, b, distance):
+    return sum((x - y) ** 2 for x, y in zip(a, b)) < distance ** 2
+
+
+def point_between(one, other):
+    """The point that is as near as can be to both cameras' axes."""
+    def dot(a, b):
+        return sum(x * y for x, y in zip(a, b))
+    p, d, q, e = one["location"], one["direction"], other["location"], other["direction"]
+    w = [x - y for x, y in zip(p, q)]
+    a, b, c = dot(d, d), dot(d, e), dot(e, e)
+    t = (b * dot(e, w) - c * dot(d, w)) / (a * c - b * b)
+    return [x + t * y for x, y in zip(p, d)]
+
+
 def drive(display, program, folder):
     with open(os.path.join(folder, "scene.pov"), "w") as file:
         file.write(SCENE % RED)
@@ -188,6 +215,8 @@ def drive(display, program, folder):
     initial = state["camera"]
     check(state["antialiased"], "the picture at rest is antialiased")
     check(state["backend"] == "native" and state["mode"] == "planar", "it begins on native, planar")
+    check("H: help" in state["hint"] and "planar" in state["hint"], "it says how to get help, and the mode")
+    viewer.wait("the hint is gone", lambda s: s["hint"] == "" and s["still"])
     first = viewer.settled_pixels()
     check(share_of(first, is_red) > 0.05, "the red sphere is on the display")
 
@@ -200,7 +229,7 @@ def drive(display, program, folder):
         distance = sum((a - b) ** 2 for a, b in zip(before["camera"]["location"], viewer.state["camera"]["location"]))
         check(distance < 1e-12, "the other key leads back")
     check(viewer.settled_pixels() == first, "the same place shows the same picture")
-    viewer.press("m", "radial", lambda s: s["mode"] == "radial")
+    viewer.press("m", "radial", lambda s: s["mode"] == "radial" and "radial" in s["hint"])
     before = viewer.state
     viewer.press("Left", "around the scene", turned(before))
     viewer.press("Up", "over the scene", turned(viewer.state))
@@ -228,20 +257,42 @@ def drive(display, program, folder):
     display.tool("click", 5)
     viewer.wait("and back", lambda s: s["final"])
 
-    # The mouse turns and moves.
-    before = viewer.state
-    display.tool("mousedown", 1, "mousemove_relative", 40, 10, "mouseup", 1)
-    viewer.wait("turning by the mouse", turned(before))
-    before = viewer.state
-    display.tool("mousedown", 3, "mousemove_relative", 20, 0, "mouseup", 3)
+    # The mouse goes around what is in the middle, looks around and moves.
+    middle = {"mousemove": (left + width // 2, top + height // 2)}
+    viewer.press("Home", "reset", lambda s: s["final"] and s["camera"] == initial)
+    display.tool("mousemove", *middle["mousemove"])
+    time.sleep(0.2)
+    display.tool("mousedown", 1)
+    time.sleep(0.3)  # until it knows what is in the middle
+    display.tool("mousemove_relative", 40, 10, "mouseup", 1)
+    viewer.wait("going around by the mouse", moved({"camera": initial}))
+    around = viewer.wait_until_still()["camera"]
+    check(around["direction"] != initial["direction"], "it goes on looking there")
+    check(near(point_between(around, initial), (0, -1.31, 7.85), 0.1),  # of the ground
+          "around what is in the middle")
+    for buttons in ((["mousedown", 3], ["mouseup", 3]),
+                    (["keydown", "shift", "mousedown", 1], ["mouseup", 1, "keyup", "shift"])):
+        display.tool("mousemove", *middle["mousemove"])
+        before = viewer.wait_until_still()
+        display.tool(*buttons[0])
+        display.tool("mousemove_relative", 40, 10)
+        viewer.wait("looking around by the mouse", turned(before))
+        display.tool(*buttons[1])
+        check(viewer.wait_until_still()["camera"]["location"] == before["camera"]["location"], "in its place")
+    display.tool("mousemove", *middle["mousemove"])
+    before = viewer.wait_until_still()
+    display.tool("mousedown", 2, "mousemove_relative", 20, 0, "mouseup", 2)
     viewer.wait("moving by the mouse", moved(before))
-    viewer.press("Home", "reset", lambda s: s["final"])
+    viewer.press("Home", "reset", lambda s: s["final"] and s["camera"] == initial)
 
     # A click says what is there.
     left, top, width, height = viewer.place()
     display.tool("mousemove", left + width // 2, top + height // 2, "click", 1)
     state = viewer.wait("an object", lambda s: s.get("picked", {}).get("object") is not None)
-    check(state["message"].startswith("object %d, " % state["picked"]["object"]), "and says so: " + state["message"])
+    picked = state["picked"]
+    check(picked["kind"] == "sphere" and picked["name"] == "" and picked["file"] == "scene.pov", "its kind and file")
+    check(SCENE.splitlines()[picked["line"] - 1].startswith("sphere"), "and line")
+    check(state["message"].startswith("sphere at scene.pov:%d, " % picked["line"]), "and says so: " + state["message"])
     check(state["camera"] == initial, "and moves nothing")
     display.tool("mousemove", left + 2, top + 2, "click", 1)
     viewer.wait("nothing there", lambda s: s["picked"]["object"] is None and s["message"] == "nothing")
@@ -254,13 +305,13 @@ def drive(display, program, folder):
         viewer.press("c", "next camera", lambda s, view=view: s["final"] and s["view"] == view)
 
     # What is written over the picture.
+    viewer.wait_until_still()
     plain = viewer.settled_pixels()
     check(plain == first, "the scene's own camera shows what it did")
-    for key, name in (("i", "information"), ("h", "help"), ("F1", "help")):
-        shows = not viewer.state[name]
-        viewer.press(key, name, lambda s, name=name, shows=shows: s[name] == shows)
-        check((viewer.settled_pixels() != plain) == (viewer.state["information"] or viewer.state["help"]),
-              name + " is seen")
+    for key, name in (("i", "information"), ("h", "help")):
+        viewer.press(key, name, lambda s, name=name: s[name])
+        check(viewer.settled_pixels() != plain, name + " is seen")
+    viewer.leave_help("F1")
     viewer.press("i", "no information", lambda s: not s["information"])
     check(viewer.settled_pixels() == plain, "without it the picture is as before")
     viewer.press("l", "strips", lambda s: s["strips"] and s["final"] and s["patches"] > 0)
@@ -270,15 +321,21 @@ def drive(display, program, folder):
     check(viewer.settled_pixels() not in (plain, strips), "costs are seen")
     viewer.press("k", "no costs", lambda s: not s["costs"])
 
-    # Screenshots: what is on the display.
+    # Screenshots: the picture, without what is written over it.
     viewer.press("p", "screenshot", lambda s: s["screenshot"] == "scene-001.png" and "saved" in s["message"])
     check(os.path.exists(os.path.join(folder, "scene-001.png")), "the screenshot is there")
-    viewer.press("F12", "second screenshot", lambda s: s["screenshot"] == "scene-002.png")
-    viewer.wait("the message is gone", lambda s: s["message"] == "")
+    viewer.press("F12", "second screenshot, under a message", lambda s: s["screenshot"] == "scene-002.png")
+    viewer.press("h", "help", lambda s: s["help"])
+    viewer.press("i", "information", lambda s: s["information"])
     viewer.press("p", "third screenshot", lambda s: s["screenshot"] == "scene-003.png")
-    compared = subprocess.run([program, "compare", "--min-psnr", "90", "scene-001.png", "scene-003.png"], cwd=folder,
-                              capture_output=True)
-    check(compared.returncode == 0, "screenshots of the same are the same")
+    viewer.leave_help("h")
+    viewer.press("i", "no information", lambda s: not s["information"])
+    viewer.wait("the message is gone", lambda s: s["message"] == "")
+    viewer.press("p", "fourth screenshot", lambda s: s["screenshot"] == "scene-004.png")
+    for name in ("scene-001.png", "scene-002.png", "scene-003.png"):
+        compared = subprocess.run([program, "compare", "--min-psnr", "90", name, "scene-004.png"], cwd=folder,
+                                  capture_output=True)
+        check(compared.returncode == 0, "screenshots of the same are the same: " + name)
     viewer.wait("the message is gone again", lambda s: s["message"] == "")
 
     # Machines.
@@ -375,7 +432,7 @@ def without_display(program, folder):
 def dummy_driver(program, folder):
     """SDL's driver without a display: keys come from a script."""
     state = os.path.join(folder, "dummy.json")
-    keys = ["Left", "m", "Up", "i", "l", "k", "h", "c", "x", "b", "200x100", "drag:10,5", "wheel:1", "click:100,50", "p", "q"]
+    keys = ["Left", "m", "Up", "i", "l", "k", "h", "c", "x", "b", "200x100", "drag:10,5", "look:5,5", "wheel:1", "click:100,50", "p", "q"]
     done = subprocess.run([program, "view", "scene.pov", "-W", "160", "-H", "120", "--state", state, "--keys",
                            " ".join(keys)],
                           cwd=folder, env=dict(os.environ, SDL_VIDEODRIVER="dummy"), capture_output=True, timeout=60)
@@ -387,6 +444,70 @@ def dummy_driver(program, folder):
     check("picked" in last, "a click is answered")
 
 
+def scripted(program, folder, scene, keys, *options, size=(160, 120)):
+    """Runs a script on SDL's driver without a display. Returns the process and all states."""
+    state = os.path.join(folder, "scripted.json")
+    done = subprocess.run([program, "view", scene, "-W", str(size[0]), "-H", str(size[1]), "--state", state, "--keys", keys,
+                           *options],
+                          cwd=folder, env=dict(os.environ, SDL_VIDEODRIVER="dummy"), capture_output=True, timeout=60)
+    if not os.path.exists(state):
+        return done, []
+    with open(state) as file:
+        states = [json.loads(line) for line in file]
+    os.remove(state)
+    return done, states
+
+
+def copied_camera(program, folder):
+    """A scene with the camera's text shows what the window did."""
+    done, states = scripted(program, folder, "scene.pov", "x drag:60,-20 wheel:2 look:10,5 Up t p q", size=(200, 120))
+    text = done.stdout.decode()
+    check(done.returncode == 0 and text.startswith("camera {"), "the camera is on stdout: " + text)
+    scene = SCENE % RED
+    begin = scene.index("camera {")
+    with open(os.path.join(folder, "copied.pov"), "w") as file:
+        file.write(scene[:begin] + text + scene[scene.index("\n", begin) + 1:])
+    subprocess.run([program, "copied.pov", "-W", "200", "-H", "120", "-o", "copied.png"], cwd=folder, check=True,
+                   capture_output=True)
+    compared = subprocess.run([program, "compare", "--min-psnr", "90", "copied.png", states[-1]["screenshot"]], cwd=folder,
+                              capture_output=True)
+    check(compared.returncode == 0, "and the picture is the same: " + compared.stdout.decode())
+
+
+def unreadable_scenes(program, folder):
+    done, states = scripted(program, folder, "none.pov", "q")
+    check(done.returncode == 1 and not states, "a scene that is not there opens no window")
+    check(done.stderr.decode() == "celltrace: error: none.pov: there is no such file\n", done.stderr.decode())
+    with open(os.path.join(folder, "broken.pov"), "w") as file:
+        file.write("sphere { oops }")
+    done, states = scripted(program, folder, "broken.pov", "q")
+    check(done.returncode == 1, "a scene that could never be read ends with 1")
+    check(done.stderr.decode().startswith("broken.pov:1:10: error: "), done.stderr.decode())
+    check(states[-1]["error"].startswith("broken.pov:1:10: error: "), "the window says so, too")
+
+
+def dark_scene(program, folder):
+    with open(os.path.join(folder, "dark.pov"), "w") as file:
+        file.write("#version 3.7; global_settings { assumed_gamma 1 }\n"
+                   "camera { location -5*z }\n#declare Ball = sphere { 0, 1 }\nobject { Ball }")
+    done, states = scripted(program, folder, "dark.pov", "click:80,60 q")
+    check(any("no light source" in state["message"] for state in states), "a scene without lights says so")
+    check(states[-1]["message"].startswith("sphere 'Ball' at dark.pov:4, "), "a click names it: " + states[-1]["message"])
+    done, states = scripted(program, folder, "scene.pov", "q")
+    check(not any("no light source" in state["message"] for state in states), "others do not")
+
+
+def small_window(program, folder):
+    done, states = scripted(program, folder, "scene.pov", "h q", size=(800, 600))
+    check(states[-1]["help_pages"] == 1 and states[-1]["help"], "a window has room for all help")
+    pages = scripted(program, folder, "scene.pov", "h q", size=(200, 120))[1][-1]["help_pages"]
+    check(pages > 1, "a small one has pages")
+    done, states = scripted(program, folder, "scene.pov", " ".join(["h"] * pages) + " q", size=(200, 120))
+    check(states[-1]["help"], "through which H goes")
+    done, states = scripted(program, folder, "scene.pov", " ".join(["h"] * (pages + 1)) + " q", size=(200, 120))
+    check(not states[-1]["help"], "and then it ends")
+
+
 def main():
     program = os.path.abspath(sys.argv[1])
     with tempfile.TemporaryDirectory() as folder:
@@ -394,6 +515,8 @@ def main():
             file.write(SCENE % RED)
         without_display(program, folder)
         dummy_driver(program, folder)
+        for part in (copied_camera, unreadable_scenes, dark_scene, small_window):
+            part(program, folder)
         if not shutil.which("Xvfb") or not shutil.which("xdotool"):
             print("Skipped in part: Xvfb or xdotool are missing.")
             return 77

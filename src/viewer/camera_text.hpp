@@ -1,0 +1,14 @@
+// A camera in POV-Ray's language.
+#pragma once
+
+#include "celltrace/scene.hpp"
+
+#include <string>
+
+namespace celltrace::viewer {
+
+/// Returns a `camera` block. A scene that has it in place of its own camera has this camera to the last bit.
+/// `width` and `height` are those of the picture, for a remark.
+std::string camera_text(const Camera& camera, int width, int height);
+
+} // namespace celltrace::viewer
