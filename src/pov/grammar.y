@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before. Among an object's modifiers a colour's name is one only where no number can be.
-%expect 343
+%expect 352
 
 %code requires {
 #include "pov/actions.hpp"
@@ -114,10 +114,11 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS WARP
 %token BLACK_HOLE DIST_EXP EXTERIOR FLIP JULIA MAGNET MAJOR_RADIUS ORIENTATION REPEAT SLOPE_MAP STRENGTH TOROIDAL
 
-%nterm <Quantity> quantity choice bare_choice truth operand vector vector_items comparison logic value_in_brackets
+%nterm <Quantity> quantity choice bare_choice joined truth relations operand vector vector_items comparison logic value_in_brackets
 %nterm <Quantity> colour named_colour repeated_colour colour_value colour_base colour_or_black
 %nterm <ColourModel> srgb_model
 %nterm <Relation> relation
+%nterm <Junction> junction
 %nterm <Signs> signs
 %nterm <std::string> text
 %nterm <std::vector<Value>> arguments given_arguments
@@ -333,12 +334,7 @@ value_in_brackets
 
 logic
   : comparison
-  | logic '&' comparison {
-      $$ = double(is_true(session.any_number($1, @1)) && is_true(session.any_number($3, @3)));
-    }
-  | logic '|' comparison {
-      $$ = double(is_true(session.any_number($1, @1)) || is_true(session.any_number($3, @3)));
-    }
+  | logic junction comparison { $$ = join($2, $1, $3); }
   ;
 
 comparison
@@ -430,13 +426,30 @@ choice
   ;
 
 bare_choice // no comparison: two vectors can stand side by side
+  : joined
+  | joined '?' choice ':' choice { $$ = is_true(session.any_number($1, @1)) ? $3 : $5; }
+  ;
+
+joined
   : quantity
-  | quantity '?' choice ':' choice { $$ = is_true(session.any_number($1, @1)) ? $3 : $5; }
+  | joined junction quantity       { $$ = join($2, $1, $3); }
   ;
 
 truth
+  : relations
+  | joined junction relations      { $$ = join($2, $1, $3); }
+  | truth junction quantity        { $$ = join($2, $1, $3); }
+  | truth junction relations       { $$ = join($2, $1, $3); }
+  ;
+
+relations
   : quantity relation quantity     { $$ = compare($2, $1, $3); }
-  | truth relation quantity        { $$ = compare($2, $1, $3); }
+  | relations relation quantity    { $$ = compare($2, $1, $3); }
+  ;
+
+junction
+  : '&'           { $$ = Junction::both; }
+  | '|'           { $$ = Junction::either; }
   ;
 
 relation

@@ -141,6 +141,13 @@ Quantity compare(Relation relation, const Quantity& a, const Quantity& b) {
   return component_wise(a, b, [relation](double x, double y) { return holds(relation, x, y) ? 1.0 : 0.0; });
 }
 
+Quantity join(Junction junction, const Quantity& a, const Quantity& b) {
+  return component_wise(a, b, [junction](double x, double y) {
+    const bool holds = junction == Junction::both ? is_true(x) && is_true(y) : is_true(x) || is_true(y);
+    return holds ? 1.0 : 0.0;
+  });
+}
+
 bool is_true(double value) {
   return std::fabs(value) > kComparisonTolerance;
 }

@@ -65,6 +65,10 @@ enum class Relation { less, less_equal, equal, not_equal, greater_equal, greater
 /// Component-wise, 1 where it holds.
 Quantity compare(Relation relation, const Quantity& a, const Quantity& b);
 
+enum class Junction { both, either };
+/// Component-wise, 1 where both or either of them hold.
+Quantity join(Junction junction, const Quantity& a, const Quantity& b);
+
 /// Whether a condition holds: no component is zero.
 bool is_true(double value);
 

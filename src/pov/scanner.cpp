@@ -21,6 +21,13 @@ double out_of_range(std::string_view text) {
   return text.find('-', 1) != text.npos ? 0 : std::numeric_limits<double>::infinity();
 }
 
+/// Removes an exponent without digits, which counts as 0.
+void remove_bare_exponent(std::string_view& text) {
+  if (text.empty() || (text.front() != 'e' && text.front() != 'E')) return;
+  text.remove_prefix(1);
+  if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
+}
+
 /// Reads the number at the front of `text`, which the lexer has found well formed, and removes it.
 double take_number(std::string_view& text) {
   if (text.front() == '+') text.remove_prefix(1);
@@ -28,6 +35,7 @@ double take_number(std::string_view& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range) value = out_of_range({text.data(), end});
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  remove_bare_exponent(text);
   return value;
 }
 

@@ -153,3 +153,28 @@ TEST_CASE("strings at their limits") {
   CHECK(output("#debug vstr(1, <1, 2, 3>, \",\", 0, 0)") == "1,2");
   CHECK(output("#debug vstr(3, 5, \",\", 0, 0)") == "5,0,0");
 }
+
+TEST_CASE("numbers whose exponents have no digits") {
+  CHECK(value("2e") == "2.000");
+  CHECK(value("1.e + 3E+ + .5e-") == "4.500");
+  CHECK(value(3, "<1e, 2.e, .5e->") == "1.00 2.00 0.50");
+  CHECK(output("#macro N() 3e #end #declare I = 0; #while (I < 2) #debug str(N(), 0, 0) #declare I = I + 1; "
+               "#end") == "33");
+  CHECK(error_line("#declare A = 1e.5;").find("more than one decimal point") != std::string::npos);
+}
+
+TEST_CASE("conditions of several parts behind a colour's keyword need no parentheses") {
+  CHECK(material("pigment { rgb 1 & 0 }").pigment.rgb == Vec3(0));
+  CHECK(material("pigment { color 1 < 2 & 3 > 1 }").pigment.rgb == Vec3(1));
+  CHECK(material("pigment { rgb 2 > 1 & 3 > 4 | 5 > 4 ? x : y }").pigment.rgb == Vec3(1, 0, 0));
+  CHECK(material("pigment { rgb 0 | <1, 2, 3> > 2 }").pigment.rgb == Vec3(0, 0, 1));
+  CHECK(material("pigment { rgb 1 } finish { ambient 1 | 0 }").finish.ambient == Vec3(1));
+  CHECK(value(3, "(<1, 0, 1> & <1, 1, 0>)") == "1.00 0.00 0.00");
+}
+
+TEST_CASE("bytes that are 0 are blanks") {
+  using namespace std::string_literals;
+  CHECK(parse("sphere {\0 0, 1 }\0"s).objects.size() == 1);
+  CHECK(parse("sphere { 0, 1 } // \0\n/* \0 */ sphere { 0, 1 }"s).objects.size() == 2);
+  CHECK(!error("sph\0ere { 0, 1 }"s).empty());
+}

@@ -22,8 +22,8 @@ TEST_CASE("text that makes no sense") {
         "scene.pov:1:15: error: '.w' is no component of a vector or colour");
   CHECK(error_line("sphere { 0, @ }") ==
         "scene.pov:1:13: error: unexpected character '@', expected a number");
-  CHECK(error_line(std::string("sphere \0 { }", 12)) ==
-        "scene.pov:1:8: error: unexpected character 0x00, expected '{'");
+  CHECK(error_line(std::string("sphere \1 { }", 12)) ==
+        "scene.pov:1:8: error: unexpected character 0x01, expected '{'");
   CHECK(error_line("sphere { 0, \xC3\xA9 }") ==
         "scene.pov:1:13: error: unexpected character 0xC3, expected a number");
 }
