@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "pov/finite.hpp"
 #include "pov/object_queries.hpp"
 
 namespace celltrace::pov {
@@ -18,16 +19,11 @@ constexpr int kDeepestObject = 1000;
 
 constexpr std::size_t kMostKnots = 20000; // of a spline
 
-void require_finite(Session& session, const ListEntry& entry, const Location& where) {
-  if (!std::isfinite(entry.v.x) || !std::isfinite(entry.v.y) || !std::isfinite(entry.v.z))
-    session.fail(where, "this number is not finite");
-}
-
 /// The number that leads a list.
 double list_count(Session& session, const std::vector<ListEntry>& list, const Location& where) {
   const ListEntry& count = list.front();
   if (!count.is_float) session.fail(where, "expected a float, found a vector");
-  require_finite(session, count, where);
+  if (!is_finite(count.v)) session.fail(where, "this number is not finite");
   return count.v.x;
 }
 
@@ -72,7 +68,7 @@ void append_component(Session& session, Quantity& vector, double component, cons
 }
 
 Transform scale(Session& session, const Quantity& factors, const Location& where) {
-  const Vec3 v = session.vector(factors, where);
+  const Vec3 v = factors.vec3();
   if (v.x == 0 || v.y == 0 || v.z == 0)
     session.diagnostics.warn_once(where, "a scale by 0 counts as one by 1");
   return Transform::scale(v);
@@ -106,15 +102,17 @@ Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const 
   double values[12];
   for (std::size_t i = 0; i < 12; ++i) {
     const ListEntry& entry = numbers[i];
-    values[i] = session.number(entry.is_float ? Quantity(entry.v.x) : Quantity::vector(entry.v), where);
+    if (!entry.is_float) session.fail(where, "expected a float, found a vector");
+    values[i] = entry.v.x;
   }
   replace_zero_columns(values, session, where);
   return Transform::matrix(values);
 }
 
 Transform complete(Session& session, const WrittenTransform& written, const Location& where) {
+  if (!written.is_inverse || !is_finite(written.items)) return written.items;
   try {
-    return written.is_inverse ? written.items.inverse() : written.items;
+    return written.items.inverse();
   } catch (const InputError&) {
     session.fail(where, "this transformation is singular: it has no inverse");
   }
@@ -225,16 +223,24 @@ PatternChange fractal(Session& session, double magnet, const Quantity* constant,
     fractal.c[0] = c.x;
     fractal.c[1] = c.y;
   }
-  fractal.iterations = fractal_iterations(session, iterations, where);
-  return [=](Session&, PatternDefinition& pattern) { choose(pattern, fractal); };
+  pattern::Kind kind = fractal;
+  set_iterations(session, kind, iterations, where);
+  return [=](Session&, PatternDefinition& pattern) {
+    choose(pattern, number_of(fractal));
+    pattern.own().kind = kind;
+  };
 }
 
-int fractal_iterations(Session& session, double number, const Location& where) {
+void set_iterations(Session& session, pattern::Kind& kind, double number, const Location& where) {
   constexpr double kMost = 65535;
-  if (!(number >= 1)) session.fail(where, "a fractal has at least one iteration");
+  if (number <= -1) {
+    session.diagnostics.warn_once(where, "a fractal with less than 0 iterations is 0.55 everywhere");
+    kind = constant_kind(0.55);
+    return;
+  }
   if (number >= kMost + 1)
     session.diagnostics.warn_once(where, "this fractal has 65535 iterations, which is the most there is");
-  return static_cast<int>(std::min(number, kMost));
+  std::get<pattern::Fractal>(kind).iterations = static_cast<int>(std::min(number, kMost));
 }
 
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
@@ -257,11 +263,12 @@ void set_range(double& from, double& to, double least, double most) {
 
 PatternChange set_fractal(int pattern::Fractal::*member, double value, int most, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
-    if (!std::holds_alternative<pattern::Fractal>(pattern.value().kind))
+    if (pattern.number != number_of(pattern::Fractal()))
       session.fail(where, "this word means something to fractals only");
     if (!(value >= 0 && value < most + 1))
       session.fail(where, "this number must lie between 0 and " + std::to_string(most));
-    std::get<pattern::Fractal>(pattern.own().kind).*member = static_cast<int>(value);
+    if (auto* fractal = std::get_if<pattern::Fractal>(&pattern.own().kind))
+      fractal->*member = static_cast<int>(value);
   };
 }
 
@@ -278,14 +285,14 @@ PatternChange fractal_exponent(double value, const Location& where) {
 PatternChange exterior(double type, double factor, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
     set_fractal(&pattern::Fractal::exterior, type, 6, where)(session, pattern);
-    std::get<pattern::Fractal>(pattern.own().kind).exterior_factor = factor;
+    if (auto* fractal = std::get_if<pattern::Fractal>(&pattern.own().kind)) fractal->exterior_factor = factor;
   };
 }
 
 PatternChange interior(double type, double factor, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
     set_fractal(&pattern::Fractal::interior, type, 6, where)(session, pattern);
-    std::get<pattern::Fractal>(pattern.own().kind).interior_factor = factor;
+    if (auto* fractal = std::get_if<pattern::Fractal>(&pattern.own().kind)) fractal->interior_factor = factor;
   };
 }
 
@@ -304,6 +311,9 @@ PatternChange unsupported_change(const UnsupportedPtr& unsupported) {
 
 PatternChange warp(const SpaceStep& warp, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
+    const auto* mapping = std::get_if<warp::Mapping>(&warp);
+    if (mapping != nullptr && mapping->orientation == Vec3(0))
+      return move(session, pattern, spread_point(session, where), where);
     const auto* hole = std::get_if<warp::BlackHole>(&warp);
     if (hole == nullptr || hole->radius > 0)
       bend(session, pattern, warp, where);
@@ -346,12 +356,6 @@ warp::Mapping mapping(Session& session, int pattern, const Location& where) {
   warp::Mapping mapping;
   mapping.shape = *shape;
   return mapping;
-}
-
-Vec3 orientation(Session& session, const Quantity& value, const Location& where) {
-  const Vec3 vector = session.vector(value, where);
-  if (vector == Vec3(0)) session.fail(where, "this orientation has no direction");
-  return vector;
 }
 
 int octaves(double number) {
@@ -403,6 +407,7 @@ TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& gi
 
 TexturePtr transformed(Session& session, const TexturePtr& texture, const Transform& next,
                        const Location& where) {
+  if (!is_finite(next)) return transformed(texture, spread_point(session, where));
   if (is_singular(next)) session.fail(where, "this transformation is singular: it has no inverse");
   return transformed(texture, next);
 }
@@ -450,16 +455,28 @@ void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, c
 }
 
 void transform(Fog& fog, const Transform& next) {
-  const Vec3 turned = next.direction(fog.up);
-  if (const double length = glm::length(turned); length > 0) fog.up = turned / length;
+  if (is_finite(next)) set_up(fog, next.direction(fog.up));
 }
 
-void set_up(Session& session, Fog& fog, const Quantity& up, const Location& where) {
-  const Vec3 v = session.vector(up, where);
-  if (const double length = glm::length(v); length > 0)
-    fog.up = v / length;
-  else
-    session.diagnostics.warn_once(where, "an 'up' without a direction is ignored");
+void set_up(Fog& fog, const Vec3& up) {
+  const double length = glm::length(up);
+  fog.up = length > 0 ? up / length : Vec3(0);
+}
+
+void settle(Session& session, Fog& fog, const Location& where) {
+  if (!fog.is_ground || fog.distance == 0) return;
+  const bool has_up = fog.up != Vec3(0);
+  if (has_up && fog.altitude != 0) return;
+  session.diagnostics.warn_once(where, has_up
+                                           ? "a ground fog without 'fog_alt' is black where it is"
+                                           : "a ground fog whose 'up' has no direction is black everywhere");
+  constexpr double kThick = 1e-4, kThin = 1e-10;
+  fog.is_ground = has_up;
+  fog.altitude = kThin;
+  fog.distance = kThick;
+  fog.colour = Vec3(0);
+  fog.filter = fog.transmit = 0;
+  fog.turbulence.amount = Vec3(0);
 }
 
 std::shared_ptr<RainbowDefinition> new_rainbow() {
@@ -554,11 +571,6 @@ double exponent(Session& session, double value, const Location& where) {
   return kNothingBelowWhite;
 }
 
-double accuracy(Session& session, double value, const Location& where) {
-  if (value == 0) session.fail(where, "accuracy must not be 0");
-  return std::fabs(value);
-}
-
 double ior(Session& session, double value, const Location& where) {
   if (value != 0) return value;
   session.diagnostics.warn_once(where, "an ior of 0 counts as 1: nothing is refracted");
@@ -624,9 +636,40 @@ void append_argument(Session& session, WrittenShape& written, const ShapeArgumen
     append(session, written.arguments, argument, argument.where);
 }
 
+namespace {
+
+/// Makes a cone with a radius below 0 the two that meet in its apex, or one with radii above.
+void split_cone(Session& session, ObjectDefinition& object, const Cone& cone, const Location& where) {
+  const double base = std::fabs(cone.base_radius), cap = std::fabs(cone.cap_radius);
+  if (std::max(cone.base_radius, cone.cap_radius) < std::max(base, cap))
+    session.diagnostics.warn_once(where,
+                                  "POV-Ray shows a part of this cone only: its greater radius is below 0");
+  if (cone.base_radius * cone.cap_radius >= 0) {
+    object.shape = Shape(Cone{cone.base, cone.cap, base, cap, cone.open});
+    return;
+  }
+  const Vec3 apex = cone.base + (cone.cap - cone.base) * (base / (base + cap));
+  Compound both;
+  for (const Cone& half :
+       {Cone{cone.base, apex, base, 0, cone.open}, Cone{apex, cone.cap, 0, cap, cone.open}}) {
+    auto part = std::make_shared<ObjectDefinition>();
+    part->shape = Shape(half);
+    nest(session, object, *part, where);
+    both.parts.push_back(std::move(part));
+  }
+  object.shape = std::make_shared<const Compound>(std::move(both));
+}
+
+} // namespace
+
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written) {
   auto object = std::make_shared<ObjectDefinition>();
-  object->shape = read_shape(session, written);
+  Shape shape = read_shape(session, written);
+  const auto* cone = std::get_if<Cone>(&shape);
+  if (cone != nullptr && (cone->base_radius < 0 || cone->cap_radius < 0))
+    split_cone(session, *object, *cone, written.where);
+  else
+    object->shape = std::move(shape);
   return object;
 }
 
@@ -730,6 +773,8 @@ lone_triangle(Session& session, std::shared_ptr<TriangleDefinition> triangle, co
 void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,
                   const Location& where) {
   session.builder.count_triangles(1, where);
+  if (!triangle.is_finite())
+    session.diagnostics.warn_once(where, "this triangle is flat or left out: a number of it is not finite");
   try {
     builder.add(triangle);
   } catch (const InputError& error) {
@@ -749,14 +794,16 @@ void set_coordinates(Session& session, TriangleDefinition& triangle, const std::
   triangle.is_mapped = true;
   for (std::size_t i = 0; i < 3; ++i) {
     triangle.coordinates[i] = Vec2f(uv[i]);
-    if (!std::isfinite(triangle.coordinates[i].x) || !std::isfinite(triangle.coordinates[i].y))
-      session.fail(where, "this number is not finite");
+    if (std::isfinite(triangle.coordinates[i].x) && std::isfinite(triangle.coordinates[i].y)) continue;
+    session.diagnostics.warn_once(where, "surface coordinates that are not finite count as 0");
+    triangle.coordinates[i] = Vec2f(0);
   }
 }
 
-Vec3 inside_vector(const Session& session, const Quantity& vector, const Location& where) {
-  if (!vector.is_finite()) session.fail(where, "this inside_vector is not finite");
-  return session.vector(vector, where);
+Vec3 inside_vector(Session& session, const Quantity& vector, const Location& where) {
+  if (vector.is_finite()) return vector.vec3();
+  session.diagnostics.warn_once(where, "an inside_vector that is not finite is ignored");
+  return Vec3(0);
 }
 
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where) {
@@ -805,7 +852,9 @@ CountedList vectors(Session& session, std::vector<ListEntry>& list, const Locati
   CountedList result = counted(session, list, where);
   for (const ListEntry& entry : result) {
     session.tokens.spend(1);
-    require_finite(session, entry, where);
+    if (!is_finite(entry.v))
+      session.diagnostics.warn_once(where, "a vector of this mesh is not finite: triangles that have its "
+                                           "place are left out, those that have its normal are flat");
   }
   return result;
 }

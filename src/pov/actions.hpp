@@ -99,8 +99,8 @@ PatternChange option(int number, const Quantity& value, const Location& where);
 /// `constant`: Julia's, or null for the Mandelbrot set. `magnet`: 0, 1 or 2.
 PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
                       const Location& where);
-/// As many as can be counted; fails below 1.
-int fractal_iterations(Session& session, double number, const Location& where);
+/// Gives a fractal as many iterations as can be counted. With less than 0 POV-Ray has 0.5 everywhere.
+void set_iterations(Session& session, pattern::Kind& kind, double number, const Location& where);
 /// Of the magnet's kind, `pattern` being the Mandelbrot set.
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
                      const Location& where);
@@ -127,7 +127,6 @@ Vec3 offset(Session& session, int option, const Quantity& value, const Location&
 /// Of a pattern's word.
 warp::Mapping mapping(Session& session, int pattern, const Location& where);
 /// Fails unless it has a length.
-Vec3 orientation(Session& session, const Quantity& value, const Location& where);
 double positive(Session& session, double value, const char* what, const Location& where);
 int octaves(double number);
 /// 0: the scene's.
@@ -163,8 +162,10 @@ bool is_ground_fog(Session& session, double type, const Location& where);
 void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, const Location& where);
 /// As in POV-Ray, only the direction of its heights turns.
 void transform(Fog& fog, const Transform& next);
-/// Ignores one without a direction.
-void set_up(Session& session, Fog& fog, const Quantity& up, const Location& where);
+/// 0 if it has no direction.
+void set_up(Fog& fog, const Vec3& up);
+/// Makes a complete fog black where POV-Ray divides by zero for it.
+void settle(Session& session, Fog& fog, const Location& where);
 
 // Textures as they were before version 3.0 (old_textures.cpp)
 
@@ -224,7 +225,8 @@ TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit&
 
 // Fail if a pattern lacks what it needs.
 void check(Session& session, const PigmentDefinition& pigment, const Location& where);
-void check(Session& session, const NormalDefinition& normal, const Location& where);
+/// Also settles what an `accuracy` of 0 comes to.
+void check(Session& session, NormalDefinition& normal, const Location& where);
 void check(Session& session, const TexturePtr& texture, const Location& where);
 
 /// The inside of reflection { }. What it does not say stays as the finish has it.
@@ -247,7 +249,6 @@ void settle_albedos(FinishDefinition& finish);
 void set_reflection(Finish& finish, const Vec3& colour);
 double roughness(Session& session, double value, const Location& where);
 double exponent(Session& session, double value, const Location& where);
-double accuracy(Session& session, double value, const Location& where);
 /// 1 for 0, as in POV-Ray; negative ones are taken.
 double ior(Session& session, double value, const Location& where);
 /// Nothing unless it is positive.
@@ -311,7 +312,7 @@ void set_textures(Session& session, TriangleDefinition& triangle, const std::vec
 void set_coordinates(Session& session, TriangleDefinition& triangle, const std::array<Vec3, 3>& uv,
                      const Location& where);
 /// Fails unless it is finite.
-Vec3 inside_vector(const Session& session, const Quantity& vector, const Location& where);
+Vec3 inside_vector(Session& session, const Quantity& vector, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& definition, const Location& where);
 /// Checks the count that leads a list of mesh2.

@@ -9,6 +9,7 @@
 
 #include "celltrace/error.hpp"
 #include "pov/actions.hpp"
+#include "pov/finite.hpp"
 #include "pov/patterns.hpp"
 #include "pov/session.hpp"
 #include "pov/shapes.hpp"
@@ -43,7 +44,7 @@ void set_flat_angle(Camera& camera, double degrees) {
   if (degrees == 0) return;
   const double length = glm::length(camera.direction);
   const double width = glm::length(camera.right);
-  if (length == 0) throw InputError("the camera has no direction");
+  if (length == 0) return;
   camera.direction *= width / (2 * std::tan(degrees * kRadiansPerDegree / 2)) / length;
 }
 
@@ -83,7 +84,6 @@ constexpr double kVersionOfFixedOrder = 3.5;
 /// looked-at point.
 void scale_orthographic(Camera& camera, double distance) {
   const double depth = glm::length(camera.direction);
-  if (depth == 0) throw InputError("the camera has no direction");
   camera.right *= distance / depth;
   camera.up *= distance / depth;
 }
@@ -117,8 +117,19 @@ void warn_of_sky(Session& session, const CameraDefinition& camera) {
                                   "this camera looks along its 'sky': it keeps the 'right' that it has");
 }
 
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+/// Whether its rays have one, in a camera's place. Those of a camera without a `direction` have that of the
+/// picture's points: one that is next to nothing leaves them and makes the picture's middle no exception.
+bool has_direction(Camera& camera) {
+  constexpr double kNextToNothing = 1e-6;
+  if (!is_finite(camera.location) || !is_finite(camera.direction) || !is_finite(camera.right) ||
+      !is_finite(camera.up))
+    return false;
+  if (glm::length(camera.direction) > 0) return true;
+  const Vec3 forward = glm::cross(camera.right, camera.up);
+  const double area = glm::length(forward);
+  if (area == 0) return false;
+  camera.direction = forward * (kNextToNothing * glm::length(camera.up) / area);
+  return true;
 }
 
 } // namespace
@@ -165,6 +176,10 @@ void set_angles(Session& session, CameraDefinition& camera, double angle, double
 }
 
 void set_angle(Session& session, CameraDefinition& camera, double angle, const Location& where) {
+  if (!std::isfinite(angle)) {
+    session.diagnostics.warn_once(where, "an angle that is not finite is ignored");
+    return;
+  }
   camera.angle = angle;
   camera.vertical_angle.reset();
   if (!camera.acts_at_once || !is_flat(camera.kind)) return;
@@ -221,7 +236,7 @@ std::shared_ptr<CameraDefinition> start_camera(Session& session, const CameraDef
   if (from.acts_at_once || !session.builder.is_before(kVersionOfFixedOrder)) return camera;
   camera->acts_at_once = true;
   try {
-    set_view(*camera, from.finish());
+    if (const std::optional<Camera> view = from.finish()) set_view(*camera, *view);
   } catch (const InputError& error) {
     session.fail(where, error.what());
   }
@@ -234,7 +249,7 @@ UnsupportedPtr CameraDefinition::first_unsupported() const {
   return make_unsupported("'aperture'", aperture_where);
 }
 
-Camera CameraDefinition::finish() const {
+std::optional<Camera> CameraDefinition::finish() const {
   Camera camera = view_of(*this);
   camera.kind = kind;
   if (!is_flat(kind)) {
@@ -243,6 +258,10 @@ Camera CameraDefinition::finish() const {
     if (camera.angle < 0 || camera.vertical_angle < 0)
       throw InputError("a camera's angle must not be negative");
   }
+  const bool has_depth = glm::length(direction) != 0;
+  const bool needs_depth = kind == Camera::Kind::orthographic || kind == Camera::Kind::spherical ||
+                           (is_flat(kind) && angle.value_or(0) != 0);
+  if (needs_depth && !has_depth) return std::nullopt;
   if (!acts_at_once) {
     if (angle && is_flat(kind)) set_flat_angle(camera, *angle);
     if (look_at) turn(camera, *look_at, sky);
@@ -250,9 +269,7 @@ Camera CameraDefinition::finish() const {
       scale_orthographic(camera, glm::length(look_at.value_or(kDefaultLookAt) - location));
     move(camera, transform);
   }
-  if (!is_finite(camera.location) || !is_finite(camera.direction) || !is_finite(camera.right) ||
-      !is_finite(camera.up) || glm::length(camera.direction) == 0)
-    throw InputError("the camera has no direction");
+  if (!has_direction(camera)) return std::nullopt;
   // A picture that is a line or a point; a Scene's cameras have axes that are not 0.
   constexpr double kNearlyNothing = 1e-300;
   for (Vec3* axis : {&camera.right, &camera.up})

@@ -28,8 +28,8 @@ struct CameraDefinition {
   std::optional<Vec3> up;
   std::optional<Vec3> look_at;
   Location look_at_where;
-  std::optional<double> angle;          ///< horizontal, in degrees
-  std::optional<double> vertical_angle; ///< in degrees
+  std::optional<double> angle;           ///< horizontal, in degrees
+  std::optional<double> vertical_angle;  ///< in degrees
   double aperture = 0, blur_samples = 0; ///< there is focal blur if neither is 0
   Location aperture_where;
   Transform transform;
@@ -37,9 +37,9 @@ struct CameraDefinition {
   Location where;
 
   UnsupportedPtr first_unsupported() const;
-  /// Throws InputError, without a position, if the camera has no view: an angle of 180 degrees or more, no
-  /// direction.
-  Camera finish() const;
+  /// Nothing if no ray of the camera has a direction: it sees the background alone. Throws InputError,
+  /// without a position, if its angle is 180 degrees or more, or negative.
+  std::optional<Camera> finish() const;
 };
 
 /// One that starts as another, or as the default, where the scene has got to.

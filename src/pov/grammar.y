@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before. Among an object's modifiers a colour's name is one only where no number can be.
-%expect 352
+%expect 356
 
 %code requires {
 #include "pov/actions.hpp"
@@ -166,7 +166,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::shared_ptr<TriangleDefinition>> triangle plain_triangle triangle_vertices mapped_triangle
 %nterm <bool> albedo photons photon_items
 %nterm <NameId> variable
-%nterm <double> number component optional_number second_number flag entry_start
+%nterm <double> number number_or_0 component optional_number second_number flag entry_start
 %nterm <std::shared_ptr<Spline>> spline_head spline
 %nterm <double Light::*> beam_number
 %nterm <UnsupportedPtr> unsupported unsupported_pattern unsupported_modifier
@@ -368,6 +368,10 @@ number
   : quantity               { $$ = session.number($1, @1); }
   ;
 
+number_or_0 // if it is not finite
+  : quantity               { $$ = session.number_or_0($1, @1); }
+  ;
+
 optional_number // 1 if not there
   : %empty                 { $$ = 1; }
   | number
@@ -478,9 +482,9 @@ colour_or_black // a keyword alone is one with black, as in POV-Ray
 
 // ---- Transformations ----
 
-transformation
-  : TRANSLATE quantity        { $$ = Transform::translate(session.vector($2, @2)); }
-  | ROTATE quantity           { $$ = Transform::rotate(session.vector($2, @2)); }
+transformation // may have numbers that are not finite: what is moved by it knows what that makes of it
+  : TRANSLATE quantity        { $$ = Transform::translate($2.vec3()); }
+  | ROTATE quantity           { $$ = Transform::rotate($2.vec3()); }
   | SCALE quantity            { $$ = scale(session, $2, @2); }
   | MATRIX '<' entries '>'    { $$ = matrix(session, $3, @1); }
   | TRANSFORM TRANSFORM_ID    { $$ = $2; }
@@ -580,7 +584,7 @@ normal_parts
       choose($$->pattern, inside);
     }
   | normal_parts BUMP_SIZE number              { $$ = $1; $$->amount = $3; }
-  | normal_parts ACCURACY number               { $$ = $1; $$->accuracy = accuracy(session, $3, @3); }
+  | normal_parts ACCURACY number               { $$ = $1; $$->accuracy = std::fabs($3); }
   | normal_parts NORMAL_MAP normal_map         { $$ = $1; set_map(session, *$$, $3, @2); }
   | normal_parts SLOPE_MAP slope_map           { $$ = $1; $$->slopes = ascending(std::move($3)); }
   | normal_parts pattern_change                { $$ = $1; change(session, $$->pattern, $2); }
@@ -683,9 +687,9 @@ hole_warp
 
 mapping_warp
   : PATTERN                           { $$ = mapping(session, $1, @1); }
-  | PATTERN quantity optional_comma number { $$ = mapping(session, $1, @1); $$.orientation = orientation(session, $2, @2); $$.distance = $4; }
+  | PATTERN quantity optional_comma number { $$ = mapping(session, $1, @1); $$.orientation = session.vector($2, @2); $$.distance = $4; }
   | TOROIDAL                          { $$.shape = warp::Mapping::Shape::toroidal; }
-  | mapping_warp ORIENTATION quantity { $$ = $1; $$.orientation = orientation(session, $3, @3); }
+  | mapping_warp ORIENTATION quantity { $$ = $1; $$.orientation = session.vector($3, @3); }
   | mapping_warp DIST_EXP number      { $$ = $1; $$.distance_exponent = $3; }
   | mapping_warp MAJOR_RADIUS number  { $$ = $1; $$.major_radius = $3; }
   ;
@@ -811,13 +815,13 @@ finish_parts
   | finish_parts FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
   | finish_parts AMBIENT colour_or_black     { $$ = $1; $$->value.ambient = session.light($3, @3).rgb; }
   | finish_parts EMISSION colour_or_black    { $$ = $1; $$->value.emission = session.light($3, @3).rgb; }
-  | finish_parts DIFFUSE albedo number      { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
-  | finish_parts DIFFUSE albedo number ','  { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
-  | finish_parts DIFFUSE albedo number optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
+  | finish_parts DIFFUSE albedo number_or_0 { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
+  | finish_parts DIFFUSE albedo number_or_0 ',' { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
+  | finish_parts DIFFUSE albedo number_or_0 optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
   | finish_parts BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
-  | finish_parts PHONG albedo number        { $$ = $1; $$->value.phong = $4; $$->phong_is_albedo |= $3; }
+  | finish_parts PHONG albedo number_or_0   { $$ = $1; $$->value.phong = $4; $$->phong_is_albedo |= $3; }
   | finish_parts PHONG_SIZE number          { $$ = $1; $$->value.phong_size = $3; }
-  | finish_parts SPECULAR albedo number     { $$ = $1; $$->value.specular = $4; $$->specular_is_albedo |= $3; }
+  | finish_parts SPECULAR albedo number_or_0 { $$ = $1; $$->value.specular = $4; $$->specular_is_albedo |= $3; }
   | finish_parts ROUGHNESS number           { $$ = $1; $$->value.roughness = roughness(session, $3, @3); }
   | finish_parts METALLIC optional_number   { $$ = $1; $$->value.metallic = $3; }
   | finish_parts CONSERVE_ENERGY flag       { $$ = $1; $$->value.conserve_energy = $3 != 0; }
@@ -1002,19 +1006,19 @@ sky_sphere_body
   ;
 
 fog
-  : FOG '{' fog_body '}' { $$ = $3; }
+  : FOG '{' fog_body '}' { $$ = $3; settle(session, $$->value, @1); }
   ;
 
 fog_body
   : %empty                      { $$ = std::make_shared<FogDefinition>(); }
   | fog_body FOG_ID             { $$ = std::make_shared<FogDefinition>(*$2); }
   | fog_body FOG_TYPE number    { $$ = $1; $$->value.is_ground = is_ground_fog(session, $3, @3); }
-  | fog_body DISTANCE number    { $$ = $1; $$->value.distance = $3; }
+  | fog_body DISTANCE number_or_0 { $$ = $1; $$->value.distance = $3; }
   | fog_body colour_value       { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
   | fog_body repeated_colour    { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
   | fog_body FOG_OFFSET number  { $$ = $1; $$->value.offset = $3; }
   | fog_body FOG_ALT number     { $$ = $1; $$->value.altitude = $3; }
-  | fog_body UP quantity        { $$ = $1; set_up(session, $$->value, $3, @3); }
+  | fog_body UP quantity        { $$ = $1; set_up($$->value, session.vector($3, @3)); }
   | fog_body TURBULENCE quantity { $$ = $1; $$->value.turbulence.amount = session.vector($3, @3); }
   | fog_body TURB_DEPTH number  { $$ = $1; $$->value.turbulence_depth = $3; }
   | fog_body OCTAVES number     { $$ = $1; $$->value.turbulence.octaves = octaves($3); }
@@ -1103,15 +1107,18 @@ camera_body
   | camera_body CAMERA_KIND        { $$ = $1; set_kind(*$$, $2); }
   | camera_body PATTERN            { $$ = $1; set_kind_by_pattern(session, *$$, $2, @2); }
   | camera_body SHAPE number       { $$ = $1; set_kind(session, *$$, $2, $3, @2); }
-  | camera_body LOCATION quantity  { $$ = $1; $$->location = session.vector($3, @3); }
-  | camera_body DIRECTION quantity { $$ = $1; $$->direction = session.vector($3, @3); }
-  | camera_body RIGHT quantity     { $$ = $1; $$->right = session.vector($3, @3); }
-  | camera_body UP quantity        { $$ = $1; $$->up = session.vector($3, @3); }
+  | camera_body LOCATION quantity  { $$ = $1; $$->location = $3.vec3(); }
+  | camera_body DIRECTION quantity { $$ = $1; $$->direction = $3.vec3(); }
+  | camera_body RIGHT quantity     { $$ = $1; $$->right = $3.vec3(); }
+  | camera_body UP quantity        { $$ = $1; $$->up = $3.vec3(); }
   | camera_body SKY quantity       { $$ = $1; $$->sky = session.vector($3, @3); }
-  | camera_body LOOK_AT quantity   { $$ = $1; set_look_at(session, *$$, session.vector($3, @3), @2); }
+  | camera_body LOOK_AT quantity   { $$ = $1; set_look_at(session, *$$, $3.vec3(), @2); }
   | camera_body ANGLE              { $$ = $1; set_no_angle(session, *$$, @2); }
-  | camera_body ANGLE number       { $$ = $1; set_angle(session, *$$, $3, @2); }
-  | camera_body ANGLE number optional_comma number { $$ = $1; set_angles(session, *$$, $3, $5, @5); }
+  | camera_body ANGLE quantity     { $$ = $1; set_angle(session, *$$, session.any_number($3, @3), @2); }
+  | camera_body ANGLE quantity optional_comma number {
+      $$ = $1;
+      set_angles(session, *$$, session.number($3, @3), $5, @5);
+    }
   | camera_body APERTURE number    { $$ = $1; $$->aperture = $3; $$->aperture_where = @2; }
   | camera_body BLUR_SAMPLES number { $$ = $1; $$->blur_samples = $3; }
   | camera_body BLUR_SAMPLES number optional_comma number { $$ = $1; $$->blur_samples = $5; }
@@ -1282,9 +1289,9 @@ limits // of where an object is; they can be moved together
 
 light_body // what comes later applies to what is there by then
   : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = light(session, *$3, @3); }
-  | LIGHT_SOURCE '{' quantity                             { $$ = light(session, session.vector($3, @3), Vec3(0)); }
+  | LIGHT_SOURCE '{' quantity                             { $$ = light(session, $3.vec3(), Vec3(0)); }
   | LIGHT_SOURCE '{' quantity optional_comma colour_value {
-      $$ = light(session, session.vector($3, @3), session.light($5, @5).rgb);
+      $$ = light(session, $3.vec3(), session.light($5, @5).rgb);
     }
   | light_body SPOTLIGHT                                  { $$ = $1; set_kind(*$$, Light::Kind::spotlight); }
   | light_body SHAPE                                      { $$ = $1; set_kind(session, *$$, $2, @2); }
@@ -1292,8 +1299,8 @@ light_body // what comes later applies to what is there by then
   | light_body SHADOWLESS                                 { $$ = $1; set_shadowless(*$$); }
   | light_body POINT_AT quantity                          { $$ = $1; set_point_at(session, *$$, $3, @2); }
   | light_body beam_number number                         { $$ = $1; set_beam(session, *$$, $2, $3, @2); }
-  | light_body FADE_DISTANCE number                       { $$ = $1; light_of(*$$).fade_distance = $3; }
-  | light_body FADE_POWER number                          { $$ = $1; light_of(*$$).fade_power = $3; }
+  | light_body FADE_DISTANCE number_or_0                    { $$ = $1; light_of(*$$).fade_distance = $3; }
+  | light_body FADE_POWER number_or_0                       { $$ = $1; light_of(*$$).fade_power = $3; }
   | light_body object_body '}'                            { $$ = $1; add_object(session, *$$, $2, @2); }
   | light_body AREA_LIGHT quantity optional_comma quantity optional_comma number optional_comma number {
       $$ = $1;
@@ -1337,20 +1344,20 @@ plain_triangle
 mapped_triangle
   : triangle_vertices UV_VECTORS quantity optional_comma quantity optional_comma quantity {
       $$ = $1;
-      set_coordinates(session, *$$, {session.vector($3, @3), session.vector($5, @5), session.vector($7, @7)}, @2);
+      set_coordinates(session, *$$, {$3.vec3(), $5.vec3(), $7.vec3()}, @2);
     }
   ;
 
 triangle_vertices
   : TRIANGLE '{' quantity optional_comma quantity optional_comma quantity {
       $$ = std::make_shared<TriangleDefinition>();
-      $$->vertices = {session.vector($3, @3), session.vector($5, @5), session.vector($7, @7)};
+      $$->vertices = {$3.vec3(), $5.vec3(), $7.vec3()};
     }
   | SMOOTH_TRIANGLE '{' quantity optional_comma quantity optional_comma quantity optional_comma
                         quantity optional_comma quantity optional_comma quantity {
       $$ = std::make_shared<TriangleDefinition>();
-      $$->vertices = {session.vector($3, @3), session.vector($7, @7), session.vector($11, @11)};
-      $$->normals = {session.vector($5, @5), session.vector($9, @9), session.vector($13, @13)};
+      $$->vertices = {$3.vec3(), $7.vec3(), $11.vec3()};
+      $$->normals = {$5.vec3(), $9.vec3(), $13.vec3()};
       $$->is_smooth = true;
     }
   ;

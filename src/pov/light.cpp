@@ -112,7 +112,7 @@ void set_point_at(Session& session, ObjectDefinition& object, const Quantity& po
   Light& light = light_of(object);
   if (light.kind == Light::Kind::point && !light.parallel)
     session.fail(where, "only a spotlight, cylinder or parallel light points at something");
-  light.point_at = session.vector(point, where);
+  light.point_at = point.vec3();
 }
 
 void set_beam(Session& session, ObjectDefinition& object, double Light::*number, double value,

@@ -77,8 +77,26 @@ std::shared_ptr<const MapDefinition<T>> map_for(Session& session, const PatternD
   if (!pattern.exists()) session.fail(where, "a map needs a pattern in front of it");
   if (pattern.list_length() > 0) session.fail(where, "this pattern takes a list, not a map");
   if (!pattern.is_average()) return ascending(map);
-  if (total_weight(map) == 0) session.fail(where, "the weights of this average add up to 0");
   return std::make_shared<const MapDefinition<T>>(map);
+}
+
+/// The list of what a map of colours has for the numbers of its entries.
+PigmentMap list_of(const PigmentMap& map, std::size_t length) {
+  auto entries = map.entries;
+  make_ascending(entries);
+  PigmentMap list = map;
+  list.entries.clear();
+  for (std::size_t i = 0; i < length; ++i) {
+    const auto number = static_cast<double>(i);
+    const auto above = std::find_if(entries.begin(), entries.end(),
+                                    [number](const auto& entry) { return entry.position > number; });
+    auto entry = above == entries.begin() ? entries.front() : *(above - 1);
+    if (above != entries.begin() && above != entries.end())
+      set_between(entry, *(above - 1), *above,
+                  (number - entry.position) / (above->position - entry.position));
+    list.entries.push_back(entry);
+  }
+  return list;
 }
 
 /// Numbers the entries of a list.
@@ -159,19 +177,31 @@ void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map
 }
 
 void set_old_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where) {
-  if (pigment.pattern.exists())
+  if (pigment.pattern.list_length() > 0)
+    pigment.map = list_for(session, pigment.pattern, list_of(map, pigment.pattern.list_length()), where);
+  else if (pigment.pattern.exists())
     set_map(session, pigment, map, where);
   else
     pigment.map = ascending(map);
 }
 
 void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where) {
+  if (normal.pattern.is_average() && total_weight(map) == 0) {
+    session.diagnostics.warn_once(where, "an average of normals whose weights add up to 0 is black");
+    normal.pattern = {};
+    normal.is_undefined = true;
+    return;
+  }
   normal.map = map_for(session, normal.pattern, map, where);
 }
 
 TexturePtr with_map(Session& session, const TexturePtr& texture, const TextureMap& map,
                     const Location& where) {
   auto changed = std::make_shared<TextureDefinition>(*texture);
+  if (texture->pattern.is_average() && total_weight(map) == 0) {
+    session.diagnostics.warn_once(where, "an average of textures whose weights add up to 0 is black");
+    return std::make_shared<const TextureDefinition>();
+  }
   changed->map = map_for(session, texture->pattern, map, where);
   if (!changed->map) { // of a pattern that is left out
     *changed = *map.entries.front().value;
@@ -251,12 +281,14 @@ void check(Session& session, const PigmentDefinition& pigment, const Location& w
     session.fail(where, "an average needs a map");
 }
 
-void check(Session& session, const NormalDefinition& normal, const Location& where) {
+void check(Session& session, NormalDefinition& normal, const Location& where) {
   if (normal.pattern.is_average() && !normal.map && !normal.first_unsupported())
     session.fail(where, "an average needs a map");
-  const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.value().kind);
-  if (facets != nullptr && facets->coords != 0 && facets->size != 0)
-    session.fail(where, "facets have either 'coords' or 'size'");
+  if (normal.accuracy > 0) return;
+  normal.accuracy = NormalDefinition().accuracy;
+  if (!normal.pattern.exists() || normal.map || has_own_slopes(normal.pattern)) return;
+  session.diagnostics.warn_once(where, "a normal whose 'accuracy' is 0 makes its surface black");
+  normal.is_undefined = true;
 }
 
 void check(Session& session, const TexturePtr& texture, const Location& where) {

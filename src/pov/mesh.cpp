@@ -8,6 +8,7 @@
 
 #include "celltrace/error.hpp"
 #include "memory/huge_pages.hpp"
+#include "pov/finite.hpp"
 #include "pov/token_stream.hpp"
 
 namespace celltrace::pov {
@@ -28,7 +29,9 @@ Vec3f to_single(const Vec3& v) {
   return single;
 }
 
+/// Whether a triangle has no area, or a corner that is nowhere.
 bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return true;
   const Vec3 normal = glm::cross(b - a, c - a);
   return normal.x == 0 && normal.y == 0 && normal.z == 0;
 }
@@ -47,7 +50,7 @@ Vec3 unit(const Vec3& normal) {
 
 /// Whether three unit normals bend a surface.
 bool are_smooth(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return !(a == b && b == c);
+  return !(a == b && b == c) && is_finite(a) && is_finite(b) && is_finite(c);
 }
 
 /// All digits of a number that has not too many of them.
@@ -62,10 +65,6 @@ Index to_index(double value, std::size_t count, const char* what) {
     throw InputError(std::string("mesh2 has no ") + what + ' ' + whole_text(whole) + ", there are " +
                      std::to_string(count));
   return static_cast<Index>(whole);
-}
-
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 void to_indices(const ListEntry& entry, std::size_t count, const char* what, Index (&indices)[3]) {
@@ -100,7 +99,8 @@ void add_coordinates(const Mesh2Definition& definition, std::size_t face, const 
     to_indices(definition.uv_indices[face], definition.uv_vectors.size(), "uv vector", indices);
   Mesh::Coordinates& coordinates = mesh.coordinates.emplace_back();
   for (int corner = 0; corner < 3; ++corner) {
-    const Vec3f single = to_single(definition.uv_vectors[indices[corner]].v);
+    const Vec3& uv = definition.uv_vectors[indices[corner]].v;
+    const Vec3f single = is_finite(uv) ? to_single(uv) : Vec3f(0);
     coordinates.corner[corner] = {single.x, single.y};
   }
 }
@@ -155,7 +155,15 @@ TriangleDefinition TriangleDefinition::transformed(const Transform& transform) c
   return result;
 }
 
+bool TriangleDefinition::is_finite() const {
+  const auto are_finite = [](const std::array<Vec3, 3>& vectors) {
+    return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return pov::is_finite(v); });
+  };
+  return are_finite(vertices) && are_finite(normals);
+}
+
 bool TriangleDefinition::is_shown_alone() const {
+  if (!is_finite()) return false;
   if (!is_smooth) return true;
   const Vec3 across = glm::cross(vertices[1] - vertices[0], vertices[2] - vertices[0]);
   int sides = 0;
@@ -232,14 +240,14 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStrea
   reserve(mesh.vertices, vertices.size());
   for (const ListEntry& vertex : vertices) {
     tokens.spend(1);
-    mesh.vertices.push_back(to_single(vertex.v));
+    mesh.vertices.push_back(is_finite(vertex.v) ? to_single(vertex.v) : Vec3f(0));
   }
   definition.vertex_vectors = {};
   tokens.look();
   reserve(mesh.normals, definition.normal_vectors.size());
   for (const ListEntry& normal : definition.normal_vectors) {
     tokens.spend(1);
-    mesh.normals.push_back(to_single(normal.v));
+    mesh.normals.push_back(is_finite(normal.v) ? to_single(normal.v) : Vec3f(1, 0, 0));
   }
   result->textures = std::move(definition.textures);
   return result;

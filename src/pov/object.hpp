@@ -61,8 +61,9 @@ struct TriangleDefinition {
   bool is_mapped = false;             ///< it has such
   std::array<TexturePtr, 3> textures; ///< at its corners; null: the mesh's
 
-  /// POV-Ray leaves a triangle that stands alone out if one of its normals is zero, or if they are not all on
-  /// one side of it.
+  bool is_finite() const;
+  /// POV-Ray leaves a triangle that stands alone out if one of its normals is zero or not finite, or if they
+  /// are not all on one side of it.
   bool is_shown_alone() const;
   /// As POV-Ray moves a triangle that stands alone: its normals, too, corner by corner.
   TriangleDefinition transformed(const Transform& transform) const;

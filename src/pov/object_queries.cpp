@@ -1,10 +1,12 @@
 #include "pov/object_queries.hpp"
+#include "pov/finite.hpp"
 
 #include <algorithm>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "pov/finite.hpp"
 #include "pov/patterns.hpp"
 #include "pov/session.hpp"
 #include "scene/mesh_geometry.hpp"
@@ -93,6 +95,7 @@ bool contains(const Query& query, const Compound& compound, const Vec3& p) {
 
 bool contains(const Query& query, const ObjectDefinition& object, const Vec3& point) {
   query.count(1);
+  if (!is_finite(object.transform)) return false;
   for (const Limit& limit : object.clipped_by)
     if (!contains(query, limiting(limit), point)) return false;
   const Vec3 p = back(query, object).point(point);
@@ -137,6 +140,7 @@ void cross(const Query& query, const Compound& compound, const Ray& ray, Crossin
 
 void cross(const Query& query, const ObjectDefinition& object, const Ray& ray, Crossings& found) {
   query.count(1);
+  if (!is_finite(object.transform)) return;
   const Transform inverse = back(query, object);
   const Ray local{inverse.point(ray.origin), inverse.direction(ray.direction)};
   Crossings own;

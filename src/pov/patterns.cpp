@@ -4,10 +4,12 @@
 #include <cmath>
 #include <iterator>
 #include <string>
+#include <string_view>
 
 #include <glm/geometric.hpp>
 
 #include "pov/actions.hpp"
+#include "pov/finite.hpp"
 #include "pov/session.hpp"
 
 namespace celltrace::pov {
@@ -34,7 +36,7 @@ public:
 
   double number() const { return session_.number(value_, where_); }
   Vec3 vector() const { return session_.vector(value_, where_); }
-  int iterations() const { return fractal_iterations(session_, number(), where_); }
+  void set_iterations(Kind& kind) const { pov::set_iterations(session_, kind, number(), where_); }
   void require(bool condition, const char* what) const {
     if (!condition) session_.fail(where_, what);
   }
@@ -76,9 +78,20 @@ void set_direction(Kind& kind, const Argument& a) {
     return;
   }
   a.warn("a gradient without a direction is 0 everywhere");
-  Crackle nothing;
-  std::fill(std::begin(nothing.form), std::end(nothing.form), 0.0);
-  kind = nothing;
+  kind = constant_kind(0);
+}
+
+/// Facets have one of `coords` and `size`: the first if both are said.
+void set_coords(Kind& kind, const Argument& a) {
+  auto& facets = std::get<Facets>(kind);
+  facets.coords = a.number();
+  if (facets.coords != 0) facets.size = 0;
+}
+
+void set_size(Kind& kind, const Argument& a) {
+  auto& facets = std::get<Facets>(kind);
+  const double size = a.number();
+  if (facets.coords == 0) facets.size = size;
 }
 
 void set_arms(Kind& kind, const Argument& a) {
@@ -111,7 +124,7 @@ void set_metric(Kind& kind, const Argument& a) {
 }
 
 void set_iterations(Kind& kind, const Argument& a) {
-  std::get<Fractal>(kind).iterations = a.iterations();
+  a.set_iterations(kind);
 }
 
 void set_form(Kind& kind, const Argument& a) {
@@ -185,8 +198,7 @@ const PatternEntry kPatterns[] = {
      Wave::ramp,
      kGrey,
      nullptr,
-     {{"coords", [](Kind& kind, const Argument& a) { std::get<Facets>(kind).coords = a.number(); }},
-      {"size", [](Kind& kind, const Argument& a) { std::get<Facets>(kind).size = a.number(); }}}},
+     {{"coords", set_coords}, {"size", set_size}}},
     {"gradient", make<Gradient>, kArgument, Wave::ramp, kGrey, set_direction},
     {"granite", make<Granite>},
     {"hexagon", make<Hexagon>, kList, Wave::ramp, {{0, kBlue}, {1, kGreen}, {2, kRed}}},
@@ -315,6 +327,20 @@ bool asks_for_surface(const PatternDefinition& pattern) {
                               std::holds_alternative<Slope>(pattern.value().kind));
 }
 
+pattern::Kind constant_kind(double value) {
+  Crackle constant;
+  std::fill(std::begin(constant.form), std::end(constant.form), 0.0);
+  constant.offset = value;
+  return constant;
+}
+
+bool has_own_slopes(const PatternDefinition& pattern) {
+  static constexpr std::string_view kWords[] = {"bumps",   "dents", "facets",  "quilted",
+                                                "ripples", "waves", "wrinkles"};
+  return pattern.exists() &&
+         std::find(std::begin(kWords), std::end(kWords), entry_of(pattern).word) != std::end(kWords);
+}
+
 bool is_on_surface(const PatternDefinition& pattern) {
   return pattern.exists() && pattern.value().uv_mapping;
 }
@@ -356,8 +382,15 @@ bool is_singular(const Transform& transform) {
   return determinant == 0 || !std::isfinite(determinant) || !std::isfinite(1 / determinant);
 }
 
+Transform spread_point(Session& session, const Location& where) {
+  constexpr double kSize = 1e12, kPlace = 1e-4; // of space, and in it
+  session.diagnostics.warn_once(where, "this pattern is at no finite place: all of it is like one point");
+  return Transform::translate(Vec3(-kPlace)).then(Transform::scale(Vec3(kSize)));
+}
+
 void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where) {
   if (is_on_surface(pattern)) return;
+  if (!is_finite(next)) return move(session, pattern, spread_point(session, where), where);
   std::vector<SpaceStep>& space = pattern.own().space;
   if (space.empty() || !std::holds_alternative<Transform>(space.back())) check_steps(session, pattern, where);
   append(space, next);

@@ -80,6 +80,10 @@ void set_option(Session& session, PatternDefinition& pattern, int option, const 
 /// Moves the pattern, after everything that was done to its space before. Fails if there is no way back.
 void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where);
 void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, const Location& where);
+/// A pattern that has the same value everywhere.
+pattern::Kind constant_kind(double value);
+/// Whether normals of it do not come from values nearby.
+bool has_own_slopes(const PatternDefinition& pattern);
 /// Makes it one of a kind that only one word stands for.
 void choose(PatternDefinition& pattern, const pattern::Kind& kind);
 /// The number of the pattern of such a kind.
@@ -92,5 +96,8 @@ std::optional<warp::Mapping::Shape> mapping_shape(int number);
 /// Adds a transformation to what is done to a space.
 void append(std::vector<SpaceStep>& space, const Transform& next);
 bool is_singular(const Transform& transform);
+/// Warns of a pattern that is moved to no finite place, and returns what moves it instead: one point of it is
+/// everywhere then, nearly its origin.
+Transform spread_point(Session& session, const Location& where);
 
 } // namespace celltrace::pov

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "pov/finite.hpp"
 #include "pov/light.hpp"
 #include "pov/mesh.hpp"
 #include "pov/shapes.hpp"
@@ -199,6 +200,11 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
     place_look(*light, std::move(own), where);
     return std::nullopt;
   }
+  const bool is_somewhere = is_finite(own.transform);
+  if (!is_somewhere) {
+    diagnostics_.warn_once(object.where, "this object is at no finite place: it is left out");
+    if (!own.inside) return std::nullopt;
+  }
   Object made;
   made.transform = around.is_part ? object.transform : own.transform;
   made.no_shadow = own.no_shadow;
@@ -207,6 +213,14 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
   made.inverse = object.inverse;
   made.is_lit_through = own.is_lit_through;
   made.light_group = own.light_group;
+  if (!is_somewhere) {
+    made.transform = Transform();
+    made.shape = Sphere{{0, 0, 0}, 0};
+    if (around.clips) return made;
+    made.material = material_index(default_texture, {}, where);
+    made.interior = interior_of(own);
+    return made;
+  }
   if (const Compound* parts = compound(object)) {
     if (!own.inside || parts->operation != Operation::union_) own.inside = name_of(object);
     const auto csg = make_csg(*parts, std::move(own), where);
@@ -356,8 +370,11 @@ std::vector<Index> SceneBuilder::add_light(const LightDefinition& definition, co
   light = moved(light, own.transform);
   if (light.area && light.area->circular && (light.area->columns == 1 || light.area->rows == 1))
     diagnostics_.fail(where, "a circular area light has more than one place along each side");
-  if (!Quantity::vector(light.location).is_finite() || !Quantity::vector(light.point_at).is_finite())
-    diagnostics_.fail(where, "this light is not at a finite place");
+  if (!is_finite(light.location) || !is_finite(light.point_at)) {
+    diagnostics_.warn_once(where, "this light is not at a finite place, or does not shine at one: it is left "
+                                  "out");
+    return {};
+  }
   light.is_dimmed_by_fog = definition.media_attenuation && definition.media_interaction;
   if (definition.projected_through)
     light.projected_through = make_projector(*definition.projected_through, own, where);
@@ -492,6 +509,8 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
                                                           const Inherited& own, const Location& where) {
   MeshBuilder builder;
   TriangleDefinition placed = triangle.transformed(own.transform);
+  if (!triangle.is_finite())
+    diagnostics_.warn_once(where, "this triangle is left out: a number of it is not finite");
   if (own.inner_texture) turn_outside(placed);
   // As all shapes without surface coordinates of their own.
   if (own.texture && (own.uv_mapping || own.texture->asks_for_surface())) {
@@ -582,6 +601,7 @@ Index SceneBuilder::add_material(const TextureDefinition& texture, const Locatio
 Material SceneBuilder::make_material(const TextureDefinition& texture, const Location& where) {
   diagnostics_.supports(texture.first_unsupported(), where);
   Material material;
+  if (texture.normal && texture.normal->is_undefined) return material;
   if (texture.map) {
     auto map = std::make_shared<PatternMap<Material>>();
     map->pattern = texture.pattern.value();

@@ -118,6 +118,14 @@ int SceneBuilder::noise_generator() const {
   return noise_generator_.value_or(version_.value_or(kVersionIfNoneGiven) < kVersionOfNoise ? 1 : 2);
 }
 
+void SceneBuilder::show_background(const Location& where) {
+  diagnostics_.warn_once(where, "this camera's rays have no direction: it sees nothing but the background");
+  scene_.objects.clear();
+  scene_.sky_sphere.clear();
+  scene_.fogs.clear();
+  scene_.rainbows.clear();
+}
+
 Scene SceneBuilder::finish(const std::string& name) {
   scene_.name = name;
   settle_gamma();
@@ -126,7 +134,10 @@ Scene SceneBuilder::finish(const std::string& name) {
   diagnostics_.supports(camera.first_unsupported(), camera.where);
   if (has_photon_targets_ && photons_) diagnostics_.supports(photons_, photons_->where);
   try {
-    scene_.camera = camera.finish();
+    if (const std::optional<Camera> view = camera.finish())
+      scene_.camera = *view;
+    else
+      show_background(camera.where);
   } catch (const InputError& error) {
     diagnostics_.fail(camera.where, error.what());
   }

@@ -154,6 +154,7 @@ private:
   };
 
   void settle_gamma();
+  void show_background(const Location& where);
 
   const ParseLimits& limits_;
   Diagnostics& diagnostics_;

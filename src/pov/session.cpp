@@ -52,9 +52,19 @@ Vec3 Session::corner(const Quantity& quantity, const Location& where) const {
   return vector(clamped(quantity, kFarthest), where);
 }
 
-Pigment Session::light(const Quantity& quantity, const Location& where) const {
+Pigment Session::light(const Quantity& quantity, const Location& where) {
   constexpr double kBrightest = 1e20; // so that what a surface makes of it is a number, too
-  return colour(clamped(quantity, kBrightest), where);
+  Quantity colour = clamped(quantity, kBrightest);
+  if (colour.is_finite()) return colour.pigment();
+  diagnostics.warn_once(where, "this colour is not a number: it counts as black");
+  return {};
+}
+
+double Session::number_or_0(const Quantity& quantity, const Location& where) {
+  const double value = any_number(quantity, where);
+  if (std::isfinite(value)) return value;
+  diagnostics.warn_once(where, "this number is not finite: it counts as 0");
+  return 0;
 }
 
 Pigment Session::surface(const Quantity& quantity) const {

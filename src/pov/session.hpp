@@ -63,8 +63,10 @@ struct Session {
   double any_number(const Quantity& quantity, const Location& where) const;
   /// A corner: as far away as boxes reach where it is infinite.
   Vec3 corner(const Quantity& quantity, const Location& where) const;
-  /// A colour of light: as bright as can be where it is infinite.
-  Pigment light(const Quantity& quantity, const Location& where) const;
+  /// A colour of light: as bright as can be where it is infinite, and none of what is no number.
+  Pigment light(const Quantity& quantity, const Location& where);
+  /// A number that counts as 0 if it is not finite.
+  double number_or_0(const Quantity& quantity, const Location& where);
   /// A colour of surfaces: none where it is not finite, and black if what it lets through is not.
   Pigment surface(const Quantity& quantity) const;
 

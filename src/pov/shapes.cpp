@@ -69,7 +69,6 @@ Shape read_box(const Arguments& a) {
 Shape read_cone(const Arguments& a) {
   const Cone cone{a.vector(0), a.vector(2), a.number(1), a.number(3), a.is_open()};
   a.require(glm::distance(cone.base, cone.cap) >= kShortest, "this cone's ends are the same point");
-  a.require(cone.base_radius >= 0 && cone.cap_radius >= 0, "a cone's radii must not be negative");
   return cone;
 }
 
@@ -154,7 +153,11 @@ Shape read_sphere(const Arguments& a) {
 
 Shape read_superellipsoid(const Arguments& a) {
   const Vec3 exponents = a.vector(0);
-  a.require(exponents.x >= 0 && exponents.y >= 0, "a superellipsoid's exponents must not be negative");
+  if (exponents.y < 0) {
+    a.warn("there is nothing to see of a superellipsoid whose second exponent is negative");
+    return Sphere{{0, 0, 0}, 0};
+  }
+  a.require(exponents.x >= 0, "a superellipsoid's first exponent must not be negative");
   return Superellipsoid{exponents.x, exponents.y};
 }
 

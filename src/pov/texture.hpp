@@ -67,6 +67,7 @@ struct NormalDefinition {
   std::vector<SlopePoint> slopes; ///< empty: the pattern's numbers
   NormalMapPtr map;               ///< null: the pattern's own slopes
   bool uv_mapping = false;        ///< as a pigment's
+  bool is_undefined = false;      ///< what has it is black
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<NormalDefinition> counted;
 

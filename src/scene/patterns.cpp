@@ -129,8 +129,8 @@ std::uint32_t put(const pattern::Facets& facets, Parameters parameter) {
 }
 std::uint32_t put(const pattern::Fractal& fractal, Parameters parameter) {
   constexpr int kMostIterations = 65535;
-  if (fractal.iterations < 1 || fractal.iterations > kMostIterations)
-    throw InputError("a fractal's iterations are not 1 to " + std::to_string(kMostIterations));
+  if (fractal.iterations < 0 || fractal.iterations > kMostIterations)
+    throw InputError("a fractal's iterations are not 0 to " + std::to_string(kMostIterations));
   if (fractal.exponent < 2 || fractal.exponent > 33 || fractal.magnet < 0 || fractal.magnet > 2 ||
       fractal.exterior < 0 || fractal.exterior > 6 || fractal.interior < 0 || fractal.interior > 6)
     throw InputError("a fractal is of no kind that there is");

@@ -55,7 +55,6 @@ TEST_CASE("fog") {
     CHECK(fog(body).distance == 11);
     CHECK(fog(body).colour == Vec3(0, 0, 1));
   }
-  CHECK(fog("up 0").up == fog("").up);
   CHECK(fog("rotate 90*x").up.z == Approx(1));
   CHECK(parse("#declare F = fog { distance 3 } fog { F distance 4 } fog { F }").fogs.at(0).distance == 4);
   CHECK(parse("#declare F = fog { distance 3 } fog { F distance 4 } fog { F }").fogs.at(1).distance == 3);

@@ -178,3 +178,151 @@ TEST_CASE("bytes that are 0 are blanks") {
   CHECK(parse("sphere { 0, 1 } // \0\n/* \0 */ sphere { 0, 1 }"s).objects.size() == 2);
   CHECK(!error("sph\0ere { 0, 1 }"s).empty());
 }
+
+TEST_CASE("objects at no finite place are left out") {
+  for (const char* transformation :
+       {"translate 1/0", "scale 1e400", "scale 1e400 - 1e400", "rotate 1e400*y",
+        "matrix <1e400, 0,0, 0,1,0, 0,0,1, 0,0,0>", "transform { translate 1/0 inverse }"}) {
+    INFO(transformation);
+    const std::string moved = "sphere { 0, 1 " + std::string(transformation) + " }";
+    CHECK(parse(moved).objects.empty());
+    CHECK(output(moved).find("this object is at no finite place") != std::string::npos);
+    CHECK(parse("union { box { 0, 1 } " + moved + " }").objects.size() == 1);
+    CHECK(parse("difference { box { 0, 1 } " + moved + " }").objects.size() == 1);
+    CHECK(
+        parse("union { box { 0, 1 } sphere { 0, 1 } " + std::string(transformation) + " }").objects.empty());
+    CHECK(output("#debug str(inside(" + moved + ", 0), 0, 0)").back() == '0');
+  }
+}
+
+TEST_CASE("patterns at no finite place are those of one point") {
+  for (const char* move :
+       {"translate 1/0", "scale 1e400", "warp { planar 0, 0 }", "warp { spherical orientation 0 }"}) {
+    INFO(move);
+    const Pigment pigment = material("pigment { gradient x " + std::string(move) + " }").pigment;
+    REQUIRE(pigment.map);
+    const auto& space = pigment.map->pattern.space;
+    REQUIRE(space.size() == 1);
+    const Vec3 at = std::get<Transform>(space.front()).inverse().point({3, -4, 5});
+    for (int axis = 0; axis < 3; ++axis)
+      CHECK(at[axis] == Approx(1e-4));
+  }
+}
+
+TEST_CASE("lights with numbers that are not finite") {
+  for (const char* light :
+       {"light_source { <1e400, 0, 0>, rgb 1 }", "light_source { 0, rgb 1 translate 1e400 }",
+        "light_source { 0, rgb 1 spotlight point_at 1e400 }"}) {
+    INFO(light);
+    CHECK(parse(light).lights.empty());
+    CHECK(warns(light, "this light is not at a finite place"));
+  }
+  CHECK(parse("light_source { 0, rgb 1e400 - 1e400 }").lights.at(0).colour == Vec3(0));
+  CHECK(parse("light_source { 0, rgb 1 fade_distance 1e400 fade_power 2 }").lights.at(0).fade_distance == 0);
+  CHECK(parse("fog { distance 1e400 }").fogs.at(0).distance == 0);
+}
+
+TEST_CASE("cameras without a direction see nothing but the background") {
+  for (const char* camera :
+       {"location 1e400", "look_at <0, 1e400 - 1e400, 0>", "translate 1e400", "direction 0 angle 40",
+        "orthographic direction 0", "spherical direction 0", "right 0 up 0 direction 0"}) {
+    INFO(camera);
+    const std::string scene =
+        "camera { " + std::string(camera) + " } sphere { 0, 1 } sky_sphere { pigment { rgb 1 } }";
+    CHECK(parse(scene).objects.empty());
+    CHECK(parse(scene).sky_sphere.empty());
+    CHECK(warns(scene, "this camera's rays have no direction"));
+  }
+  const Camera flat = parse("camera { direction 0 }").camera;
+  CHECK(flat.direction.x == 0);
+  CHECK(flat.direction.z > 0);
+  CHECK(flat.direction.z < 1e-5);
+  CHECK(parse("camera { angle 1e400 }").camera.direction == Vec3(0, 0, 1));
+}
+
+TEST_CASE("triangles with numbers that are not finite") {
+  for (const char* triangle : {"triangle { -x, x, 1e400*y }", "triangle { -x, x, y*(1e400 - 1e400) }",
+                               "smooth_triangle { -x, -z, x, -z, y, 1e400 }"}) {
+    INFO(triangle);
+    CHECK(parse(triangle).objects.empty());
+    CHECK(warns(triangle, "this triangle is left out"));
+  }
+  const auto mesh = [](const std::string& text) {
+    return *std::get<std::shared_ptr<const Mesh>>(parse(text).objects.at(0).shape);
+  };
+  CHECK(mesh("mesh { triangle { -x, x, 1e400*y } triangle { -x, x, y } }").triangles.size() == 1);
+  CHECK(mesh("mesh { smooth_triangle { -x, -z, x, x, y, 1e400 } }").triangles.at(0).normal[0] == kNoIndex);
+  const std::string vertices = "vertex_vectors { 4, -x, x, y, 1e400*x } ";
+  CHECK(mesh("mesh2 { " + vertices + "face_indices { 2, <0, 1, 2>, <0, 1, 3> } }").triangles.size() == 1);
+  CHECK(mesh("mesh2 { " + vertices + "normal_vectors { 4, -z, x, 1e400, y } face_indices { 1, <0, 1, 2> } }")
+            .triangles.at(0)
+            .normal[0] == kNoIndex);
+  CHECK(mesh("mesh { triangle { -x, x, y } inside_vector 1e400 }").inside_vector == Vec3(0));
+}
+
+TEST_CASE("cones with a radius below 0") {
+  const auto cones = [](const std::string& text) {
+    std::vector<Cone> all;
+    for (const Object& object : parse(text).objects)
+      all.push_back(std::get<Cone>(object.shape));
+    return all;
+  };
+  const auto two = cones("cone { 0, 1, 3*y, -0.5 open }");
+  REQUIRE(two.size() == 2);
+  CHECK(two[0].base_radius == 1);
+  CHECK(two[0].cap == Vec3(0, 2, 0));
+  CHECK(two[0].cap_radius == 0);
+  CHECK(two[1].base == Vec3(0, 2, 0));
+  CHECK(two[1].cap_radius == 0.5);
+  CHECK((two[0].open && two[1].open));
+  const auto one = cones("cone { 0, -1, y, -0.5 }");
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].base_radius == 1);
+  CHECK(one[0].cap_radius == 0.5);
+  CHECK(warns("cone { 0, -1, y, 0.5 }", "POV-Ray shows a part of this cone only"));
+  CHECK(parse("superellipsoid { <1, -1> }").objects.empty());
+}
+
+TEST_CASE("fractals without iterations") {
+  CHECK(std::get<pattern::Fractal>(material("pigment { mandel 0 }").pigment.map->pattern.kind).iterations ==
+        0);
+  CHECK(std::get<pattern::Fractal>(material("pigment { julia <0, 1>, 0.5 }").pigment.map->pattern.kind)
+            .iterations == 0);
+  const Pattern constant =
+      material("pigment { magnet 1 mandel -3 exponent 3 interior 1, 1 }").pigment.map->pattern;
+  CHECK(std::get<pattern::Crackle>(constant.kind).offset == 0.55);
+}
+
+TEST_CASE("normals that are undefined make surfaces black") {
+  for (const char* normal : {"wood 1 accuracy 0", "average normal_map { [0 bumps 1] [0 wood 1] }"}) {
+    INFO(normal);
+    const Material black =
+        material("pigment { rgb 1 } finish { specular 1 } normal { " + std::string(normal) + " }");
+    CHECK(black.pigment.rgb == Vec3(0));
+    CHECK(black.finish.specular == 0);
+    CHECK(!black.normal);
+  }
+  for (const char* normal : {"bumps 1 accuracy 0", "bozo normal_map { [0 bumps 1] [1 wood 1] } accuracy 0"})
+    CHECK(material("pigment { rgb 1 } normal { " + std::string(normal) + " }").normal);
+  CHECK(material("texture { average texture_map { [0 pigment { rgb 1 }] } }").pigment.rgb == Vec3(0));
+  const auto facets = [](const std::string& text) {
+    return std::get<pattern::Facets>(material("normal { facets " + text + " }").normal->pattern.kind);
+  };
+  CHECK(facets("coords 0.3 size 0.2").size == 0);
+  CHECK(facets("size 0.2 coords 0.3").coords == 0.3);
+}
+
+TEST_CASE("ground fogs that divide by zero are black") {
+  const auto fog = [](const std::string& text) {
+    return parse("fog { fog_type 2 distance 3 rgb 1 " + text + " }").fogs.at(0);
+  };
+  const Fog low = fog("");
+  CHECK(low.is_ground);
+  CHECK(low.colour == Vec3(0));
+  CHECK(low.altitude > 0);
+  CHECK(low.distance < 1);
+  CHECK(!fog("fog_alt 1 up 0").is_ground);
+  CHECK(fog("fog_alt 1 up 0").colour == Vec3(0));
+  CHECK(fog("fog_alt 1").colour == Vec3(1));
+  CHECK(parse("fog { distance 3 rgb 1 up 0 }").fogs.at(0).colour == Vec3(1));
+}

@@ -210,7 +210,8 @@ TEST_CASE("a division by zero is infinite") {
   CHECK(scene.materials.at(1).pigment.rgb == celltrace::Vec3(0));
   CHECK(scene.materials.at(1).pigment.transmit == 0);
   CHECK(scene.lights.at(0).colour.x >= 1e20);
-  CHECK(error_line("sphere { 0, 1 scale 1e400 }") == "scene.pov:1:21: error: this number is not finite");
+  CHECK(error_line("torus { 1, 1 } global_settings { adc_bailout 1e400 }") ==
+        "scene.pov:1:46: error: this number is not finite");
 }
 
 TEST_CASE("impossible calculations are errors") {

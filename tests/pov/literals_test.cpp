@@ -175,6 +175,7 @@ std::string matrix_outcome(const std::string& numbers, std::string_view first) {
       "#declare Z = 0;\n#macro N() 7 #end\nsphere { 0, 1\n matrix <" + with_first(numbers, first) + "> }\n";
   try {
     const Scene scene = parse(text);
+    if (scene.objects.empty()) return "left out";
     std::ostringstream all;
     for (const Vec3& row : scene.objects.at(0).transform.rows)
       for (int i = 0; i < 3; ++i)
@@ -222,6 +223,7 @@ std::string cylinder_outcome(const std::string& cylinder, std::string_view first
                            with_first(cylinder, first);
   try {
     const Scene scene = parse(text);
+    if (scene.objects.empty()) return "left out";
     std::ostringstream all;
     all << std::hex << scene.materials.size();
     for (const Object& object : scene.objects) {

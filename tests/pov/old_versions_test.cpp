@@ -97,3 +97,19 @@ TEST_CASE("before version 3.5 a camera that is told to look where it is goes on 
   CHECK(scene.camera.direction == Vec3(0, 0, 1));
   CHECK(scene.camera.location == Vec3(0, 2, -6));
 }
+
+TEST_CASE("a colour_map is a list of checkers' colours before version 3.0") {
+  const auto colours = [](const std::string& texture) {
+    return parse("#version 2.0 object { sphere { <0 0 0> 1 } texture { " + texture + " } }")
+        .materials.back()
+        .pigment.map->entries;
+  };
+  const std::string map =
+      " color_map { [0 0.5 color red 1 color green 1] [0.5 1.5 color blue 1 color red 1] }";
+  const auto checker = colours("checker" + map);
+  REQUIRE(checker.size() == 2);
+  CHECK(checker[0].value.rgb == Vec3(1, 0, 0));
+  CHECK(checker[1].value.rgb == Vec3(0.5, 0, 0.5));
+  REQUIRE(colours("hexagon" + map).size() == 3);
+  CHECK(colours("hexagon" + map)[2].value.rgb == Vec3(1, 0, 0));
+}

