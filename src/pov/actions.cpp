@@ -18,6 +18,7 @@ namespace {
 constexpr int kDeepestObject = 1000;
 
 constexpr std::size_t kMostKnots = 20000; // of a spline
+constexpr int kMostType = 8;              // of what is counted of a fractal
 
 /// The number that leads a list.
 double list_count(Session& session, const std::vector<ListEntry>& list, const Location& where) {
@@ -177,6 +178,12 @@ void set_max_trace_level(Session& session, double level, const Location& where) 
   session.builder.set_max_trace_level(level >= 1 ? static_cast<int>(std::min(level, kMost)) : 1);
 }
 
+void set_adc_bailout(Session& session, double share, const Location& where) {
+  if (share > 1)
+    session.diagnostics.warn_once(where, "an adc_bailout above 1 cuts all rays: the picture is black");
+  session.builder.set_adc_bailout(share);
+}
+
 void set_noise_generator(Session& session, double number, const Location& where) {
   if (!(number >= 1 && number < 4)) session.fail(where, "there are noise generators 1, 2 and 3");
   session.builder.set_noise_generator(static_cast<int>(number));
@@ -223,24 +230,19 @@ PatternChange fractal(Session& session, double magnet, const Quantity* constant,
     fractal.c[0] = c.x;
     fractal.c[1] = c.y;
   }
-  pattern::Kind kind = fractal;
-  set_iterations(session, kind, iterations, where);
-  return [=](Session&, PatternDefinition& pattern) {
-    choose(pattern, number_of(fractal));
-    pattern.own().kind = kind;
-  };
+  set_iterations(session, fractal, iterations, where);
+  return [=](Session&, PatternDefinition& pattern) { choose(pattern, fractal); };
 }
 
-void set_iterations(Session& session, pattern::Kind& kind, double number, const Location& where) {
-  constexpr double kMost = 65535;
+void set_iterations(Session& session, pattern::Fractal& fractal, double number, const Location& where) {
+  constexpr double kMost = 65535, kBelowZero = 0.55;
   if (number <= -1) {
     session.diagnostics.warn_once(where, "a fractal with less than 0 iterations is 0.55 everywhere");
-    kind = constant_kind(0.55);
-    return;
+    fractal.interior_factor = kBelowZero;
   }
   if (number >= kMost + 1)
     session.diagnostics.warn_once(where, "this fractal has 65535 iterations, which is the most there is");
-  std::get<pattern::Fractal>(kind).iterations = static_cast<int>(std::min(number, kMost));
+  fractal.iterations = static_cast<int>(std::clamp(number, 0.0, kMost));
 }
 
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
@@ -263,12 +265,11 @@ void set_range(double& from, double& to, double least, double most) {
 
 PatternChange set_fractal(int pattern::Fractal::*member, double value, int most, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
-    if (pattern.number != number_of(pattern::Fractal()))
+    if (!std::holds_alternative<pattern::Fractal>(pattern.value().kind))
       session.fail(where, "this word means something to fractals only");
     if (!(value >= 0 && value < most + 1))
       session.fail(where, "this number must lie between 0 and " + std::to_string(most));
-    if (auto* fractal = std::get_if<pattern::Fractal>(&pattern.own().kind))
-      fractal->*member = static_cast<int>(value);
+    std::get<pattern::Fractal>(pattern.own().kind).*member = static_cast<int>(value);
   };
 }
 
@@ -284,15 +285,15 @@ PatternChange fractal_exponent(double value, const Location& where) {
 
 PatternChange exterior(double type, double factor, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
-    set_fractal(&pattern::Fractal::exterior, type, 6, where)(session, pattern);
-    if (auto* fractal = std::get_if<pattern::Fractal>(&pattern.own().kind)) fractal->exterior_factor = factor;
+    set_fractal(&pattern::Fractal::exterior, type, kMostType, where)(session, pattern);
+    std::get<pattern::Fractal>(pattern.own().kind).exterior_factor = factor;
   };
 }
 
 PatternChange interior(double type, double factor, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
-    set_fractal(&pattern::Fractal::interior, type, 6, where)(session, pattern);
-    if (auto* fractal = std::get_if<pattern::Fractal>(&pattern.own().kind)) fractal->interior_factor = factor;
+    set_fractal(&pattern::Fractal::interior, type, kMostType, where)(session, pattern);
+    std::get<pattern::Fractal>(pattern.own().kind).interior_factor = factor;
   };
 }
 

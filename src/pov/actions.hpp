@@ -79,6 +79,7 @@ void set_assumed_gamma(Session& session, double gamma, const Location& where);
 void set_assumed_gamma(Session& session, std::optional<double> gamma, const Location& where);
 void set_max_trace_level(Session& session, double level, const Location& where);
 void set_noise_generator(Session& session, double number, const Location& where);
+void set_adc_bailout(Session& session, double share, const Location& where);
 void set_number_of_waves(Session& session, double number, const Location& where);
 
 // ---- Textures ----
@@ -99,8 +100,9 @@ PatternChange option(int number, const Quantity& value, const Location& where);
 /// `constant`: Julia's, or null for the Mandelbrot set. `magnet`: 0, 1 or 2.
 PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
                       const Location& where);
-/// Gives a fractal as many iterations as can be counted. With less than 0 POV-Ray has 0.5 everywhere.
-void set_iterations(Session& session, pattern::Kind& kind, double number, const Location& where);
+/// Gives a fractal as many iterations as can be counted. With less than 0 POV-Ray has 0.55
+/// everywhere.
+void set_iterations(Session& session, pattern::Fractal& fractal, double number, const Location& where);
 /// Of the magnet's kind, `pattern` being the Mandelbrot set.
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
                      const Location& where);

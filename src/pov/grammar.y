@@ -24,6 +24,7 @@
 
 %code requires {
 #include "pov/actions.hpp"
+#include "pov/bounds_check.hpp"
 #include "pov/functions.hpp"
 #include "pov/light.hpp"
 #include "pov/object_queries.hpp"
@@ -214,7 +215,7 @@ settings
   | settings ASSUMED_GAMMA number   { set_assumed_gamma(session, $3, @3); }
   | settings ASSUMED_GAMMA SRGB     { set_assumed_gamma(session, std::nullopt, @2); }
   | settings MAX_TRACE_LEVEL number { set_max_trace_level(session, $3, @3); }
-  | settings ADC_BAILOUT number     { session.builder.set_adc_bailout($3); }
+  | settings ADC_BAILOUT number     { set_adc_bailout(session, $3, @3); }
   | settings AMBIENT_LIGHT colour_or_black { session.builder.set_ambient_light(session.light($3, @3).rgb); }
   | settings NOISE_GENERATOR number { set_noise_generator(session, $3, @3); }
   | settings IRID_WAVELENGTH colour_or_black { session.builder.set_irid_wavelength(session.colour($3, @3).rgb); }
@@ -1134,6 +1135,7 @@ object
   : object_body '}' {
       $1->where = @1;
       check(session, *$1, @1);
+      $1->reaches_out_of_bounds = reaches_out_of_bounds(session, *$1, @1);
       $$ = own_object(session, std::move($1), @1);
     }
   | light_body '}'           { $1->where = @1; $$ = $1; session.lights.pop_back(); }

@@ -93,6 +93,7 @@ struct ObjectDefinition {
   bool uv_mapping = false;           ///< its textures are on its surface coordinates,
   RareTransform transform_before_uv; ///< and only what it went through before moves them
   InteriorPtr interior;
+  bool reaches_out_of_bounds = false; ///< of what bounds it
   bool no_shadow = false;
   bool no_image = false;
   bool no_reflection = false;

@@ -1,5 +1,4 @@
 #include "pov/object_queries.hpp"
-#include "pov/finite.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -36,7 +36,7 @@ public:
 
   double number() const { return session_.number(value_, where_); }
   Vec3 vector() const { return session_.vector(value_, where_); }
-  void set_iterations(Kind& kind) const { pov::set_iterations(session_, kind, number(), where_); }
+  void set_iterations(Fractal& fractal) const { pov::set_iterations(session_, fractal, number(), where_); }
   void require(bool condition, const char* what) const {
     if (!condition) session_.fail(where_, what);
   }
@@ -78,7 +78,9 @@ void set_direction(Kind& kind, const Argument& a) {
     return;
   }
   a.warn("a gradient without a direction is 0 everywhere");
-  kind = constant_kind(0);
+  Crackle nothing;
+  std::fill(std::begin(nothing.form), std::end(nothing.form), 0.0);
+  kind = nothing;
 }
 
 /// Facets have one of `coords` and `size`: the first if both are said.
@@ -124,7 +126,7 @@ void set_metric(Kind& kind, const Argument& a) {
 }
 
 void set_iterations(Kind& kind, const Argument& a) {
-  a.set_iterations(kind);
+  a.set_iterations(std::get<Fractal>(kind));
 }
 
 void set_form(Kind& kind, const Argument& a) {
@@ -325,13 +327,6 @@ void put_on_surface(PatternDefinition& pattern) {
 bool asks_for_surface(const PatternDefinition& pattern) {
   return pattern.exists() && (pattern.value().uv_mapping || pattern.inner_asks_for_surface ||
                               std::holds_alternative<Slope>(pattern.value().kind));
-}
-
-pattern::Kind constant_kind(double value) {
-  Crackle constant;
-  std::fill(std::begin(constant.form), std::end(constant.form), 0.0);
-  constant.offset = value;
-  return constant;
 }
 
 bool has_own_slopes(const PatternDefinition& pattern) {

@@ -80,8 +80,6 @@ void set_option(Session& session, PatternDefinition& pattern, int option, const 
 /// Moves the pattern, after everything that was done to its space before. Fails if there is no way back.
 void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where);
 void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, const Location& where);
-/// A pattern that has the same value everywhere.
-pattern::Kind constant_kind(double value);
 /// Whether normals of it do not come from values nearby.
 bool has_own_slopes(const PatternDefinition& pattern);
 /// Makes it one of a kind that only one word stands for.

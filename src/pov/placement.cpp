@@ -158,6 +158,10 @@ void SceneBuilder::exceed_objects(const Location& where) const {
 SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, const Inherited& around,
                                               const Location& where) {
   diagnostics_.supports(object.unsupported, where);
+  if (object.reaches_out_of_bounds)
+    diagnostics_.warn_once(object.where,
+                           "this object reaches out of its 'bounded_by': POV-Ray cuts it off there, this "
+                           "program does not");
   has_photon_targets_ = has_photon_targets_ || object.is_photon_target;
   tokens_.spend(1); // an object that is placed may have many parts
   if (++parts_placed_ > limits_.objects) exceed_objects(where);

@@ -120,6 +120,10 @@ int SceneBuilder::noise_generator() const {
 
 void SceneBuilder::show_background(const Location& where) {
   diagnostics_.warn_once(where, "this camera's rays have no direction: it sees nothing but the background");
+  leave_background();
+}
+
+void SceneBuilder::leave_background() {
   scene_.objects.clear();
   scene_.sky_sphere.clear();
   scene_.fogs.clear();
@@ -140,6 +144,10 @@ Scene SceneBuilder::finish(const std::string& name) {
       show_background(camera.where);
   } catch (const InputError& error) {
     diagnostics_.fail(camera.where, error.what());
+  }
+  if (scene_.adc_bailout > 1) {
+    leave_background();
+    set_background({});
   }
   return std::move(scene_);
 }

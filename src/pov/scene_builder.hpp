@@ -155,6 +155,8 @@ private:
 
   void settle_gamma();
   void show_background(const Location& where);
+  /// Empties the scene.
+  void leave_background();
 
   const ParseLimits& limits_;
   Diagnostics& diagnostics_;

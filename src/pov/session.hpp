@@ -42,9 +42,10 @@ struct Session {
   std::uint64_t written_bytes = 0;                   ///< by #write
   std::vector<std::shared_ptr<DataFile>> data_files; ///< that #fopen has opened and nothing closed
   std::uint64_t shape_tests = 0;                     ///< of trace() and the like
-  TexturePtr base_texture;                           ///< what the pigment or finish being read starts from
-  InteriorPtr base_interior;                         ///< the same for an interior
-  Finish* irid = nullptr;                            ///< the finish whose irid { } is being read
+  std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
+  TexturePtr base_texture;        ///< what the pigment or finish being read starts from
+  InteriorPtr base_interior;      ///< the same for an interior
+  Finish* irid = nullptr;         ///< the finish whose irid { } is being read
   std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< being read, in each other
   std::vector<std::shared_ptr<Parser>> parsers; ///< one for each entry of the grammar, made when first needed
 

@@ -288,9 +288,11 @@ TEST_CASE("fractals without iterations") {
         0);
   CHECK(std::get<pattern::Fractal>(material("pigment { julia <0, 1>, 0.5 }").pigment.map->pattern.kind)
             .iterations == 0);
-  const Pattern constant =
-      material("pigment { magnet 1 mandel -3 exponent 3 interior 1, 1 }").pigment.map->pattern;
-  CHECK(std::get<pattern::Crackle>(constant.kind).offset == 0.55);
+  const Pattern constant = material("pigment { magnet 1 mandel -3 exponent 3 }").pigment.map->pattern;
+  CHECK(std::get<pattern::Fractal>(constant.kind).iterations == 0);
+  CHECK(std::get<pattern::Fractal>(constant.kind).interior_factor == 0.55);
+  const Pattern modulo = material("pigment { mandel 20 exterior 8, 2.5 }").pigment.map->pattern;
+  CHECK(std::get<pattern::Fractal>(modulo.kind).exterior == 8);
 }
 
 TEST_CASE("normals that are undefined make surfaces black") {
@@ -325,4 +327,36 @@ TEST_CASE("ground fogs that divide by zero are black") {
   CHECK(fog("fog_alt 1 up 0").colour == Vec3(0));
   CHECK(fog("fog_alt 1").colour == Vec3(1));
   CHECK(parse("fog { distance 3 rgb 1 up 0 }").fogs.at(0).colour == Vec3(1));
+}
+
+TEST_CASE("objects that reach out of what bounds them") {
+  const auto is_warned_of = [](const std::string& text) {
+    return output(text).find("reaches out of its 'bounded_by'") != std::string::npos;
+  };
+  for (const char* object :
+       {"sphere { 0, 1 bounded_by { box { -0.5, 0.5 } } }",
+        "sphere { 0, 1 bounded_by { sphere { 9*y, 1 } } }", "plane { y, 0 bounded_by { box { -1, 1 } } }",
+        "union { sphere { 0, 1 } box { 2, 3 } bounded_by { sphere { 0, 1.1 } } rotate 9 }",
+        "difference { box { -1, 1 } sphere { 0, 1.2 bounded_by { sphere { 0, 0.5 } } } }"}) {
+    INFO(object);
+    CHECK(is_warned_of(object));
+  }
+  for (const char* object :
+       {"sphere { 0, 1 bounded_by { box { -1, 1 } } }",
+        "box { -1, 1 bounded_by { box { -1, 1 } } rotate 20 }",
+        "plane { y, 0 clipped_by { box { -1, 1 } } bounded_by { clipped_by } }",
+        "union { sphere { 0, 1 } box { 2, 3 } bounded_by { box { -1, 3 } } }",
+        "sphere { 0, 1 bounded_by { plane { y, 0 } } }",
+        "sphere { 0, 1 bounded_by { sphere { 0, 0.5 inverse } } }",
+        "mesh { triangle { 0, x, y } bounded_by { box { 5, 6 } } }",
+        "#declare S = sphere { 0, 1 bounded_by { box { -0.5, 0.5 } } }", "sphere { 0, 1 }"}) {
+    INFO(object);
+    CHECK(!is_warned_of(object));
+  }
+}
+
+TEST_CASE("an adc_bailout above 1 makes the picture black") {
+  const Scene scene = parse("global_settings { adc_bailout 1.5 } background { rgb 1 } sphere { 0, 1 }");
+  CHECK(scene.objects.empty());
+  CHECK(scene.background == Vec3(0));
 }

@@ -1,2 +1,2 @@
-// expect: division-by-zero.pov:2:21: error: this number is not finite
-sphere { 0, 1 scale 1 / 0 }
+// expect: division-by-zero.pov:2:30: error: this number is not finite
+sphere { 0, 1 interior { ior 1 / 0 } }

@@ -1,2 +1,2 @@
-// expect: infinite-number.pov:2:21: error: this number is not finite
-sphere { 0, 1 scale 1e400 }
+// expect: infinite-number.pov:2:30: error: this number is not finite
+sphere { 0, 1 interior { ior 1e400 } }
