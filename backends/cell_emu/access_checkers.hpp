@@ -47,13 +47,14 @@ public:
   void after_leave();
 
 private:
-  const void* bottom_;
-  std::size_t bytes_;
-  unsigned valgrind_id_ = 0;
-  void* callers_fake_stack_ = nullptr;
-  void* own_fake_stack_ = nullptr;
-  const void* callers_bottom_ = nullptr;
-  std::size_t callers_bytes_ = 0;
+  // Which of these are used depends on the tools that the build knows.
+  [[maybe_unused]] const void* bottom_;
+  [[maybe_unused]] std::size_t bytes_;
+  [[maybe_unused]] unsigned valgrind_id_ = 0;
+  [[maybe_unused]] void* callers_fake_stack_ = nullptr;
+  [[maybe_unused]] void* own_fake_stack_ = nullptr;
+  [[maybe_unused]] const void* callers_bottom_ = nullptr;
+  [[maybe_unused]] std::size_t callers_bytes_ = 0;
 };
 
 } // namespace celltrace::cell_emu
