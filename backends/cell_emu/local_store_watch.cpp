@@ -10,7 +10,7 @@ namespace {
 // Pairs of words as programs of this machine read them.
 constexpr std::uint64_t kPoison = 0x7FB0DEAD'7FB0DEADu;
 constexpr std::uint32_t kInFlightWord = 0x7FB5DEADu;
-constexpr std::uint32_t kQuietAndSign = 0x80400000u;
+constexpr std::uint32_t kQuiet = 0x00400000u;
 constexpr std::uint64_t kInFlight = std::uint64_t{kInFlightWord} << 32 | kInFlightWord;
 
 void fill(std::uint8_t* at, std::uint32_t bytes, std::uint64_t pattern) {
@@ -76,7 +76,7 @@ std::optional<std::uint32_t> find_in_flight_word(const std::uint8_t* at, std::ui
   const auto is_one = [at](std::uint32_t offset) {
     std::uint32_t word;
     std::memcpy(&word, at + offset, sizeof word);
-    return (word & ~kQuietAndSign) == kInFlightWord;
+    return (word & ~kQuiet) == kInFlightWord;
   };
   std::uint32_t found = 0;
   for (std::uint32_t offset = 0; offset + 4 <= bytes; offset += 4)

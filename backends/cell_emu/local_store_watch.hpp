@@ -18,7 +18,8 @@ bool is_poison(const std::uint8_t* at, std::uint32_t bytes);
 /// 0x7FF5DEAD of it, which arithmetic hands on.
 void fill_as_in_flight(std::uint8_t* at, std::uint32_t bytes);
 bool is_as_in_flight(const std::uint8_t* at, std::uint32_t bytes);
-/// Returns the offset of the first of either word, whatever their sign, among whole words of 4 bytes.
+/// Returns the offset of the first of either word among whole words of 4 bytes. Their negatives do not count:
+/// these are opaque pixels of a light green, too.
 std::optional<std::uint32_t> find_in_flight_word(const std::uint8_t* at, std::uint32_t bytes);
 
 } // namespace celltrace::cell_emu
