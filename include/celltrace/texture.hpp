@@ -86,12 +86,12 @@ struct Crackle {
 struct Fractal {
   bool is_julia = false; ///< of `c`; otherwise each point is its own c
   double c[2] = {0, 0};
-  int iterations = 1; ///< 0 to 65535
+  int iterations = 1; ///< 1 to 65535
   int exponent = 2;   ///< 2 to 33, of z^n + c
   int magnet = 0;     ///< 1 or 2: formulas of magnetism, without exponent
-  int exterior = 1;   ///< 0 to 8
+  int exterior = 1;   ///< 0 to 6
   double exterior_factor = 1;
-  int interior = 0; ///< 0 to 8
+  int interior = 0; ///< 0 to 6
   double interior_factor = 1;
 };
 /// How much the surface faces a direction, 0 away from it to 1 toward it, by the angle; with an altitude, the
