@@ -71,7 +71,7 @@ std::optional<PictureOutcome> render_with_progress(const ReadScene& read, const 
   }
   RowCosts costs(height_of(options));
   std::optional<RenderStatistics> preparation;
-  if (visible)
+  if (visible && request.most_seconds == 0) // else there is no time to lose
     costs = measured_costs(
         renderer, options, [](double) { return !interrupted(); }, preparation);
   ProgressLine line(std::cerr, visible);

@@ -1,6 +1,7 @@
 #include "cli/row_costs.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -13,6 +14,8 @@ namespace {
 constexpr double kShare = 0.002;
 /// Other programs may hold up one part, but hardly the same one each time.
 constexpr int kTimes = 2;
+/// Pictures that take so long that this measures nothing can do without.
+constexpr std::chrono::seconds kLongest(2);
 constexpr int kFewestColumns = 4, kMostColumns = 16, kFewestParts = 6, kMostParts = 32;
 
 PictureRegion region_of(const RenderOptions& options) {
@@ -94,27 +97,33 @@ RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const 
 
   std::vector<double> costs(static_cast<std::size_t>(parts));
   bool is_complete = true;
+  const auto end = std::chrono::steady_clock::now() + kLongest;
+  const auto goes_on = [&](double) {
+    return std::chrono::steady_clock::now() < end && (!progress || progress(0));
+  };
   const auto measure = [&](const std::optional<Antialiasing>& antialiasing) {
     small.antialiasing = antialiasing;
     renderer.set_picture(small);
     std::vector<double> least;
-    for (int time = 0; time < kTimes && is_complete; ++time) {
-      const RenderResult result =
-          renderer.render_rows(0, rows, [&](double) { return !progress || progress(0); });
+    for (int time = 0; time < kTimes; ++time) {
+      const RenderResult result = renderer.render_rows(0, rows, goes_on);
       if (!preparation) preparation = result.statistics;
       is_complete = result.complete;
+      if (!is_complete) break;
       const std::vector<double> took = parts_of(*small.region, result.work);
       if (time == 0) least = took;
       std::transform(least.begin(), least.end(), took.begin(), least.begin(),
                      [](double a, double b) { return std::min(a, b); });
     }
-    std::transform(costs.begin(), costs.end(), least.begin(), costs.begin(), std::plus<>());
+    if (!least.empty())
+      std::transform(costs.begin(), costs.end(), least.begin(), costs.begin(), std::plus<>());
   };
   // With antialiasing the map is of the samples alone, which come on top of a ray a pixel.
   measure(std::nullopt);
   if (options.antialiasing && is_complete) measure(options.antialiasing);
   renderer.set_picture(options);
-  return is_complete ? RowCosts(height, costs) : alike;
+  const bool has_any = std::any_of(costs.begin(), costs.end(), [](double cost) { return cost > 0; });
+  return has_any ? RowCosts(height, costs) : alike;
 }
 
 void take_preparation(RenderStatistics& to, const RenderStatistics& from) {

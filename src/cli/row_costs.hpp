@@ -33,8 +33,9 @@ int height_of(const RenderOptions& options);
 
 /// Measures by a picture of the same scene that has some pixels in a thousand of those of `options`, with
 /// which the renderer goes on afterwards. Pictures that are small, or rendered by an emulated machine, are
-/// not measured, and neither is one that `progress` breaks off: their rows count alike. `preparation` gets
-/// what the first picture's statistics say of the scene's preparation, which the next one's do not any more.
+/// not measured, and neither is one that `progress` breaks off or that takes two seconds: their rows count
+/// alike. `preparation` gets what the first picture's statistics say of the scene's preparation, which the
+/// next one's do not any more.
 RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const Progress& progress,
                         std::optional<RenderStatistics>& preparation);
 
