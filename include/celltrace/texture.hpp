@@ -86,7 +86,7 @@ struct Crackle {
 struct Fractal {
   bool is_julia = false; ///< of `c`; otherwise each point is its own c
   double c[2] = {0, 0};
-  int iterations = 1; ///< 1 to 65535
+  int iterations = 1; ///< 0 to 65535
   int exponent = 2;   ///< 2 to 33, of z^n + c
   int magnet = 0;     ///< 1 or 2: formulas of magnetism, without exponent
   int exterior = 1;   ///< 0 to 6
