@@ -7,7 +7,7 @@ namespace celltrace::cli {
 
 namespace {
 
-constexpr std::size_t kWidth = 80, kColumn = 26;
+constexpr std::size_t kPageWidth = 80, kColumn = 26;
 
 /// Appends words, broken into lines that begin at a column; the first line goes on where the page ends.
 void append_wrapped(std::string& page, const std::string& text, std::size_t column) {
@@ -15,7 +15,7 @@ void append_wrapped(std::string& page, const std::string& text, std::size_t colu
   std::istringstream words(text);
   bool begins_line = true;
   for (std::string word; words >> word; begins_line = false) {
-    if (!begins_line && at + 1 + word.size() > kWidth) {
+    if (!begins_line && at + 1 + word.size() > kPageWidth) {
       page += '\n' + std::string(column, ' ');
       at = column;
       begins_line = true;
@@ -35,7 +35,7 @@ void append_name(std::string& page, const std::string& name) {
   for (std::size_t begin = 0; begin < name.size();) {
     const std::size_t bar = name.find('|', begin);
     const std::string part = name.substr(begin, bar == name.npos ? bar : bar + 1 - begin);
-    if (at > kDeeper && at + part.size() > kWidth) {
+    if (at > kDeeper && at + part.size() > kPageWidth) {
       page += '\n' + std::string(kDeeper, ' ');
       at = kDeeper;
     }

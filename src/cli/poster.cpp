@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "cli/band_height.hpp"
 #include "cli/picture_rows.hpp"
+#include "cli/row_costs.hpp"
 #include "cli/row_keeper.hpp"
 #include "cli/row_output.hpp"
 #include "image/file.hpp"
@@ -25,10 +26,6 @@ constexpr std::int64_t kPixelsOfBand = std::int64_t{1} << 20, kPixelsOfColours =
 /// Rate below which rendered rows are worth keeping: rendering others again takes no longer than reading
 /// them.
 constexpr double kBytesToKeepPerSecond = 50e6;
-
-PictureRegion region_of(const RenderOptions& options) {
-  return options.region.value_or(PictureRegion{0, options.width, 0, options.height});
-}
 
 /// Makes room for rows of the region, in each form that goes out.
 PictureRows make_rows(const RenderOptions& options, int count) {

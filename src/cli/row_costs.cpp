@@ -18,10 +18,6 @@ constexpr int kTimes = 2;
 constexpr std::chrono::seconds kLongest(2);
 constexpr int kFewestColumns = 4, kMostColumns = 16, kFewestParts = 6, kMostParts = 32;
 
-PictureRegion region_of(const RenderOptions& options) {
-  return options.region.value_or(PictureRegion{0, options.width, 0, options.height});
-}
-
 /// Returns what parts of the region of Renderer::kRowStep rows took.
 std::vector<double> parts_of(const PictureRegion& region, const std::vector<WorkRecord>& work) {
   std::vector<double> parts(static_cast<std::size_t>((region.bottom - region.top) / Renderer::kRowStep));
@@ -61,6 +57,10 @@ double RowCosts::rows_with(double share, int top) const {
   const auto part = static_cast<std::size_t>(after - sums_.begin()) - 1;
   const double at = static_cast<double>(part) + (wanted - sums_[part]) / (sums_[part + 1] - sums_[part]);
   return at / static_cast<double>(sums_.size() - 1) * height_ - top;
+}
+
+PictureRegion region_of(const RenderOptions& options) {
+  return options.region.value_or(PictureRegion{0, options.width, 0, options.height});
 }
 
 int height_of(const RenderOptions& options) {

@@ -28,6 +28,8 @@ private:
   std::vector<double> sums_; ///< of all parts before each, and of all
 };
 
+/// Returns the part of the picture that is rendered.
+PictureRegion region_of(const RenderOptions& options);
 /// Returns how many rows the region has that is rendered.
 int height_of(const RenderOptions& options);
 

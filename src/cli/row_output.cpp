@@ -1,5 +1,7 @@
 #include "cli/row_output.hpp"
 
+#include "cli/row_costs.hpp"
+
 #include "celltrace/error.hpp"
 
 #include <algorithm>
@@ -12,10 +14,6 @@ namespace celltrace::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-PictureRegion region_of(const RenderOptions& options) {
-  return options.region.value_or(PictureRegion{0, options.width, 0, options.height});
-}
 
 image::RowFormat format_of(const RenderRequest& request, const std::optional<double>& gamma) {
   image::RowFormat format;

@@ -188,8 +188,8 @@ void restrict_calls() {
     add(SCMP_ACT_ERRNO(EPERM), seccomp_syscall_resolve_name(name), 0, {});
   // Threads alone. The flags of clone3 lie in memory, where no filter looks: without it, libraries take
   // clone.
-  add(SCMP_ACT_ERRNO(EPERM), seccomp_syscall_resolve_name("clone"), 1,
-      SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0));
+  const scmp_arg_cmp makes_a_process = {0, SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0};
+  add(SCMP_ACT_ERRNO(EPERM), seccomp_syscall_resolve_name("clone"), 1, makes_a_process);
   add(SCMP_ACT_ERRNO(ENOSYS), seccomp_syscall_resolve_name("clone3"), 0, {});
   if (error == 0) error = seccomp_load(filter);
   seccomp_release(filter);
