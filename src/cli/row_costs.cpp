@@ -1,7 +1,6 @@
 #include "cli/row_costs.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -14,8 +13,6 @@ namespace {
 constexpr double kShare = 0.002;
 /// Other programs may hold up one part, but hardly the same one each time.
 constexpr int kTimes = 2;
-/// Pictures that take so long that this measures nothing can do without.
-constexpr std::chrono::seconds kLongest(2);
 constexpr int kFewestColumns = 4, kMostColumns = 16, kFewestParts = 6, kMostParts = 32;
 
 /// Returns what parts of the region of Renderer::kRowStep rows took.
@@ -69,7 +66,7 @@ int height_of(const RenderOptions& options) {
 }
 
 RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const Progress& progress,
-                        std::optional<RenderStatistics>& preparation) {
+                        std::optional<RenderStatistics>& preparation, std::chrono::seconds longest) {
   const PictureRegion region = region_of(options);
   const int width = region.right - region.left, height = region.bottom - region.top;
   const RowCosts alike(height);
@@ -97,7 +94,7 @@ RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const 
 
   std::vector<double> costs(static_cast<std::size_t>(parts));
   bool is_complete = true;
-  const auto end = std::chrono::steady_clock::now() + kLongest;
+  const auto end = std::chrono::steady_clock::now() + longest;
   const auto goes_on = [&](double) {
     return std::chrono::steady_clock::now() < end && (!progress || progress(0));
   };

@@ -3,6 +3,7 @@
 
 #include "celltrace/render.hpp"
 
+#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -35,11 +36,12 @@ int height_of(const RenderOptions& options);
 
 /// Measures by a picture of the same scene that has some pixels in a thousand of those of `options`, with
 /// which the renderer goes on afterwards. Pictures that are small, or rendered by an emulated machine, are
-/// not measured, and neither is one that `progress` breaks off or that takes two seconds: their rows count
-/// alike. `preparation` gets what the first picture's statistics say of the scene's preparation, which the
-/// next one's do not any more.
+/// not measured, and neither is one that `progress` breaks off or that takes longer than `longest`: their
+/// rows count alike. `preparation` gets what the first picture's statistics say of the scene's preparation,
+/// which the next one's do not any more.
 RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const Progress& progress,
-                        std::optional<RenderStatistics>& preparation);
+                        std::optional<RenderStatistics>& preparation,
+                        std::chrono::seconds longest = std::chrono::seconds(2));
 
 /// Copies what statistics say of the scene's preparation.
 void take_preparation(RenderStatistics& to, const RenderStatistics& from);

@@ -24,6 +24,9 @@ plane { y, 0 pigment { marble turbulence 1 } finish { reflection 0.5 } }
 #end #end
 )";
 
+/// The machine that tests run on may have much else to do.
+constexpr std::chrono::seconds kPatient(600);
+
 RenderOptions options_of(int width, int height) {
   RenderOptions options;
   options.width = width;
@@ -67,7 +70,7 @@ TEST_CASE("a small picture says what rows of the large one take") {
     Renderer renderer(options);
     REQUIRE(renderer.prepare(scene));
     std::optional<RenderStatistics> preparation;
-    const RowCosts costs = measured_costs(renderer, options, {}, preparation);
+    const RowCosts costs = measured_costs(renderer, options, {}, preparation, kPatient);
     REQUIRE(costs.are_measured());
     REQUIRE(preparation);
     CHECK(preparation->preparation == RenderStatistics::Preparation::built);
@@ -84,16 +87,16 @@ TEST_CASE("measuring leaves the picture and a region as they are") {
   Renderer renderer(options), other(options);
   REQUIRE(renderer.prepare(scene));
   std::optional<RenderStatistics> preparation;
-  CHECK(!measured_costs(renderer, options, {}, preparation).are_measured()); // it is too small
+  CHECK(!measured_costs(renderer, options, {}, preparation, kPatient).are_measured()); // it is too small
   options.region = PictureRegion{100, 500, 0, 400};
   options.width = 1000;
   options.height = 1000;
   renderer.set_picture(options);
-  CHECK(!measured_costs(renderer, options, {}, preparation).are_measured()); // narrow as well
+  CHECK(!measured_costs(renderer, options, {}, preparation, kPatient).are_measured()); // narrow as well
   options.region = PictureRegion{100, 900, 100, 1000};
   renderer.set_picture(options);
   other.set_picture(options);
-  const RowCosts costs = measured_costs(renderer, options, {}, preparation);
+  const RowCosts costs = measured_costs(renderer, options, {}, preparation, kPatient);
   REQUIRE(costs.are_measured());
   CHECK(costs.above(350) < 0.1);
   REQUIRE(other.prepare(scene));
@@ -110,6 +113,7 @@ TEST_CASE("what is broken off is not measured") {
   CHECK(!measured_costs(
              renderer, options, [](double) { return false; }, preparation)
              .are_measured());
+  CHECK(!measured_costs(renderer, options, {}, preparation, std::chrono::seconds(0)).are_measured());
   RenderOptions emulated = options;
   emulated.backend = Backend::cell_emu;
   CHECK(!measured_costs(renderer, emulated, {}, preparation).are_measured());
@@ -146,7 +150,7 @@ TEST_CASE("an interrupted picture has what was said to be done, but for a band")
   Renderer renderer(options);
   REQUIRE(renderer.prepare(scene));
   std::optional<RenderStatistics> preparation;
-  const RowCosts costs = measured_costs(renderer, options, {}, preparation);
+  const RowCosts costs = measured_costs(renderer, options, {}, preparation, kPatient);
   PartialPicture picture(options);
   double last = 0;
   const auto until = [&](double end) {
