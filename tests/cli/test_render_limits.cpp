@@ -162,10 +162,13 @@ TEST_CASE("in the sandbox a scene renders as ever") {
     WARN("skipped: POV-Ray's include files are not installed");
     return;
   }
+  // The address sanitizer looks for leaks by a process of its own, which the sandbox does not let it start.
+  const Start without_leak_check = {"celltrace", {"ASAN_OPTIONS=detect_leaks=0"}};
   for (const char* backend : {"native", "cell_emu"}) {
-    const Outcome outcome =
-        celltrace_run(folder, {"s.pov", "-W", "80", "-H", "60", "-o", "held.png", "--sandbox", "--backend",
-                               backend, "--stats", "s.json", "--lenient"});
+    const Outcome outcome = celltrace_run(folder,
+                                          {"s.pov", "-W", "80", "-H", "60", "-o", "held.png", "--sandbox",
+                                           "--backend", backend, "--stats", "s.json", "--lenient"},
+                                          without_leak_check);
     if (outcome.exit_code == 1 && outcome.err.find("--sandbox: this") != outcome.err.npos) {
       WARN("skipped: " + outcome.err);
       return;
