@@ -21,7 +21,7 @@ struct Output {
   int status;
 };
 
-Output run(const std::string& command) {
+[[maybe_unused]] Output run(const std::string& command) {
   // The tests' own sanitizer must not be set up for that of the program.
   const std::string line = "unset ASAN_OPTIONS; " + command + " 2>&1";
   FILE* const pipe = popen(line.c_str(), "r");
@@ -37,7 +37,7 @@ Output run(const std::string& command) {
 
 /// The first frame of a report in the program's own source, and the line that the program has said it would
 /// be.
-void check_report(const std::string& name, const Output& output, const std::string& title) {
+[[maybe_unused]] void check_report(const std::string& name, const Output& output, const std::string& title) {
   INFO(name << "\n" << output.text);
   CHECK(output.status != 0);
   std::smatch said, reported;
@@ -49,7 +49,7 @@ void check_report(const std::string& name, const Output& output, const std::stri
   CHECK(reported[1] == said[1]);
 }
 
-void check_clean(const Output& output) {
+[[maybe_unused]] void check_clean(const Output& output) {
   INFO(output.text);
   CHECK(output.status == 0);
   CHECK(output.text.find("ERROR") == std::string::npos);
@@ -60,17 +60,17 @@ void check_clean(const Output& output) {
   CHECK(ok + (output.text.rfind("ok\n", 0) == 0) == 5);
 }
 
-constexpr const char* kEarly[] = {"read",
-                                  "write",
-                                  "read of data that came at once",
-                                  "read of data that came in between",
-                                  "of another tag",
-                                  "behind a fence",
-                                  "read on a thread of its own",
-                                  "behind its put",
-                                  "of a list",
-                                  "of 8 bytes",
-                                  "ahead of its put"};
+[[maybe_unused]] constexpr const char* kEarly[] = {"read",
+                                                   "write",
+                                                   "read of data that came at once",
+                                                   "read of data that came in between",
+                                                   "of another tag",
+                                                   "behind a fence",
+                                                   "read on a thread of its own",
+                                                   "behind its put",
+                                                   "of a list",
+                                                   "of 8 bytes",
+                                                   "ahead of its put"};
 
 [[maybe_unused]] std::string with_case(const std::string& program, const std::string& name) {
   return program + " '" + name + "'";
