@@ -47,7 +47,7 @@ public:
   void after_leave();
 
 private:
-  // Which of these are used depends on the tools that the build knows.
+  // The tools that the build knows decide which of these are used.
   [[maybe_unused]] const void* bottom_;
   [[maybe_unused]] std::size_t bytes_;
   [[maybe_unused]] unsigned valgrind_id_ = 0;

@@ -1,4 +1,4 @@
-// What tells whether a program touched local store that a transfer in flight uses: poison and checksums.
+// Poison and checksums, which tell whether a program touched local store that a transfer in flight uses.
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,7 @@ public:
 
   int run() {
     catch_interrupts();
-    if (request_.most_seconds > 0) interrupt_after(request_.most_seconds);
+    interrupt_after(request_.most_seconds);
     if (!request_.output.empty() && !is_film()) check_image_path(request_.output, request_.format);
     if (request_.resume) leave_out_finished();
     if (frames_.empty()) {

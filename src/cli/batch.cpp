@@ -25,8 +25,12 @@ SheetEntry render_one(RenderRequest render) {
   const auto start = std::chrono::steady_clock::now();
   try {
     prepare_outputs(render);
+    if (!render.quiet)
+      for (const std::string& note : render.notes)
+        std::cerr << "note: " << note << '\n';
     const int code = run_render(render);
     entry.state = code == 0 ? SheetEntry::State::done : SheetEntry::State::partial;
+    if (!std::filesystem::exists(render.output)) throw Error("there is not a pixel of it");
   } catch (const SceneError& error) {
     entry.text = error.what();
   } catch (const std::bad_alloc&) {
@@ -40,7 +44,7 @@ SheetEntry render_one(RenderRequest render) {
   return entry;
 }
 
-/// What all of them need together: the process cannot get rid of a sandbox.
+/// Returns the files of all renders together: one sandbox has to do, as the process cannot leave it.
 SandboxFiles files_of_all(const BatchRequest& batch) {
   SandboxFiles files;
   for (const RenderRequest& render : batch.renders) {
@@ -62,6 +66,7 @@ int run_batch(const BatchRequest& batch) {
   ContactSheet sheet;
   for (const RenderRequest& render : batch.renders) {
     sheet.add(render_one(render));
+    interrupt_after(0); // the time of one scene is not that of the next
     if (interrupted()) break;
   }
   const std::filesystem::path page = batch.folder / "contact-sheet.html";

@@ -41,6 +41,8 @@ void catch_interrupts() {
 }
 
 void interrupt_after(double seconds) {
+  deadline.reset();
+  if (seconds == 0) return;
   deadline =
       std::chrono::steady_clock::now() +
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));

@@ -6,7 +6,8 @@ namespace celltrace::cli {
 /// From now on the first SIGINT or SIGTERM only makes interrupted() true; a later one ends the process.
 void catch_interrupts();
 
-/// Makes interrupted() true after so many seconds, too. To be called before threads ask.
+/// Makes interrupted() true after so many seconds from now, too, in place of an earlier limit; 0: there is
+/// none. To be called while no other thread asks.
 void interrupt_after(double seconds);
 
 /// Safe from any thread.

@@ -37,13 +37,13 @@ void print_notes(const std::vector<std::string>& notes) {
 /// One picture takes a few large blocks one after the other. glibc would give each of them back to the system
 /// and have the pages of the next one brought in anew, and cut the heap into pieces too short for huge pages.
 /// The heap grows once for nearly all scenes, so that these are on huge pages as a whole: large ones are read
-/// in 0.75 of the time.
+/// in 0.75 of the time. That takes address space, not memory, but for the last huge page.
 void prepare_heap() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, -1);
-  constexpr int kMostScenes = 512 << 20;
-  mallopt(M_TOP_PAD, kMostScenes);
+  constexpr int kHeapOfMostScenes = 512 << 20;
+  mallopt(M_TOP_PAD, kHeapOfMostScenes);
   char* const before = static_cast<char*>(sbrk(0));
   void* volatile grows = std::malloc(celltrace::kHugePage); // volatile: not to be left out
   std::free(grows);

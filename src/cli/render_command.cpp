@@ -125,7 +125,7 @@ int run_render(const RenderRequest& request) {
   report.begin_parsing();
   const ReadScene read = read_with_progress(request);
   if (!read.scene || interrupted()) return interrupted_early();
-  if (request.most_seconds > 0) interrupt_after(request.most_seconds);
+  interrupt_after(request.most_seconds);
   if (!request.resume) state.remove();
   RowsFile kept = state.rows_of(kStill, read.files);
   const int height = height_of(request.options);

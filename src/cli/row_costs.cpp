@@ -1,5 +1,7 @@
 #include "cli/row_costs.hpp"
 
+#include "render/frame_setup.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -31,7 +33,7 @@ RowCosts::RowCosts(int height, const std::vector<double>& parts) : height_(heigh
   double sum = 0;
   for (const double part : parts)
     sum += part;
-  // What took no time counts a little, so that each row moves the share on.
+  // Parts that took no time count a little, so that each row moves the share on.
   const double least = sum > 0 ? 1e-3 * sum / static_cast<double>(parts.size()) : 1;
   sums_ = {0};
   for (const double part : parts)
@@ -56,10 +58,6 @@ double RowCosts::rows_with(double share, int top) const {
   return at / static_cast<double>(sums_.size() - 1) * height_ - top;
 }
 
-PictureRegion region_of(const RenderOptions& options) {
-  return options.region.value_or(PictureRegion{0, options.width, 0, options.height});
-}
-
 int height_of(const RenderOptions& options) {
   const PictureRegion region = region_of(options);
   return region.bottom - region.top;
@@ -70,7 +68,7 @@ RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const 
   const PictureRegion region = region_of(options);
   const int width = region.right - region.left, height = region.bottom - region.top;
   const RowCosts alike(height);
-  // Of a narrow region the whole picture would be wide.
+  // The small picture of a narrow region would be a wide one.
   const bool is_large_part = 4 * width >= options.width && 4 * height >= options.height;
   if (options.backend != Backend::native || options.model != Model::shared || !is_large_part) return alike;
   const double pixels = kShare * width * height, step = Renderer::kRowStep;

@@ -1,4 +1,4 @@
-// What the rows of a picture take, one beside the other.
+// The shares of a picture's rows in the time that it takes.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -29,8 +29,6 @@ private:
   std::vector<double> sums_; ///< of all parts before each, and of all
 };
 
-/// Returns the part of the picture that is rendered.
-PictureRegion region_of(const RenderOptions& options);
 /// Returns how many rows the region has that is rendered.
 int height_of(const RenderOptions& options);
 

@@ -1,8 +1,7 @@
 #include "cli/row_output.hpp"
 
-#include "cli/row_costs.hpp"
-
 #include "celltrace/error.hpp"
+#include "render/frame_setup.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -88,7 +88,7 @@ struct __attribute__((packed)) PathRule {
 };
 constexpr std::uint64_t kExecute = 1 << 0, kWriteFile = 1 << 1, kReadFile = 1 << 2, kReadFolder = 1 << 3,
                         kRemoveFile = 1 << 5, kMakeFile = 1 << 8, kTruncate = 1 << 14;
-/// What is denied but for rules: as much as each version of the interface knows.
+/// The accesses that are denied unless a rule allows them: all that each version of the interface knows.
 constexpr std::uint64_t kFiles[] = {(1 << 13) - 1, (1 << 14) - 1, (1 << 15) - 1, (1 << 15) - 1,
                                     (1 << 16) - 1};
 constexpr std::uint64_t kBindAndConnect = 3, kScopes = 3;

@@ -1,4 +1,4 @@
-// What the process may still do while it reads and renders a scene that nobody trusts (`--sandbox`).
+// Limits of the process while it reads and renders a scene that nobody trusts (`--sandbox`).
 #pragma once
 
 #include "cli/command_line.hpp"

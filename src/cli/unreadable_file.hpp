@@ -1,4 +1,4 @@
-// What is said of a file that a command needs and does not get.
+// Messages about a file that a command needs and does not get.
 #pragma once
 
 #include "celltrace/error.hpp"

@@ -103,7 +103,7 @@ struct Original {
   }
 };
 
-/// Which of the scene's materials a texture has become, for the scene's builder. A copy has become none yet.
+/// The scene's material that a texture has become, for the scene's builder. A copy has become none yet.
 struct BuiltMaterial {
   mutable Index index = kNoIndex;
 

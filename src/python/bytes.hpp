@@ -34,7 +34,7 @@ inline constexpr bool kIsBytes =
 template <class Archive, class T> void visit_members(Archive& archive, T& value) {
   std::apply([&](auto&... member) { (archive(member), ...); }, tie_members(value));
 }
-/// What is placed already is found by its address, which is another one elsewhere.
+/// Leaves out the colours that are placed already: they are found by address, which is another one elsewhere.
 template <class Archive> void visit_members(Archive& archive, PythonScene& scene) {
   archive(static_cast<Scene&>(scene));
 }
@@ -178,7 +178,7 @@ private:
     if (count) std::memcpy(data, rest_.data(), count);
     rest_.remove_prefix(count);
   }
-  /// Of things that have at least so many bytes each.
+  /// Reads a count of things that have at least so many bytes each.
   std::size_t count_of(std::size_t bytes) {
     std::uint64_t count = 0;
     (*this)(count);

@@ -217,7 +217,7 @@ PythonMesh make_mesh(const Floats& vertices, const py::object& triangles,
   return {std::move(mesh), std::move(with_colours)};
 }
 
-/// What of a mesh's lists an array shows, without copying; it keeps the mesh alive.
+/// Returns an array that shows a list of a mesh without copying it, and keeps the mesh alive.
 template <class T>
 py::array rows_of(const py::object& mesh, const T* first, std::size_t count, std::size_t bytes) {
   py::array_t<T> rows({static_cast<py::ssize_t>(count), py::ssize_t{3}},

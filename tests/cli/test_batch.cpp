@@ -47,6 +47,22 @@ TEST_CASE("many scenes are rendered into a folder, with a page of all") {
                        Contains("<pre>in/wrong.pov:2:1: error:") && Contains("in/green.pov"));
 }
 
+TEST_CASE("each scene has its own time") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "slow.pov",
+              "#version 3.7; global_settings { max_trace_level 256 adc_bailout 0 }\n"
+              "camera { location -3*z look_at 0 } light_source { <5, 5, -9>, 1 }\n"
+              "#declare R = seed(3);\n#for (I, 1, 40) sphere { (<rand(R), rand(R), rand(R)> - 0.5), 0.5 "
+              "pigment { rgbt 0.9 } finish { reflection 0.3 } interior { ior 1.3 } } #end");
+  write_scene(folder / "red.pov", "rgb <1, 0, 0>");
+  const Outcome outcome = celltrace_run(
+      folder, {"slow.pov", "red.pov", "-W", "400", "-H", "300", "--max", "render-seconds=0.5", "-o", "out/"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("slow.png: out of time") && Contains("1 of 2 scenes rendered"));
+  CHECK(first_pixel(folder / "out/red.png") == std::vector<std::uint8_t>{255, 0, 0});
+}
+
 TEST_CASE("without a folder the last scene counts, as in POV-Ray") {
   const TemporaryFolder folder;
   write_scene(folder / "red.pov", "rgb <1, 0, 0>");

@@ -7,7 +7,7 @@
 
 constexpr std::uint32_t kBlockFloats = 1024; // 4 KB
 
-/// What an SPE is told: its blocks lie one behind the other.
+/// The work of an SPE: blocks that lie one behind the other.
 struct alignas(128) Task {
   celltrace::ea_t blocks;
   std::uint32_t count;
