@@ -229,7 +229,7 @@ struct CELLTRACE_EXPORT RenderStatistics {
     built,    ///< all was made
     refitted, ///< records of the image were changed where they are, and the bounds of nodes with them
     updated,  ///< the same, but no object had changed
-    kept      ///< only the camera moved
+    kept      ///< only the camera moved, and no record depends on where it is
   };
   Preparation preparation = Preparation::built;
   /// Lines of the image that changed, and that SPEs were told to fetch again; 0 where memory is direct.
@@ -319,8 +319,8 @@ public:
   /// not valid, SpeError if a kernel failed, OutOfMemory; exceptions of `progress` pass through. After
   /// SpeError the renderer throws again at every call.
   RenderResult render(const Scene& scene, const Progress& progress = {});
-  /// As above, with another camera and nothing else changed since the last render(): the accelerator is
-  /// kept.
+  /// As above, with another camera and nothing else changed since the last render(): the accelerator is kept,
+  /// or refitted where records depend on the camera's location. The picture is that of render(scene).
   RenderResult render(const Camera& camera, const Progress& progress = {});
   /// As the first one, at the cost of what has changed: `changes` says what of the scene is not as it was at
   /// the last render(), which may have been of another Scene object. Records are changed where they are, SPEs

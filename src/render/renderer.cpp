@@ -184,6 +184,14 @@ private:
   /// Calls work(scene, go_on), with the scene that the picture's quality leaves of `scene`, and with what
   /// hears of building. False, and there is no scene then, if that has ended it.
   template <class Work> bool while_wanted(const Progress& progress, const Scene& scene, Work work) {
+    return while_building(progress, [&](const Progress& go_on) {
+      if (options_.quality >= kFullQuality) return work(scene, go_on);
+      validate(scene);
+      return work(at_quality(scene, options_.quality), go_on);
+    });
+  }
+  /// Calls work(go_on) in the same way.
+  template <class Work> bool while_building(const Progress& progress, Work work) {
     Progress go_on;
     if (options_.build_progress || progress)
       go_on = [&, reached = 0.0](double fraction) mutable {
@@ -193,19 +201,20 @@ private:
     const Progress of_image = part_of(go_on, 0, kImageShare);
     const BuildWatch watch(of_image);
     try {
-      return reporting_failures([&] {
-        const Progress of_accelerator = part_of(go_on, kImageShare, 1);
-        if (options_.quality >= kFullQuality) return work(scene, of_accelerator);
-        validate(scene);
-        return work(at_quality(scene, options_.quality), of_accelerator);
-      });
+      const bool is_built = reporting_failures([&] { return work(part_of(go_on, kImageShare, 1)); });
+      if (!is_built) forget_scene();
+      return is_built;
     } catch (const Cancelled&) {
-      has_scene_ = false;
+      forget_scene();
       return false;
     } catch (...) {
-      if (watch.has_stopped()) has_scene_ = false;
+      if (watch.has_stopped()) forget_scene();
       throw;
     }
+  }
+  void forget_scene() {
+    has_scene_ = false;
+    kept_.reset();
   }
   /// What the machine has found since the last call; the caller's function hears of it.
   std::vector<Diagnostic> new_diagnostics() {
@@ -221,7 +230,8 @@ private:
     prepared_ = RenderStatistics();
     const Stopwatch build;
     retire_queries();
-    builder_->make_image(scene, {is_edited_, options_.ray_queries, options_.most_memory});
+    builder_->make_image(scene, {is_edited_, options_.ray_queries, !is_last_frame_, options_.most_memory});
+    keep_for_other_eyes(scene);
     has_scene_ = false;
     media_ = media_of(scene);
     prepared_.build_seconds = build.seconds();
@@ -255,24 +265,27 @@ private:
   bool prepare_changes(const Scene& scene, const SceneChanges& changes, const Progress& go_on) {
     if (!has_scene_ || stages_) return prepare_scene(scene, go_on);
     prepared_ = nothing_prepared();
-    if (!changes.objects && !changes.surfaces) {
-      validate(scene.camera);
+    validate(scene.camera);
+    const bool is_for_eye = image_.is_for(scene.camera.location);
+    if (!changes.objects && !changes.surfaces && is_for_eye) {
       enter_camera(scene.camera);
       return true;
     }
     const Stopwatch build;
     retire_queries();
-    if (!builder_->update_image(scene, changes)) return prepare_scene(scene, go_on);
+    const SceneChanges all = {changes.objects || !is_for_eye, changes.surfaces};
+    if (!builder_->update_image(scene, all)) return prepare_scene(scene, go_on);
+    keep_for_other_eyes(scene);
     media_ = media_of(scene);
     enter_scene(scene);
     prepared_.build_seconds = build.seconds();
     const Stopwatch prepare;
     const SpeMeter meter(*machine_);
-    const std::optional<std::uint64_t> lines = builder_->update(changes);
+    const std::optional<std::uint64_t> lines = builder_->update(all);
     if (!lines) return prepare_scene(scene, go_on);
     prepared_.stale_lines = *lines;
     prepared_.preparation =
-        changes.objects ? RenderStatistics::Preparation::refitted : RenderStatistics::Preparation::updated;
+        all.objects ? RenderStatistics::Preparation::refitted : RenderStatistics::Preparation::updated;
     prepared_.prepare_seconds = prepare.seconds();
     enter_preparation(meter.read());
     enter_camera(scene.camera);
@@ -291,12 +304,33 @@ private:
   }
 
   RenderResult render_camera(const Camera& camera, const Progress& progress) {
-    if (!has_scene_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
+    if (!has_scene_ && !kept_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
     check_room_for_all();
     validate(camera);
-    prepared_ = nothing_prepared();
-    enter_camera(camera);
+    if (!has_scene_ || !image_.is_for(camera.location)) {
+      if (!prepare_for_eye(camera, progress)) return no_frame();
+    } else {
+      prepared_ = nothing_prepared();
+      enter_camera(camera);
+    }
     return render_frame(picture_.rows(), progress);
+  }
+  /// Makes the image of the kept scene for another camera. The scene is kept even if that is cancelled.
+  bool prepare_for_eye(const Camera& camera, const Progress& progress) {
+    is_edited_ = true; // Further cameras are likely to follow.
+    const std::shared_ptr<Scene> scene = kept_;
+    scene->camera = camera;
+    const bool is_prepared = while_building(progress, [&](const Progress& go_on) {
+      return prepare_changes(*scene, {false, false}, go_on);
+    });
+    if (!is_prepared) kept_ = scene;
+    return is_prepared;
+  }
+  /// Keeps the scene of the image if cameras may come that the image is not for.
+  void keep_for_other_eyes(const Scene& scene) {
+    if (&scene == kept_.get()) return;
+    kept_.reset();
+    if (!is_last_frame_ && image_.depends_on_eye()) kept_ = std::make_shared<Scene>(scene);
   }
   /// Throws InputError if memory has no room for all rows.
   void check_room_for_all() const {
@@ -488,6 +522,7 @@ private:
   std::shared_ptr<RayQueryScene> query_scene_; ///< null: none of this scene was asked for
   bool has_scene_ = false;                     ///< and an accelerator for it
   Camera camera_;                              ///< of the next frame
+  std::shared_ptr<Scene> kept_;                ///< that the image is of, where it depends on the eye
   RenderStatistics prepared_;                  ///< what that took, for the statistics of the next frame
   RowRange planned_ = {0, 0};
   BundleRows planned_grid_;

@@ -109,7 +109,8 @@ std::vector<std::size_t> sorted(const std::vector<std::size_t>& order,
 
 } // namespace
 
-std::vector<std::size_t> order_of_tests(const Scene& scene, std::size_t count, const CsgParts& parts) {
+std::vector<std::size_t> order_of_tests(const Scene& scene, const Eye& eye, std::size_t count,
+                                        const CsgParts& parts) {
   std::vector<std::size_t> order;
   for (const bool are_csgs : {false, true})
     for (std::size_t i = 0; i < count; ++i)
@@ -130,8 +131,8 @@ std::vector<std::size_t> order_of_tests(const Scene& scene, std::size_t count, c
           extents.push_back(extent_of(scene.objects[i], Transform()));
         tree.emplace(extents, scene.lights.size());
       }
-      const Vec3 eye = scene.camera.location;
-      const bool a_first = tree->tests_first(a.object, b.object, {eye, middle - eye});
+      const Vec3 from = eye.location();
+      const bool a_first = tree->tests_first(a.object, b.object, {from, middle - from});
       before[(a_first ? b : a).object].push_back((a_first ? a : b).object);
     });
   }

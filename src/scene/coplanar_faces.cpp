@@ -46,7 +46,7 @@ struct Face {
   bool looks_up;   ///< its outside is where the normal points
   Index material;
   std::uint32_t path = 0; ///< its number
-  int steps = 0;          ///< to move it, toward the camera
+  int steps = 0;          ///< to move it, toward the eye
 
   static constexpr std::size_t kPlane = ~std::size_t{0};
 };
@@ -102,8 +102,9 @@ void turn(Face& face) {
 
 class CoplanarFaces {
 public:
-  CoplanarFaces(const Scene& scene, const std::vector<std::uint32_t>& material_flags)
-      : scene_(scene), material_flags_(material_flags) {
+  /// `eye` is null for faces of which any may be seen.
+  CoplanarFaces(const Scene& scene, const std::vector<std::uint32_t>& material_flags, const Vec3* eye)
+      : scene_(scene), material_flags_(material_flags), eye_(eye) {
     std::size_t solids = 0;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       const Object& object = scene.objects[i];
@@ -121,13 +122,19 @@ public:
 
   /// Whether any has to be moved.
   bool settle() {
-    sort();
-    for (std::size_t first = 0, last = 1; first < faces_.size(); first = last++) {
-      while (last < faces_.size() && are_in_one_plane(faces_[last - 1], faces_[last]))
-        ++last;
-      if (last - first > 1) settle(first, last);
-    }
+    for_each_plane([this](std::size_t first, std::size_t last) { settle(first, last); });
     return any_moves_;
+  }
+  /// Whether there are two that may have to be, wherever the eye is.
+  bool any_overlap() {
+    bool any = false;
+    for_each_plane([&](std::size_t first, std::size_t last) {
+      any = any || !for_each_pair(first, last, [&](const Face& a, const Face& b) {
+              return (a.is_inverse && b.is_inverse) || (a.is_round && b.is_round) ||
+                     !overlap(a.extent, b.extent);
+            });
+    });
+    return any;
   }
 
   Scene moved() const {
@@ -167,7 +174,7 @@ private:
   /// How far a face is moved: farther than where rounding may put it, and much less than can be seen.
   Vec3 way(const Face& face) const {
     constexpr double kStep = 5e-7;
-    const Vec3 eye = scene_.camera.location;
+    const Vec3& eye = *eye_;
     Vec3 near(0);
     if (!face.extent.is_everywhere())
       for (int axis = 0; axis < 3; ++axis)
@@ -192,11 +199,9 @@ private:
   double along(const Vec3& direction, const Face& face) const {
     return glm::dot(way(face), face.normal) / glm::dot(direction, face.normal);
   }
-  bool looks_at_camera(const Face& face) const { return face.looks_up == is_seen_from_above(face); }
-  /// Whether the camera is where the normal points.
-  bool is_seen_from_above(const Face& face) const {
-    return glm::dot(scene_.camera.location, face.normal) > face.distance;
-  }
+  bool looks_at_eye(const Face& face) const { return face.looks_up == is_seen_from_above(face); }
+  /// Whether the eye is where the normal points.
+  bool is_seen_from_above(const Face& face) const { return glm::dot(*eye_, face.normal) > face.distance; }
 
   void add_plane(std::size_t object, const Plane& plane) {
     Face face{};
@@ -212,13 +217,14 @@ private:
   }
 
   /// Of an inverse box the inside is seen, as that of a room which is cut out of something; and of one that
-  /// the camera is in.
+  /// the eye is in.
   void add(std::size_t object, std::size_t number, const Box& box, const Transform& transform, Index material,
            const CsgPath& path, bool is_inverse) {
     const bool has_order = !path.empty() && !is_inverse; // among its CSG's faces
     if (has_order) paths_.push_back(path);
     const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
-    const bool is_seen_inside = is_inverse || (path.empty() && holds_camera(low, high, transform));
+    const bool is_seen_inside =
+        is_inverse || (eye_ != nullptr && path.empty() && holds_eye(low, high, transform));
     for (int side = 0; side < 6; ++side) {
       const int axis = side / 2;
       const double at = (side % 2 != 0 ? high : low)[axis];
@@ -235,7 +241,7 @@ private:
       face.is_inverse = is_inverse;
       face.looks_up = face.looks_up != is_seen_inside;
       // Those that look away are seen through something, or in mirrors: where many are, time is worth more.
-      if (is_opaque(face) && !looks_at_camera(face)) continue;
+      if (eye_ != nullptr && is_opaque(face) && !looks_at_eye(face)) continue;
       face.object = object;
       face.solid = number;
       face.side = side;
@@ -243,8 +249,8 @@ private:
       if (is_usable(face)) faces_.push_back(face);
     }
   }
-  bool holds_camera(const Vec3& low, const Vec3& high, const Transform& transform) const {
-    const Vec3 eye = transform.inverse().point(scene_.camera.location);
+  bool holds_eye(const Vec3& low, const Vec3& high, const Transform& transform) const {
+    const Vec3 eye = transform.inverse().point(*eye_);
     return glm::all(glm::lessThanEqual(low, eye)) && glm::all(glm::lessThanEqual(eye, high));
   }
 
@@ -269,7 +275,7 @@ private:
             middle + (across * (corner & 1 ? 1.0 : -1.0) + up * (corner & 2 ? 1.0 : -1.0)) * radius;
       Face face = face_of(corners, side != 0 ? axis : -axis, transform);
       face.material = material;
-      if (is_opaque(face) || looks_at_camera(face)) continue;
+      if (is_opaque(face) || (eye_ != nullptr && looks_at_eye(face))) continue;
       face.object = object;
       face.solid = number;
       face.side = side;
@@ -313,6 +319,30 @@ private:
     return are_parallel(a, b) && std::abs(a.distance - b.distance) <= kSame * (1 + std::abs(a.distance));
   }
 
+  /// Calls `visit(first, last)` for the faces [first, last) of each plane that has more than one.
+  template <class Visit> void for_each_plane(Visit visit) {
+    sort();
+    for (std::size_t first = 0, last = 1; first < faces_.size(); first = last++) {
+      while (last < faces_.size() && are_in_one_plane(faces_[last - 1], faces_[last]))
+        ++last;
+      if (last - first > 1) visit(first, last);
+    }
+  }
+  /// Calls `visit(a, b)` for pairs of [first, last) whose extents meet along x, until it returns false. False
+  /// then, and if there are too many.
+  template <class Visit> bool for_each_pair(std::size_t first, std::size_t last, Visit visit) {
+    std::sort(faces_.begin() + static_cast<std::ptrdiff_t>(first),
+              faces_.begin() + static_cast<std::ptrdiff_t>(last),
+              [](const Face& a, const Face& b) { return a.extent.min.x < b.extent.min.x; });
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t k = i + 1; k < last && faces_[k].extent.min.x <= faces_[i].extent.max.x; ++k) {
+        BuildWatch::look_at(pairs_);
+        if (++pairs_ > kMostPairs || !visit(faces_[i], faces_[k])) return false;
+      }
+    }
+    return true;
+  }
+
   /// So that those of one plane are neighbours.
   void sort() {
     struct Key {
@@ -353,7 +383,7 @@ private:
   }
 
   /// Whether something can be seen to stand on it.
-  bool is_ground(const Face& face) const { return is_opaque(face) && looks_at_camera(face); }
+  bool is_ground(const Face& face) const { return is_opaque(face) && looks_at_eye(face); }
   bool is_opaque(const Face& face) const {
     return (material_flags_[face.material] & kernel::object_flag::opaque) != 0;
   }
@@ -365,14 +395,14 @@ private:
     if (a.is_inverse && b.is_inverse) return false;
     if (a.is_inverse || b.is_inverse) {
       const Face &ground = a.is_inverse ? a : b, &other = a.is_inverse ? b : a;
-      if (!is_ground(ground) || is_opaque(other) || looks_at_camera(other)) return false;
+      if (!is_ground(ground) || is_opaque(other) || looks_at_eye(other)) return false;
     }
     if (a.is_round || b.is_round) return a.is_round != b.is_round && is_ground(a.is_round ? b : a);
     const bool are_opaque = is_opaque(a) && is_opaque(b);
     return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
   }
 
-  /// Two faces of one plane: the first one belongs nearer to the camera, by so many steps.
+  /// Two faces of one plane: the first one belongs nearer to the eye, by so many steps.
   struct Order {
     Face* near;
     Face* far;
@@ -406,23 +436,16 @@ private:
 
   /// Moves faces [first, last) of one plane apart.
   void settle(std::size_t first, std::size_t last) {
-    std::sort(faces_.begin() + static_cast<std::ptrdiff_t>(first),
-              faces_.begin() + static_cast<std::ptrdiff_t>(last),
-              [](const Face& a, const Face& b) { return a.extent.min.x < b.extent.min.x; });
     std::vector<Order> orders;
-    for (std::size_t i = first; i < last; ++i) {
-      for (std::size_t k = i + 1; k < last && faces_[k].extent.min.x <= faces_[i].extent.max.x; ++k) {
-        BuildWatch::look_at(pairs_);
-        if (++pairs_ > kMostPairs || overlaps_ > kMostOverlaps) return;
-        Face &a = faces_[i], &b = faces_[k];
-        if (!can_differ(a, b) || !overlap(a.extent, b.extent)) continue;
-        ++overlaps_;
-        const std::optional<Order> order =
-            a.object == b.object ? order_of_parts(a, b) : order_of_objects(a, b);
-        if (order) orders.push_back(*order);
-      }
-    }
-    if (orders.empty()) return;
+    const bool all = for_each_pair(first, last, [&](Face& a, Face& b) {
+      if (overlaps_ > kMostOverlaps) return false;
+      if (!can_differ(a, b) || !overlap(a.extent, b.extent)) return true;
+      ++overlaps_;
+      const std::optional<Order> order = a.object == b.object ? order_of_parts(a, b) : order_of_objects(a, b);
+      if (order) orders.push_back(*order);
+      return true;
+    });
+    if (!all || orders.empty()) return;
     any_moves_ = true;
     if (stack(orders)) return;
     // What is seen depends on the ray, and no order of all faces is right everywhere.
@@ -461,13 +484,14 @@ private:
       tree_.emplace(extents, scene_.lights.size());
     }
     const Extent both = a.extent.common(b.extent);
-    const Vec3 eye = scene_.camera.location;
+    const Vec3& eye = *eye_;
     const Vec3 middle = both.is_everywhere() ? eye + a.normal : (both.min + both.max) * 0.5;
     return tree_->tests_first(a.object, b.object, {eye, middle - eye});
   }
 
   const Scene& scene_;
   const std::vector<std::uint32_t>& material_flags_;
+  const Vec3* eye_;
   std::vector<Face> faces_;
   std::vector<CsgPath> paths_; ///< of boxes in CSGs
   std::size_t solid_count_ = 0, pairs_ = 0, overlaps_ = 0;
@@ -477,10 +501,12 @@ private:
 
 } // namespace
 
-SceneWithFacesApart::SceneWithFacesApart(const Scene& scene, const std::vector<std::uint32_t>& material_flags)
+SceneWithFacesApart::SceneWithFacesApart(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
+                                         const Eye& eye)
     : scene_(scene) {
   if (scene.objects.size() > kMostObjects) return;
-  CoplanarFaces faces(scene, material_flags);
+  if (eye.may_move() && !CoplanarFaces(scene, material_flags, nullptr).any_overlap()) return;
+  CoplanarFaces faces(scene, material_flags, &eye.location());
   if (faces.settle()) copy_ = faces.moved();
 }
 

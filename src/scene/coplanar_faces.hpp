@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
+#include "scene/eye.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -20,7 +21,7 @@ class SceneWithFacesApart {
 public:
   /// `scene` stays as it is as long as this lives. `material_flags`: those of objects that consist of a
   /// material.
-  SceneWithFacesApart(const Scene& scene, const std::vector<std::uint32_t>& material_flags);
+  SceneWithFacesApart(const Scene& scene, const std::vector<std::uint32_t>& material_flags, const Eye& eye);
 
   const Scene& scene() const { return copy_ ? *copy_ : scene_; }
   bool has_moved() const { return copy_.has_value(); }

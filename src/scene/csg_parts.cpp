@@ -153,10 +153,24 @@ struct Surroundings {
   int depth = 0;
 };
 
+void write_shape(const PlacedShape& shape, SolidRecord& solid) {
+  std::copy(shape.geometry, shape.geometry + 12, solid.object.geometry);
+  std::copy(shape.parameters, shape.parameters + 2, solid.extra.value);
+}
+
+/// Moves the boundaries of a tree's solids, of which programs ask what is inside.
+void move_boundaries(const Node& node, const Eye& eye, std::vector<SolidRecord>& solids) {
+  if (node.kind == Node::Kind::solid) {
+    if (node.mesh() == nullptr) write_shape(with_boundary(node.shape, eye), solids[node.record]);
+    return;
+  }
+  for (const Node& child : node.children)
+    move_boundaries(child, eye, solids);
+}
+
 class TreeBuilder {
 public:
-  TreeBuilder(const Vec3& eye, std::vector<SolidRecord>& solids, MeshInsides& meshes)
-      : eye_(eye), solids_(solids), meshes_(meshes) {}
+  TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes) : solids_(solids), meshes_(meshes) {}
 
   Node build(const Object& object, Surroundings around) {
     if (around.depth++ > kDeepestCsg) throw InputError("the scene has a CSG that nests too deeply");
@@ -239,14 +253,12 @@ private:
     return node;
   }
 
-  SolidRecord place_solid(Node& node) const {
+  static SolidRecord place_solid(Node& node) {
     node.shape = place_shape(node.object);
     SolidRecord solid{};
     solid.object.kind_and_flags =
         node.shape.is_empty || node.has_no_inside() ? kEmptySolid : node.shape.kind_and_flags;
-    const PlacedShape shape = with_boundary(node.shape, eye_);
-    std::copy(shape.geometry, shape.geometry + 12, solid.object.geometry);
-    std::copy(shape.parameters, shape.parameters + 2, solid.extra.value);
+    write_shape(node.shape, solid);
     return solid;
   }
 
@@ -263,7 +275,6 @@ private:
     return solid;
   }
 
-  const Vec3& eye_;
   std::vector<SolidRecord>& solids_;
   MeshInsides& meshes_;
 };
@@ -635,12 +646,16 @@ bool CsgParts::contains(const Object& object) {
          (object.clipped_by && !object.clipped_by->empty());
 }
 
-CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns,
-                   std::size_t convex, const std::vector<std::uint32_t>& material_flags) {
-  TreeBuilder builder(scene.camera.location, solids, meshes);
+CsgParts::CsgParts(const Scene& scene, const Eye& eye,
+                   const std::vector<std::shared_ptr<const Object>>& patterns, std::size_t convex,
+                   const std::vector<std::uint32_t>& material_flags) {
+  TreeBuilder builder(solids, meshes);
   Flattener patterns_flattener(*this, nullptr);
-  for (const auto& object : patterns)
-    patterns_flattener.add_inside(builder.build(*object, {}));
+  for (const auto& object : patterns) {
+    const Node tree = builder.build(*object, {});
+    patterns_flattener.add_inside(tree);
+    move_boundaries(tree, eye, solids);
+  }
   // Most CSGs show a part at least.
   parts.reserve(
       static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(), contains)));
@@ -652,7 +667,10 @@ CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const O
     const Node tree = builder.build(scene.objects[i], {});
     Flattener(*this, i < convex ? &material_flags : nullptr).show(tree, kNoCondition, kEverywhere);
     // Nothing asks what is inside of solids that no program names.
-    if (steps.size() == first_step) solids.resize(first_solid);
+    if (steps.size() == first_step)
+      solids.resize(first_solid);
+    else
+      move_boundaries(tree, eye, solids);
     for (std::size_t part = first_part; part < parts.size(); ++part) {
       parts[part].whole = i;
       parts[part].object.interior = interior_or_own(parts[part].object.interior, scene, i);

@@ -57,8 +57,9 @@ struct CsgParts {
   /// of `patterns`, objects without meshes, one each. Of the first `convex` objects, solids between planes
   /// become boxes or meshes, where the flags of their materials allow it. Throws InputError if one nests too
   /// deeply or a transformation is singular.
-  explicit CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns = {},
-                    std::size_t convex = 0, const std::vector<std::uint32_t>& material_flags = {});
+  CsgParts(const Scene& scene, const Eye& eye,
+           const std::vector<std::shared_ptr<const Object>>& patterns = {}, std::size_t convex = 0,
+           const std::vector<std::uint32_t>& material_flags = {});
 
   /// Whether an object is among them.
   static bool contains(const Object& object);

@@ -30,7 +30,7 @@ struct EndFace {
 
 class DeepCuts {
 public:
-  explicit DeepCuts(const Vec3& eye) : eye_(eye) {}
+  explicit DeepCuts(const Eye& eye) : eye_(eye) {}
 
   /// The object with deeper cuts, if it needs any.
   std::optional<Object> changed(const Object& object) {
@@ -106,10 +106,11 @@ private:
     constexpr double kSameDirection = 1e-9, kSamePlane = 1e-11;
     constexpr double kDeepEnough = 2e-6; // of the distance: single precision is wrong by up to a tenth of it
     moves_.clear();
+    const Vec3 eye = eye_.location();
     for (const EndFace& cut : cut_) {
       if (pairs_ > kMostComparisons) return;
       pairs_ += kept_.size();
-      const double size = glm::length(eye_) + glm::length(cut.point) + glm::length(cut.point - eye_);
+      const double size = glm::length(eye) + glm::length(cut.point) + glm::length(cut.point - eye);
       double way = 0;
       for (const EndFace& kept : kept_) {
         const double beyond = cut.distance - kept.distance;
@@ -154,7 +155,7 @@ private:
     return result;
   }
 
-  const Vec3 eye_;
+  const Eye& eye_;
   std::vector<EndFace> kept_, cut_;
   std::vector<Move> moves_;
   std::size_t leaves_ = 0, pairs_ = 0;
@@ -162,8 +163,8 @@ private:
 
 } // namespace
 
-SceneWithDeepCuts::SceneWithDeepCuts(const Scene& scene) : scene_(scene) {
-  DeepCuts cuts(scene.camera.location);
+SceneWithDeepCuts::SceneWithDeepCuts(const Scene& scene, const Eye& eye) : scene_(scene) {
+  DeepCuts cuts(eye);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     std::optional<Object> object = cuts.changed(scene.objects[i]);
     if (!object) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
+#include "scene/eye.hpp"
 
 #include <optional>
 
@@ -14,7 +15,7 @@ namespace celltrace {
 class SceneWithDeepCuts {
 public:
   /// `scene` stays as it is as long as this lives.
-  explicit SceneWithDeepCuts(const Scene& scene);
+  SceneWithDeepCuts(const Scene& scene, const Eye& eye);
 
   const Scene& scene() const { return copy_ ? *copy_ : scene_; }
 

@@ -13,12 +13,11 @@ namespace celltrace {
 
 namespace {
 
-constexpr double kLarge = 256;          ///< radii beside the camera's distance from the surface
 constexpr std::size_t kMostSpheres = 8; ///< quadrics have no bounds: each ray is tested against all of them
 
 class LargeSpheres {
 public:
-  LargeSpheres(const Vec3& eye, const std::vector<std::uint32_t>& material_flags)
+  LargeSpheres(const Eye& eye, const std::vector<std::uint32_t>& material_flags)
       : eye_(eye), material_flags_(material_flags) {}
 
   /// The object as it is to be, its parts too, if one of them has changed.
@@ -38,17 +37,16 @@ public:
 private:
   std::optional<Object> about_nearest_point(const Object& object, const Sphere& sphere,
                                             const Transform& transform) {
-    const double radius = std::abs(sphere.radius);
-    const Vec3 from_centre =
-        (transform.is_identity() ? eye_ : transform.inverse().point(eye_)) - sphere.centre;
-    const double distance = glm::length(from_centre);
-    const bool is_large = radius > kLarge * std::abs(distance - radius) && distance > 0;
-    if (!is_large || object.inverse || object.clipped_by != nullptr || count_ == kMostSpheres) return {};
+    if (object.inverse || object.clipped_by != nullptr || count_ == kMostSpheres) return {};
     if (object.material < material_flags_.size() &&
         (material_flags_[object.material] & kernel::object_flag::by_surface) != 0)
       return {};
+    if (!eye_.is_near_surface(sphere, transform)) return {};
     ++count_;
-    const Vec3 normal = from_centre / distance;
+    const double radius = std::abs(sphere.radius);
+    const Vec3 eye = eye_.location();
+    const Vec3 from_centre = (transform.is_identity() ? eye : transform.inverse().point(eye)) - sphere.centre;
+    const Vec3 normal = from_centre / glm::length(from_centre);
     Object quadric = object;
     Quadric shape;
     shape.linear = normal * (2 * radius);
@@ -58,7 +56,7 @@ private:
     return quadric;
   }
 
-  const Vec3 eye_;
+  const Eye& eye_;
   const std::vector<std::uint32_t>& material_flags_;
   std::size_t count_ = 0;
 };
@@ -66,9 +64,9 @@ private:
 } // namespace
 
 SceneWithLargeSpheres::SceneWithLargeSpheres(const Scene& scene,
-                                             const std::vector<std::uint32_t>& material_flags)
+                                             const std::vector<std::uint32_t>& material_flags, const Eye& eye)
     : scene_(scene) {
-  LargeSpheres spheres(scene.camera.location, material_flags);
+  LargeSpheres spheres(eye, material_flags);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     std::optional<Object> object = spheres.changed(scene.objects[i]);
     if (!object) continue;

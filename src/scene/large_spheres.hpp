@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
+#include "scene/eye.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +19,7 @@ class SceneWithLargeSpheres {
 public:
   /// `scene` stays as it is as long as this lives. `material_flags`: those of objects that consist of a
   /// material.
-  SceneWithLargeSpheres(const Scene& scene, const std::vector<std::uint32_t>& material_flags);
+  SceneWithLargeSpheres(const Scene& scene, const std::vector<std::uint32_t>& material_flags, const Eye& eye);
 
   const Scene& scene() const { return copy_ ? *copy_ : scene_; }
 

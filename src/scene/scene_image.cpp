@@ -135,10 +135,10 @@ struct SceneOfRecords {
   const SceneWithLargeSpheres with_large_spheres;
   const SceneWithProjectors with_projectors;
 
-  explicit SceneOfRecords(const Scene& given)
-      : as_given(given), textures(as_given.scene()), with_deep_cuts(given),
-        with_faces_apart(with_deep_cuts.scene(), textures.object_flags),
-        with_large_spheres(with_faces_apart.scene(), textures.object_flags),
+  SceneOfRecords(const Scene& given, const Eye& eye)
+      : as_given(given), textures(as_given.scene()), with_deep_cuts(given, eye),
+        with_faces_apart(with_deep_cuts.scene(), textures.object_flags, eye),
+        with_large_spheres(with_faces_apart.scene(), textures.object_flags, eye),
         with_projectors(with_large_spheres.scene()) {}
 };
 
@@ -158,7 +158,8 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread, const ImageMemory& remembered) {
   BuildWatch::reach(0);
   validate(given);
-  SceneOfRecords prepared(given);
+  Eye eye(given.camera, remembered.eye_moves ? Eye::Moves::yes : Eye::Moves::no);
+  SceneOfRecords prepared(given, eye);
   TextureTables& textures = prepared.textures;
   const SceneWithProjectors& with_projectors = prepared.with_projectors;
   const Scene& scene = with_projectors.scene();
@@ -166,8 +167,8 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   const InstancedMeshes instanced(scene, with_projectors.own_objects(), textures.object_flags, threads);
   const MeshInstances instances(scene, instanced, textures.object_flags, threads);
   BuildWatch::reach(0.2);
-  const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,
-                             instanced, instances, threads);
+  const SceneObjects objects(scene, eye, with_projectors.own_objects(), textures.objects,
+                             textures.object_flags, instanced, instances, threads);
   threads = threads_for(objects, instances, threads, objects_a_thread);
   const OrderMemory memory(work, objects.count());
   touch(work, work.size(), threads);
@@ -204,6 +205,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   writer.write_instances(instances, threads);
   writer.write_unbounded(objects, census);
   writer.write_bounds(loose.around);
+  eye_ = std::move(eye);
   owners_.clear();
   if (remembered.owners) owners_ = owners_of(objects, {memory.objects, loose.objects}, instances);
   if (!remembered.updatable) return;
@@ -244,15 +246,16 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread) {
   if (!origin_ || given.objects.size() != origin_->forms.size()) return false;
   validate(given);
-  SceneOfRecords prepared(given);
+  Eye eye(given.camera, eye_.may_move() ? Eye::Moves::yes : Eye::Moves::no);
+  SceneOfRecords prepared(given, eye);
   TextureTables& textures = prepared.textures;
   const SceneWithProjectors& with_projectors = prepared.with_projectors;
   const Scene& scene = with_projectors.scene();
   const InstancedMeshes instanced(scene, with_projectors.own_objects(), textures.object_flags, threads);
   const MeshInstances instances(scene, instanced, textures.object_flags, threads);
   if (forms_of(instanced, instances, given.objects.size()) != origin_->forms) return false;
-  const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,
-                             instanced, instances, threads);
+  const SceneObjects objects(scene, eye, with_projectors.own_objects(), textures.objects,
+                             textures.object_flags, instanced, instances, threads);
   if (objects.count() != origin_->places.size() || objects.order() != origin_->order) return false;
   threads = threads_for(objects, instances, threads, objects_a_thread);
   // Plain triangles are written as they are counted: should there turn out to be others than before, they all
@@ -311,6 +314,7 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   writer.write_instances(instances, threads);
   writer.write_unbounded(objects, census);
   writer.write_bounds(loose->around);
+  eye_ = std::move(eye);
   origin_->material_flags = std::move(textures.object_flags);
   origin_->surfaces_are_apart = textures.objects.empty() && !has_projectors(given);
   return true;

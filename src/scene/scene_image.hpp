@@ -13,6 +13,7 @@
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
+#include "scene/eye.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +30,8 @@ constexpr std::uint32_t kImageVersion = 17;
 struct ImageMemory {
   bool updatable = false; ///< what update() and update_surfaces() need
   bool owners = false;    ///< for owner_of()
+  /// Whether the camera may be elsewhere in later frames, which is_for() is asked about.
+  bool eye_moves = false;
   /// Bytes that the image and its BVH may take; 0: as many as there are.
   std::uint64_t most_bytes = 0;
 };
@@ -66,6 +69,12 @@ public:
   /// objects, or where materials become opaque, textured or the like or cease to be.
   bool update_surfaces(const Scene& scene);
   bool empty() const noexcept { return block_.size() == 0; }
+  /// Returns whether the image shows the scene to a camera at `location` as one that was made for it would:
+  /// always at the location that it was made for.
+  bool is_for(const Vec3& location) const { return eye_.prepares_alike(location); }
+  /// Returns whether there may be locations that it is not for; it says yes unless ImageMemory::eye_moves is
+  /// set.
+  bool depends_on_eye() const { return eye_.matters(); }
 
   /// Makes room for an accelerator: a table of `table_bytes` bytes, of voxels or of nodes, and lists of
   /// `list_words` words in all; where the static part moves, the old address becomes invalid.
@@ -114,6 +123,7 @@ private:
 
   AlignedBlock block_;
   std::unique_ptr<Origin> origin_; ///< null unless it is updatable
+  Eye eye_;                        ///< that it was made for
   std::vector<Index> owners_; ///< of unbounded objects and then all others, in the order of their records
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;

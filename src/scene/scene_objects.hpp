@@ -25,7 +25,7 @@ public:
   /// Objects from `projectors` on are those of lights. `scene` and `material_flags`, what objects have that
   /// consist of a material, stay as they are as long as this lives. Throws InputError if there are too many
   /// objects.
-  SceneObjects(const Scene& scene, std::size_t projectors,
+  SceneObjects(const Scene& scene, const Eye& eye, std::size_t projectors,
                const std::vector<std::shared_ptr<const Object>>& patterns,
                const std::vector<std::uint32_t>& material_flags, const InstancedMeshes& instanced,
                const MeshInstances& instances, unsigned threads);

@@ -412,13 +412,16 @@ PlacedShape place_shape(const Object& object) {
   return std::visit([&](const auto& shape) { return place(object, shape); }, object.shape);
 }
 
-PlacedShape with_boundary(const PlacedShape& shape, const Vec3& eye) {
+PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
   const std::uint32_t kind = shape.kind_and_flags & object_flag::kind_mask;
-  if (shape.is_empty) return shape;
+  const bool is_round = kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive>;
+  const bool has_boundary =
+      is_round || kind == kPrimitiveKind<PlanePrimitive> || kind == kPrimitiveKind<BoxPrimitive>;
+  if (shape.is_empty || !has_boundary) return shape;
   // A point is as precise as its coordinates and those of its ray's origin are large. What is farther away
   // than this is seen too small for its boundary to matter.
-  const double far_away = 100 + 4 * glm::length(eye);
-  Vec3 reach = glm::abs(eye);
+  const double far_away = 100 + 4 * glm::length(eye.location());
+  Vec3 reach = glm::abs(eye.location());
   if (shape.is_bounded) {
     const kernel::Aabb box = shape.bounds();
     for (int i = 0; i < 3; ++i)
@@ -444,7 +447,7 @@ PlacedShape with_boundary(const PlacedShape& shape, const Vec3& eye) {
   } else if (kind == kPrimitiveKind<BoxPrimitive>) {
     for (int row = 0; row < 3; ++row)
       scale(row, 1 / (1 + errors[row]));
-  } else if (kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive>) {
+  } else if (is_round) {
     // To another height of a cone belongs another radius. Open ones have their boundary inside.
     const double sign = (shape.kind_and_flags & object_flag::open) != 0 ? -1 : 1;
     const double narrower =

@@ -5,6 +5,7 @@
 #include "celltrace/scene.hpp"
 #include "kernel/aabb.hpp"
 #include "kernel/records.hpp"
+#include "scene/eye.hpp"
 
 namespace celltrace {
 
@@ -31,9 +32,9 @@ void write_map(const Transform& map, float (&to)[12]);
 PlacedShape place_shape(const Object& object);
 
 /// The shape as points are tested against that lie on its surface but for rounding: those are in a box, in a
-/// half-space and in an open cylinder or cone, but not in a closed one, as in POV-Ray. Where surfaces of a CSG
-/// coincide, it depends on that which of them is seen. `eye`: where most rays begin.
-PlacedShape with_boundary(const PlacedShape& shape, const Vec3& eye);
+/// half-space and in an open cylinder or cone, but not in a closed one, as in POV-Ray. Where surfaces of a
+/// CSG coincide, it depends on that which of them is seen. `eye`: where most rays begin.
+PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye);
 
 /// Whether the bounds of such a shape are finite, without those that CSG may give it.
 bool has_bounds(const Object& object);

@@ -99,7 +99,7 @@ TEST_CASE("Meshes without an inside share their tree, and those of one triangle 
   const auto mesh = mesh_of({{1, 1}, {3, 3}, {4, 5}, {6, 6}, {7, 9}, {8, 8}});
   Scene scene = scene_with(cut_at(mesh, 3));
   scene.objects.push_back(cut_at(mesh, 6));
-  const auto parts = [&] { return CsgParts(scene); };
+  const auto parts = [&] { return CsgParts(scene, Eye(scene.camera)); };
   const std::size_t records = parts().crossed_meshes.records().size();
   CHECK(records > 6);
   scene.objects.push_back(cut_at(mesh, 9));

@@ -38,13 +38,13 @@ std::vector<Index> order_in(Object object) {
   Scene scene;
   scene.objects.push_back(std::move(object));
   std::vector<Index> materials;
-  for (const CsgPart& part : CsgParts(scene).parts)
+  for (const CsgPart& part : CsgParts(scene, Eye(scene.camera)).parts)
     if (part.object.material < 9) materials.push_back(part.object.material);
   return materials;
 }
 
 std::vector<std::size_t> order_of(const Scene& scene) {
-  return order_of_tests(scene, scene.objects.size(), CsgParts(scene));
+  return order_of_tests(scene, Eye(scene.camera), scene.objects.size(), CsgParts(scene, Eye(scene.camera)));
 }
 
 } // namespace

@@ -37,7 +37,7 @@ Object box(const Vec3& from, const Vec3& to, Index material = 0) {
 std::vector<CsgPart> parts_of(Object object, const std::vector<std::uint32_t>& material_flags = {0, 0}) {
   Scene scene;
   scene.objects.push_back(std::move(object));
-  return CsgParts(scene, {}, 1, material_flags).parts;
+  return CsgParts(scene, Eye(scene.camera), {}, 1, material_flags).parts;
 }
 
 const Mesh& only_mesh(const std::vector<CsgPart>& parts) {

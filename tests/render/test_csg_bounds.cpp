@@ -30,7 +30,7 @@ Object plane(const Vec3& normal, double distance, bool inverse = false) {
 CsgParts parts_of(Object object) {
   Scene scene;
   scene.objects.push_back(std::move(object));
-  CsgParts parts(scene);
+  CsgParts parts(scene, Eye(scene.camera));
   std::stable_sort(parts.parts.begin(), parts.parts.end(),
                    [](const CsgPart& a, const CsgPart& b) { return a.condition < b.condition; });
   return parts;
