@@ -56,6 +56,16 @@ foreach(file IN LISTS files)
   endforeach()
 endforeach()
 
+# Where the eye is, passes ask an Eye, which remembers that they did: the image is made anew when it moves.
+file(GLOB files ${SOURCE}/scene/*.[ch]pp)
+list(FILTER files EXCLUDE REGEX "/(eye\\.hpp|scene\\.cpp|scene_image\\.cpp)$")
+foreach(file IN LISTS files)
+  file(STRINGS ${file} lines REGEX "[.>]camera[^a-z_]")
+  foreach(line IN LISTS lines)
+    message(SEND_ERROR "${file}: reads the camera, not the Eye: ${line}")
+  endforeach()
+endforeach()
+
 # Programs of functions know neither the parser nor places in scenes.
 file(GLOB files ${SOURCE}/pov/function_*.[ch]pp)
 list(FILTER files EXCLUDE REGEX "function_reader\\.cpp$")
