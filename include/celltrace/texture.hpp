@@ -89,9 +89,9 @@ struct Fractal {
   int iterations = 1; ///< 0 to 65535
   int exponent = 2;   ///< 2 to 33, of z^n + c
   int magnet = 0;     ///< 1 or 2: formulas of magnetism, without exponent
-  int exterior = 1;   ///< 0 to 6
+  int exterior = 1;   ///< 0 to 8
   double exterior_factor = 1;
-  int interior = 0; ///< 0 to 6
+  int interior = 0; ///< 0 to 8
   double interior_factor = 1;
 };
 /// How much the surface faces a direction, 0 away from it to 1 toward it, by the angle; with an altitude, the

@@ -32,7 +32,7 @@ constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 768};
 /// What insides take of light, and how clear they are; and mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 3968};
 /// Patterns that few scenes have, many of which read tables of the scene image.
-constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14208};
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14464};
 /// What patterns ask of surfaces besides points.
 constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3968};
 /// Warps but for turbulence.

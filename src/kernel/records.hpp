@@ -294,7 +294,7 @@ constexpr uint32_t inverse = 0x400;
 /// PatternRecord::table of a fractal.
 namespace fractal_word {
 constexpr uint32_t exponent_mask = 0xFF;
-constexpr uint32_t exterior_shift = 8; ///< POV-Ray's number of what is counted, 0 to 6
+constexpr uint32_t exterior_shift = 8; ///< POV-Ray's number of what is counted, 0 to 8
 constexpr uint32_t interior_shift = 12;
 constexpr uint32_t type_mask = 0xF;
 constexpr uint32_t magnet_shift = 16; ///< 0 to 2

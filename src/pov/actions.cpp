@@ -18,7 +18,7 @@ namespace {
 constexpr int kDeepestObject = 1000;
 
 constexpr std::size_t kMostKnots = 20000; // of a spline
-constexpr int kMostType = 6;              // of what is counted of a fractal
+constexpr int kMostType = 8;              // of what is counted of a fractal
 
 /// The number that leads a list.
 double list_count(Session& session, const std::vector<ListEntry>& list, const Location& where) {

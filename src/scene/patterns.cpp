@@ -128,11 +128,12 @@ std::uint32_t put(const pattern::Facets& facets, Parameters parameter) {
   return kPatternKind<BumpsPattern> | pattern_flag::at_features;
 }
 std::uint32_t put(const pattern::Fractal& fractal, Parameters parameter) {
-  constexpr int kMostIterations = 65535;
+  constexpr int kMostIterations = 65535, kMostType = 8;
   if (fractal.iterations < 0 || fractal.iterations > kMostIterations)
     throw InputError("a fractal's iterations are not 0 to " + std::to_string(kMostIterations));
   if (fractal.exponent < 2 || fractal.exponent > 33 || fractal.magnet < 0 || fractal.magnet > 2 ||
-      fractal.exterior < 0 || fractal.exterior > 6 || fractal.interior < 0 || fractal.interior > 6)
+      fractal.exterior < 0 || fractal.exterior > kMostType || fractal.interior < 0 ||
+      fractal.interior > kMostType)
     throw InputError("a fractal is of no kind that there is");
   parameter[0] = static_cast<float>(fractal.c[0]);
   parameter[1] = static_cast<float>(fractal.c[1]);

@@ -291,6 +291,8 @@ TEST_CASE("fractals without iterations") {
   const Pattern constant = material("pigment { magnet 1 mandel -3 exponent 3 }").pigment.map->pattern;
   CHECK(std::get<pattern::Fractal>(constant.kind).iterations == 0);
   CHECK(std::get<pattern::Fractal>(constant.kind).interior_factor == 0.55);
+  const Pattern modulo = material("pigment { mandel 20 exterior 8, 2.5 }").pigment.map->pattern;
+  CHECK(std::get<pattern::Fractal>(modulo.kind).exterior == 8);
 }
 
 TEST_CASE("normals that are undefined make surfaces black") {

@@ -140,7 +140,7 @@ TEST_CASE("what stands behind a pattern's word") {
   CHECK(error_line("sphere { 0, 1 pigment { bozo exterior 1, 2 } }") ==
         "scene.pov:1:30: error: this word means something to fractals only");
   CHECK(error_line("sphere { 0, 1 pigment { mandel 5 exterior 9, 2 } }") ==
-        "scene.pov:1:34: error: this number must lie between 0 and 6");
+        "scene.pov:1:34: error: this number must lie between 0 and 8");
   CHECK(error_line("sphere { 0, 1 pigment { magnet 3 mandel 5 } }") ==
         "scene.pov:1:34: error: a magnet is of kind 1 or 2");
   CHECK(error_line("sphere { 0, 1 pigment { bozo mortar 1 } }") ==

@@ -138,7 +138,8 @@ std::optional<Fogged> through(const Rainbow& rainbow, const Vec3& direction, dou
   const double across = (degrees(glm::dot(axis, direction)) - rainbow.angle) / rainbow.width + 0.5;
   const Vec3 up = glm::normalize(rainbow.up - glm::dot(rainbow.up, axis) * axis);
   const double along = degrees(glm::dot(up, glm::normalize(direction - glm::dot(direction, axis) * axis)));
-  if (across < 0 || across > 1 || along > rainbow.arc_angle / 2) return std::nullopt;
+  if (across < 0 || across > 1 || along > rainbow.arc_angle / 2 || glm::dot(axis, direction) < 0)
+    return std::nullopt;
   const auto& colours = rainbow.colours;
   const auto after = std::find_if(colours.begin(), colours.end(),
                                   [&](const Rainbow::Colour& colour) { return across <= colour.position; });

@@ -741,6 +741,20 @@ Scene lit_from_behind() {
   return scene;
 }
 
+/// A bow that ends where rays are at right angles to its direction, though it is wider than that.
+Scene rainbow_aside() {
+  Scene scene = with_camera(camera_at({0, 1, -7}, {0, 1, 0}));
+  add_floor(scene, -1, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  Rainbow bow;
+  bow.direction = {1, 0.1, 0};
+  bow.angle = 80;
+  bow.width = 40;
+  bow.distance = 15;
+  bow.colours = {{0, {0.8, 0.4, 1}, 0.9, 0.2}, {1, {1, 0.2, 0.1}, 0.9, 0.5}};
+  scene.rainbows.push_back(bow);
+  return scene;
+}
+
 /// Two bows that share a part of the sky, one of them an arc that fades, behind thin fog and in a mirror.
 Scene rainbows() {
   Scene scene = with_camera(camera_at({0, 1, -7}, {0, 1, 0}));
@@ -842,6 +856,7 @@ const std::vector<NamedScene>& scenes() {
       {"dimmed lights", dimmed_lights},
       {"polygons", polygons},
       {"rainbows", rainbows},
+      {"rainbow aside", rainbow_aside},
       {"textures", textures, "the reference has no noise, layers or normals"}};
   return all;
 }

@@ -135,7 +135,7 @@ template <class Spu>
     const F random = random_at<S>(direction, number + 1);
     across = across + (random + random - one) * F(bow.jitter);
   }
-  seen = (across >= zero) & (across <= one) & (along <= F(bow.arc));
+  seen = (across >= zero) & (across <= one) & (along <= F(bow.arc)) & (z >= zero);
   if (seen.bits() == 0) return;
   BowColour<S> colour;
   bow_colour(scene, bow, across, colour);

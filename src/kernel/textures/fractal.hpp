@@ -57,9 +57,11 @@ struct FractalPattern : RarePattern {
     const F factor(r.parameter[3]), inner(r.parameter[4]);
     const F of_outside = outside == 1   ? rounds * F(1.0f / r.parameter[2])
                          : outside == 6 ? S::sqrt(square<S>(left)) * factor
+                         : outside > 6  ? remaining<S>(rounds, outside, factor)
                                         : counted<S>(left, outside, factor);
     const F of_inside = inside == 1   ? S::sqrt(least) * inner
                         : inside == 6 ? z.a * z.a + z.b * z.b * inner // POV-Ray's factor is only of one
+                        : inside > 6  ? remaining<S>(F(r.parameter[2]), inside, inner)
                                       : counted<S>(z, inside, inner);
     return S::select(stays, of_inside, of_outside);
   }
@@ -165,6 +167,17 @@ private:
     const typename S::F part = (type & 1) == 0 ? z.a : z.b;
     return type < 4 ? part * factor : part * part * factor;
   }
+  /// The rest of the rounds by the whole part of the factor, or by that and 1, over the factor.
+  template <class S>
+  [[gnu::always_inline]] static typename S::F remaining(const typename S::F& rounds, uint32_t type,
+                                                        const typename S::F& factor) {
+    using F = typename S::F;
+    const F divisor = S::max(S::floor(factor) + F(type == 7 ? 0.0f : 1.0f), F(1.0f));
+    // Half a round more: the quotient of what divides is not rounded down.
+    const F times = S::floor((rounds + F(0.5f)) / divisor);
+    return (rounds - times * divisor) / S::max(factor, F(kLeastFactor));
+  }
+  static constexpr float kLeastFactor = 1e-30f;
 };
 
 } // namespace celltrace::kernel
