@@ -26,6 +26,7 @@ TEST_CASE("a column of zeros in a matrix is a scale by 1") {
   CHECK(moved("1,0,0, 1,0,0, 0,0,1, 0,0,0", {1, 2, 3}) == Vec3(3, 2, 3));
   CHECK(moved("1,0,0, 0,1e-11,0, 0,0,1, 0,0,0", {1, 2, 3}) == Vec3(1, 2, 3));
   CHECK(warns("sphere { 0, 1 matrix <1,0,0, 0,0,0, 0,0,1, 0,0,0> }", "a matrix with a column of zeros"));
+  CHECK(output("sphere { 0, 1 matrix <1,0,0, 0,1,0, 0,0,1, 0,0,0> }").find("warning") == std::string::npos);
   CHECK(error_line("sphere { 0, 1 matrix <1,0,0, 0,0,0, 0,1,1, 0,0,0> }").find("is singular") !=
         std::string::npos);
 }

@@ -220,6 +220,16 @@ TEST_CASE("functions of what is not supported are an error where they are called
         "scene.pov:1:86: error: 'image_map' is not supported yet");
   CHECK(error_line(declaration + "#declare G = function { F(x, y, z) } #declare A = G(1, 2, 3);") ==
         "scene.pov:1:123: error: 'image_map' is not supported yet");
+  // A pattern gives one number, a pigment five.
+  for (const std::string pattern : {"image_map { png \"a.png\" }", "slope y"}) {
+    INFO(pattern);
+    const std::string of_pattern = "#declare F = function { pattern { " + pattern + " } } ";
+    CHECK(error_line(of_pattern + "#declare G = function { F(x, y, z)*2 }").empty());
+    CHECK_FALSE(error_line(of_pattern + "#declare G = function { F(x, y, z).x }").empty());
+    const std::string of_pigment = "#declare F = function { pigment { " + pattern + " } } ";
+    CHECK(error_line(of_pigment + "#declare G = function { F(x, y, z).transmit }").empty());
+    CHECK_FALSE(error_line(of_pigment + "#declare G = function { F(x, y, z)*2 }").empty());
+  }
   CHECK(
       error_line("#declare F = function { pigment { slope y } } #declare A = F(1, 2, 3);") ==
       "scene.pov:1:60: error: a pigment of surface coordinates or slopes as a function is not supported yet");
