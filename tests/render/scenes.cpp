@@ -65,7 +65,7 @@ Scene glass_and_mirrors() {
   steel.finish.diffuse = 0.2;
   steel.finish.reflection_min = {0.4, 0.4, 0.4};
   steel.finish.reflection_max = {0.9, 0.9, 0.9};
-  steel.finish.reflection_falloff = 3;
+  steel.finish.reflection_falloff = 2;
   steel.finish.reflection_metallic = 0.5;
   add_sphere(scene, {1.3, 0, 0.7}, 1, steel);
   Material bronze = matte({0.8, 0.5, 0.2});
