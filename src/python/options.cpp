@@ -68,7 +68,12 @@ const Fields<RenderOptions>& render_fields() {
               "of emulated SPEs: free or lockstep")
           .add(
               "seed", [](RenderOptions& o) -> std::uint64_t& { return o.emulation.seed; },
-              "of the order of events in lockstep");
+              "of the order of events in lockstep")
+          .add("most_seconds", &RenderOptions::most_seconds,
+               "a frame that takes longer, with what it prepares, raises Cancelled; 0: no limit")
+          .add(
+              "most_memory", &RenderOptions::most_memory,
+              "bytes of the picture, and of the scene as it is rendered; more is an InputError; 0: no limit");
   return fields;
 }
 
