@@ -94,6 +94,11 @@ def test_time_and_memory_can_be_limited(ball):
             session.render(into=into)
 
 
+def test_words_of_the_program_are_known(ball):
+    usual = celltrace.render(ball, width=40, height=30)
+    assert (celltrace.render(ball, width=40, height=30, balance="static", accelerator="auto") == usual).all()
+
+
 @pytest.mark.parametrize("channels", [3, 4])
 def test_pixels_go_into_an_array_of_the_callers(ball, channels):
     session = celltrace.Session(ball, width=40, height=30)
