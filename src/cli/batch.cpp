@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "cli/contact_sheet.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/lenient_note.hpp"
 #include "cli/render_command.hpp"
 #include "cli/sandbox.hpp"
 #include "cli/used_files.hpp"
@@ -11,7 +12,6 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
-#include <system_error>
 
 namespace celltrace::cli {
 
@@ -33,6 +33,7 @@ SheetEntry render_one(RenderRequest render) {
     if (!std::filesystem::exists(render.output)) throw Error("there is not a pixel of it");
   } catch (const SceneError& error) {
     entry.text = error.what();
+    entry.is_unsupported = is_unsupported(error);
   } catch (const std::bad_alloc&) {
     entry.text = "celltrace: error: out of memory";
   } catch (const std::exception& error) {
@@ -58,9 +59,7 @@ SandboxFiles files_of_all(const BatchRequest& batch) {
 } // namespace
 
 int run_batch(const BatchRequest& batch) {
-  std::error_code error;
-  std::filesystem::create_directories(batch.folder, error);
-  if (error) throw InputError(batch.folder.string() + ": " + error.message());
+  make_folder(batch.folder);
   const RenderRequest& first = batch.renders.front();
   if (first.is_sandboxed) enter_sandbox(files_of_all(batch));
   ContactSheet sheet;
@@ -71,9 +70,11 @@ int run_batch(const BatchRequest& batch) {
   }
   const std::filesystem::path page = batch.folder / "contact-sheet.html";
   sheet.write(page);
+  if (sheet.count_unsupported() != 0) std::cerr << kLenientNote;
   if (!first.quiet)
     std::cerr << page.string() << ": " << sheet.count(SheetEntry::State::done) << " of "
-              << batch.renders.size() << " scenes rendered\n";
+              << batch.renders.size() << " scenes rendered"
+              << (interrupted() ? "; the same command with +C goes on" : "") << '\n';
   if (sheet.count(SheetEntry::State::failed) != 0) return 1;
   return interrupted() || sheet.count(SheetEntry::State::partial) != 0 ? 2 : 0;
 }

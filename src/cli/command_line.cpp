@@ -52,7 +52,7 @@ void set_limit(RenderRequest& request, const std::string& text) {
   const auto limit = std::find_if(known.begin(), known.end(),
                                   [&wanted](const NamedLimit& each) { return each.name == wanted; });
   const bool is_of_rendering = wanted == kRenderSeconds || wanted == kRenderMemory;
-  if (limit == known.end() && !is_of_rendering) {
+  if ((limit == known.end() && !is_of_rendering) || wanted.size() == text.size()) {
     std::string names = std::string(kRenderSeconds) + ", " + kRenderMemory;
     for (const NamedLimit& each : known)
       names += ", " + std::string(each.name);

@@ -27,6 +27,7 @@ struct RenderRequest {
   /// By default the scene's name with .png, in the current folder. Empty: no picture is written. Of an
   /// animation, the name that those of its pictures are made of, or the film. "-": stdout.
   std::filesystem::path output;
+  bool makes_folder = false; ///< that of the output, if it is not there
   FilmFormat film = FilmFormat::none;
   FrameRate frame_rate;
   ImageFormat format = ImageFormat::png; ///< of pictures

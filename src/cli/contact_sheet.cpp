@@ -81,10 +81,19 @@ std::size_t ContactSheet::count(SheetEntry::State state) const {
       entries_.begin(), entries_.end(), [&](const SheetEntry& entry) { return entry.state == state; }));
 }
 
+std::size_t ContactSheet::count_unsupported() const {
+  return static_cast<std::size_t>(std::count_if(
+      entries_.begin(), entries_.end(), [](const SheetEntry& entry) { return entry.is_unsupported; }));
+}
+
 std::string ContactSheet::page() const {
   std::string page = kHead;
   page += "<p>" + std::to_string(count(SheetEntry::State::done)) + " of " + std::to_string(entries_.size()) +
-          " scenes rendered</p>\n<main>\n";
+          " scenes rendered";
+  if (const std::size_t unsupported = count_unsupported(); unsupported != 0)
+    page += "; " + std::to_string(unsupported) +
+            " use what is not supported yet: <code>--lenient</code> renders them without it";
+  page += "</p>\n<main>\n";
   for (const SheetEntry& entry : entries_)
     page += figure_of(entry);
   return page + "</main>\n</html>\n";

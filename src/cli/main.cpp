@@ -3,6 +3,7 @@
 #include "cli/command_line.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/invocation.hpp"
+#include "cli/lenient_note.hpp"
 #include "cli/message_files.hpp"
 #include "cli/output_files.hpp"
 #include "cli/render_command.hpp"
@@ -113,10 +114,7 @@ int main(int argc, char** argv) {
     return code;
   } catch (const celltrace::SceneError& error) {
     print(error);
-    const std::vector<celltrace::Finding>& findings = error.findings();
-    if (std::any_of(findings.begin(), findings.end(), [](const auto& one) { return one.is_unsupported; }))
-      std::cerr << "note: --lenient renders the scene without what is not supported yet; in the environment, "
-                   "CELLTRACE_OPTIONS=--lenient does\n";
+    if (is_unsupported(error)) std::cerr << kLenientNote;
   } catch (const std::bad_alloc&) {
     std::cerr << "celltrace: error: out of memory\n";
   } catch (const std::exception& error) {

@@ -70,6 +70,26 @@ void add_options(std::string& page, const DescribedCommand& command) {
   }
 }
 
+struct Example {
+  const char *command, *what;
+};
+constexpr Example kExamples[] = {
+    {"celltrace scene.pov -W 800 -H 600 --antialias 0.3", "Renders the scene into scene.png."},
+    {"celltrace +Iscene.pov +W800 +H600 +A0.3 -J", "The same by POV-Ray's switches."},
+    {"celltrace scenes/*.pov -o pictures/ --lenient",
+     "Renders many scenes without what is not supported of them, with a page of all pictures."},
+    {"celltrace scene.pov --final-frame 100 -o film.mp4", "Renders an animation."},
+    {"celltrace scene.pov -W 8000 -H 6000 --resume", "Goes on with what was interrupted."},
+    {"celltrace view scene.pov", "Opens a window to look around in."},
+    {"celltrace compare a.png b.png --min-psnr 40", "Says how far two pictures are apart."},
+};
+
+void add_examples(std::string& page) {
+  page += ".SH EXAMPLES\n";
+  for (const Example& example : kExamples)
+    page += ".TP\n" + bold(example.command) + '\n' + quoted(example.what) + '\n';
+}
+
 } // namespace
 
 std::string man_page(const std::vector<DescribedCommand>& commands) {
@@ -97,9 +117,9 @@ std::string man_page(const std::vector<DescribedCommand>& commands) {
           ".TP\n.B 0\nDone.\n"
           ".TP\n.B 1\nAn error, or\n.B compare\nbelow a bar.\n"
           ".TP\n.B 2\nInterrupted; the part of the picture that is done is kept.\n"
-          ".PP\n.B celltrace spu\nexits as the program does that it runs; 124, 125 and 130 are its own.\n"
-          ".SH SEE ALSO\n.BR povray (1)\n";
-  return page;
+          ".PP\n.B celltrace spu\nexits as the program does that it runs; 124, 125 and 130 are its own.\n";
+  add_examples(page);
+  return page + ".SH SEE ALSO\n.BR povray (1)\n";
 }
 
 } // namespace celltrace::cli

@@ -59,8 +59,10 @@ std::string option_error(const CLI::App& app, const CLI::ParseError& error) {
       text += (text.empty() ? "" : "; ") + unexpected(command, argument);
   } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     text = missing_value(command, text);
-  } else if (&command == &app && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-    text = "no scene is named: celltrace SCENE.pov renders one";
+  } else if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    const bool renders = &command == &app || command.get_name() == "render";
+    if (renders || command.get_name() == "view")
+      text = std::string("no scene is named") + (renders ? ": celltrace SCENE.pov renders one" : "");
   }
   const std::string name = command.get_name() == app.get_name() ? "" : ' ' + command.get_name();
   return text + " (celltrace" + name + " --help says more)";

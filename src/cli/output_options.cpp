@@ -30,6 +30,8 @@ std::string extension_of(const OutputTexts& texts) {
 std::filesystem::path own_output(const RenderRequest& request, const OutputTexts& texts) {
   const std::string extension = extension_of(texts);
   std::filesystem::path output = request.output;
+  if (std::error_code ignored; output.has_filename() && std::filesystem::is_directory(output, ignored))
+    output /= "";
   // The scene's folder is POV-Ray's choice.
   if (output.empty() && request.stands_in_for_povray) output = request.scene.parent_path() / "";
   if (!output.has_filename()) return output / (request.scene.stem().string() + extension);
@@ -195,6 +197,7 @@ void add_output_options(CLI::App& command, RenderRequest& request, OutputTexts& 
 }
 
 void finish_output(RenderRequest& request, const OutputTexts& texts) {
+  request.makes_folder = !request.output.empty() && !request.output.has_filename();
   request.output = output_of(request, texts);
   request.film = film_of(request, texts);
   set_format(request, texts);

@@ -73,14 +73,23 @@ public:
                     [this](const auto& name) { out_.pass(name); });
       return out_.take();
     }
+    if (plain_scenes_.size() > 1)
+      out_.note("of " + std::to_string(plain_scenes_.size()) + " scenes the last one is rendered, " +
+                shown(*scene_) + "; -o DIR/ renders each");
     // A name without an extension is one with .pov before it is one without.
-    const std::string &name = *scene_, dos_name = name + ".POV", full_name = name + ".pov";
+    std::string name = *scene_;
+    if (std::error_code ignored; std::filesystem::is_directory(name, ignored))
+      while (name.size() > 1 && name.back() == '/')
+        name.pop_back();
+    const std::string dos_name = name + ".POV", full_name = name + ".pov";
     const Names names =
         has_extension(name) ? Names{name, full_name, dos_name} : Names{full_name, dos_name, name};
     std::optional<std::string> file = found_here(names);
     if (!file && (file = found_in_folders(names)) && !out_.has_any_option({"-o", "--output", "--pov-output"}))
       out_.option("--pov-output", "./"); // as POV-Ray's, the picture does not go into a library folder
-    out_.fill(scene_place_, file.value_or(has_extension(name) ? name : full_name));
+    std::error_code ignored;
+    const bool is_complete = has_extension(name) || std::filesystem::is_directory(name, ignored);
+    out_.fill(scene_place_, file.value_or(is_complete ? name : full_name));
     return out_.take();
   }
 

@@ -86,7 +86,14 @@ void prepare_report(const fs::path& path) {
 
 } // namespace
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder.string() + ": cannot be made: " + error.message());
+}
+
 bool prepare_outputs(RenderRequest& request) {
+  if (request.makes_folder && !request.output.empty()) make_folder(request.output.parent_path());
   if (request.output == kStandardOutput || (!request.output.empty() && image::is_stream(request.output)))
     std::signal(SIGPIPE, SIG_IGN);
   fs::path stats = request.stats;

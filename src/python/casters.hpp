@@ -19,7 +19,8 @@
 
 namespace celltrace {
 
-/// The strings of an enumeration: a specialisation has `values`, an array of pairs.
+/// The strings of an enumeration: a specialisation has `values`, an array of pairs. Its enumerators are shown
+/// by the first string that they have.
 template <class E> struct EnumStrings;
 
 template <class E> using EnumString = std::pair<const char*, E>;
@@ -38,15 +39,17 @@ template <> struct EnumStrings<SimdLevel> {
                                                      {name_of(SimdLevel::generic), SimdLevel::generic}};
 };
 template <> struct EnumStrings<Balance> {
-  static constexpr EnumString<Balance> values[] = {{"gde", Balance::gde},
-                                                   {"diffusion", Balance::diffusion},
-                                                   {"fixed", Balance::fixed},
-                                                   {"scatter", Balance::scatter},
-                                                   {"tiles", Balance::tiles}};
+  static constexpr EnumString<Balance> values[] = {
+      {"gde", Balance::gde},     {"diffusion", Balance::diffusion},
+      {"fixed", Balance::fixed}, {"scatter", Balance::scatter},
+      {"tiles", Balance::tiles}, {"static", Balance::fixed}}; // as the program has it
 };
 template <> struct EnumStrings<Accelerator> {
   static constexpr EnumString<Accelerator> values[] = {
-      {"automatic", Accelerator::automatic}, {"grid", Accelerator::grid}, {"bvh", Accelerator::bvh}};
+      {"automatic", Accelerator::automatic},
+      {"grid", Accelerator::grid},
+      {"bvh", Accelerator::bvh},
+      {"auto", Accelerator::automatic}}; // as the program has it
 };
 template <> struct EnumStrings<Model> {
   static constexpr EnumString<Model> values[] = {{"shared", Model::shared},

@@ -6,7 +6,9 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,43 @@ inline std::string signed_init(const std::string& parameters) {
   return signed_doc("__init__", parameters.empty() ? "self" : "self, " + parameters, "");
 }
 
+template <class T> inline constexpr bool kIsOptional = false;
+template <class T> inline constexpr bool kIsOptional<std::optional<T>> = true;
+
+/// What a field of this type takes, or what is said of it.
+template <class Value> std::string wanted(const char* doc) {
+  if constexpr (kIsOptional<Value>)
+    return wanted<typename Value::value_type>(doc) + ", or None";
+  else if constexpr (std::is_same_v<Value, bool>)
+    return "True or False";
+  else if constexpr (std::is_integral_v<Value>)
+    return "a whole number";
+  else if constexpr (std::is_floating_point_v<Value>)
+    return "a number";
+  else if constexpr (std::is_same_v<Value, Vec3>)
+    return "three numbers, or one that stands for all";
+  else
+    return doc;
+}
+
+/// Converts a value that is given under a name. Throws TypeError that says what it has to be.
+template <class Value> Value value_of(py::handle given, const std::string& name, const char* doc = "") {
+  const auto wrong = [&] {
+    std::string what = wanted<Value>(doc);
+    if (std::is_same_v<Value, Vec3> && py::isinstance<py::str>(given))
+      what += "; celltrace.srgb() makes them of a colour's name";
+    return py::type_error(name + ": cannot be " + py::repr(given).template cast<std::string>() +
+                          (what.empty() ? "" : " (" + what + ")"));
+  };
+  try {
+    return given.cast<Value>();
+  } catch (const py::cast_error&) {
+    throw wrong();
+  } catch (const py::reference_cast_error&) { // of None
+    throw wrong();
+  }
+}
+
 /// The fields of a T by name, in an order.
 template <class T> class Fields {
 public:
@@ -50,18 +89,8 @@ public:
   template <class Access> Fields& add(const char* name, Access access, const char* doc) {
     using Value = std::decay_t<decltype(std::invoke(access, std::declval<T&>()))>;
     fields_.push_back({name, doc,
-                       [access, name](T& made, py::handle value) {
-                         const auto wrong = [&] {
-                           return py::type_error(std::string(name) + ": cannot be " +
-                                                 py::repr(value).template cast<std::string>());
-                         };
-                         try {
-                           std::invoke(access, made) = value.cast<Value>();
-                         } catch (const py::cast_error&) {
-                           throw wrong();
-                         } catch (const py::reference_cast_error&) { // of None
-                           throw wrong();
-                         }
+                       [access, name, doc](T& made, py::handle value) {
+                         std::invoke(access, made) = value_of<Value>(value, name, doc);
                        },
                        [access](const T& made) {
                          return py::cast(std::invoke(access, const_cast<T&>(made)),

@@ -1,7 +1,7 @@
 // Places, shapes but for meshes, and objects.
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/fields.hpp"
+#include "python/misfit.hpp"
 
 #include <algorithm>
 
@@ -37,6 +37,7 @@ void bind_transform(py::module_& module) {
   const auto def_static = [&](const char* name, const auto& function, const char* parameter,
                               const char* doc) {
     transform.def_static(name, function, py::arg(parameter), signed_doc(name, parameter, doc).c_str());
+    add_misfit([&](auto... last) { transform.def_static(name, last...); }, {name, parameter});
   };
   def_static("translate", &Transform::translate, "offset", "Moves by an offset.");
   def_static("rotate", &Transform::rotate, "degrees", "About x, then y, then z, in degrees, left-handed.");

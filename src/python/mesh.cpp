@@ -2,7 +2,7 @@
 
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/fields.hpp"
+#include "python/misfit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +34,18 @@ Indices index_rows(const py::object& given, std::size_t count, const std::string
     throw py::value_error(name + ": row " + std::to_string((wrong - begin) / 3) + " has the index " +
                           std::to_string(*wrong) + ", and " + of + " has " + std::to_string(count) + " rows");
   return indices;
+}
+
+/// An array of numbers. Throws ValueError for what is none.
+Floats floats_of(const py::object& given, const std::string& name) {
+  Floats floats = py::isinstance<py::str>(given) ? Floats() : Floats::ensure(given);
+  if (!floats || py::isinstance<py::str>(given))
+    throw py::value_error(name + ": has to be an array of numbers, in rows of one length");
+  return floats;
+}
+std::optional<Floats> floats_or_none(const py::object& given, const std::string& name) {
+  if (given.is_none()) return std::nullopt;
+  return floats_of(given, name);
 }
 
 std::vector<Vec3f> vector_rows(const Floats& given, const std::string& name) {
@@ -171,12 +183,16 @@ std::shared_ptr<const MeshColours> colour(Mesh& mesh, const Colouring& given, co
   return std::make_shared<MeshColours>(std::move(made));
 }
 
-PythonMesh make_mesh(const Floats& vertices, const py::object& triangles,
-                     const std::optional<Floats>& normals, const py::object& normal_indices,
-                     const std::optional<Floats>& uv, const Vec3& inside_vector,
-                     const std::optional<Floats>& colours, const std::optional<Floats>& values,
-                     const py::object& colour_map,
+PythonMesh make_mesh(const py::object& vertices_given, const py::object& triangles,
+                     const py::object& normals_given, const py::object& normal_indices,
+                     const py::object& uv_given, const Vec3& inside_vector, const py::object& colours_given,
+                     const py::object& values_given, const py::object& colour_map,
                      const std::optional<std::pair<double, double>>& value_range, bool skip_nan) {
+  const Floats vertices = floats_of(vertices_given, "vertices");
+  const std::optional<Floats> normals = floats_or_none(normals_given, "normals"),
+                              uv = floats_or_none(uv_given, "uv"),
+                              colours = floats_or_none(colours_given, "colours"),
+                              values = floats_or_none(values_given, "values");
   auto mesh = std::make_shared<Mesh>();
   const Holes holes(skip_nan);
   mesh->vertices = vector_rows(vertices, "vertices");
@@ -292,8 +308,9 @@ void bind_mesh(py::module_& module) {
            py::arg("normals") = py::none(), py::arg("normal_indices") = py::none(),
            py::arg("uv") = py::none(), py::arg("inside_vector") = Vec3(0), py::arg("colours") = py::none(),
            py::arg("values") = py::none(), py::arg("colour_map") = py::none(),
-           py::arg("value_range") = py::none(), py::arg("skip_nan") = false, signed_init(parameters).c_str())
-      .def_property_readonly(
+           py::arg("value_range") = py::none(), py::arg("skip_nan") = false, signed_init(parameters).c_str());
+  add_init_misfit<PythonMesh>(mesh, {"Mesh", parameters});
+  mesh.def_property_readonly(
           "vertices",
           [](const py::object& self) {
             const auto& rows = self.cast<const PythonMesh&>().mesh->vertices;

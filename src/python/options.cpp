@@ -42,7 +42,7 @@ const Fields<RenderOptions>& picture_fields() {
           .add("height", &RenderOptions::height, "of the picture, in pixels")
           .add("region", &RenderOptions::region,
                "(left, top, right, bottom): only these pixels, without those at right and bottom")
-          .add("antialiasing", &RenderOptions::antialiasing, "an Antialiasing, or None")
+          .add("antialiasing", &RenderOptions::antialiasing, "an Antialiasing")
           .add("colours", &RenderOptions::colours, "the result is float32, linear and not clipped")
           .add("alpha", &RenderOptions::alpha, "transparent where the background is seen")
           .add("first_hits", &RenderOptions::first_hits, "Session.first_hits is wanted");
@@ -57,8 +57,8 @@ const Fields<RenderOptions>& render_fields() {
           .add("simd", &RenderOptions::simd, "auto, or an instruction set of the processor's")
           .add("cache", &RenderOptions::cache, "a Cache: the software cache of emulated SPEs")
           .add("balance", &RenderOptions::balance,
-               "how work is shared: gde, diffusion, fixed, scatter or tiles")
-          .add("accelerator", &RenderOptions::accelerator, "automatic, grid or bvh")
+               "how work is shared: gde, diffusion, fixed (or static), scatter or tiles")
+          .add("accelerator", &RenderOptions::accelerator, "automatic (or auto), grid or bvh")
           .add("model", &RenderOptions::model, "shared, pipeline, pipeline-split or offload")
           .add("max_trace_level", &RenderOptions::max_trace_level, "in place of the scene's")
           .add("adc_bailout", &RenderOptions::adc_bailout, "in place of the scene's")
@@ -68,7 +68,12 @@ const Fields<RenderOptions>& render_fields() {
               "of emulated SPEs: free or lockstep")
           .add(
               "seed", [](RenderOptions& o) -> std::uint64_t& { return o.emulation.seed; },
-              "of the order of events in lockstep");
+              "of the order of events in lockstep")
+          .add("most_seconds", &RenderOptions::most_seconds,
+               "a frame that takes longer, with what it prepares, raises Cancelled; 0: no limit")
+          .add(
+              "most_memory", &RenderOptions::most_memory,
+              "bytes of the picture, and of the scene as it is rendered; more is an InputError; 0: no limit");
   return fields;
 }
 
@@ -89,14 +94,31 @@ const Fields<ParseOptions>& parse_fields() {
 struct OtherKeyword {
   const char *name, *usual, *doc;
 };
-constexpr OtherKeyword kOtherKeywords[] = {
-    {"declares", "{}", "a dict of floats and strings that the scene finds declared"},
-    {"limits", "{}", "a dict of what the scene may cost, as {'seconds': 10}"},
-    {"message", "None", "a function that hears #debug, warnings and the like; None: warnings are Python's"}};
+constexpr OtherKeyword kDeclares = {"declares", "{}",
+                                    "a dict of floats and strings that the scene finds declared"};
+constexpr OtherKeyword kLimits = {"limits", "{}", "a dict of what the scene may cost, as {'seconds': 10}"};
+constexpr OtherKeyword kMessage = {
+    "message", "None", "a function that hears #debug, warnings and the like; None: warnings are Python's"};
+constexpr OtherKeyword kOtherKeywords[] = {kDeclares, kLimits, kMessage};
 
 /// The value of a keyword, which is taken out; an empty handle if it is not there.
 py::object take(py::kwargs& kwargs, const char* name) {
   return kwargs.contains(name) ? kwargs.attr("pop")(name) : py::object();
+}
+
+/// The limit of this name. Throws ValueError if there is none.
+std::uint64_t ParseLimits::*limit_named(const std::string& name) {
+  const auto& known = parse_limits();
+  const auto limit = std::find_if(known.begin(), known.end(),
+                                  [&](const NamedLimit& candidate) { return candidate.name == name; });
+  if (limit != known.end()) return limit->limit;
+  std::vector<std::string> names;
+  for (const NamedLimit& candidate : known)
+    names.emplace_back(candidate.name);
+  const bool is_of_rendering = name.compare(0, 7, "render-") == 0;
+  throw py::value_error(
+      "limits: there is no '" + name + "'" +
+      (is_of_rendering ? "; those of rendering are most_seconds and most_memory" : suggestion(name, names)));
 }
 
 } // namespace
@@ -107,20 +129,17 @@ ParseOptions take_parse_options(py::kwargs& kwargs) {
     if (const py::object value = take(kwargs, name)) parse_fields().set(options, name, value);
   });
   if (const py::object declares = take(kwargs, "declares"))
-    for (const auto& [name, value] : declares.cast<Declared>())
+    for (const auto& [name, value] : value_of<Declared>(declares, kDeclares.name, kDeclares.doc))
       options.declares.emplace_back(name, value);
   if (const py::object limits = take(kwargs, "limits"))
-    for (const auto& given : limits.cast<std::map<std::string, std::uint64_t>>()) {
-      const std::string& name = given.first; // no structured binding: Clang below 16 lets no lambda use one
-      const auto& known = parse_limits();
-      const auto limit = std::find_if(known.begin(), known.end(),
-                                      [&](const NamedLimit& candidate) { return candidate.name == name; });
-      if (limit == known.end()) throw py::value_error("there is no limit '" + name + "'");
-      options.limits.*limit->limit = given.second;
-    }
+    for (const auto& [name, value] :
+         value_of<std::map<std::string, std::uint64_t>>(limits, kLimits.name, kLimits.doc))
+      options.limits.*limit_named(name) = value;
   const py::object message = take(kwargs, "message");
   options.message =
-      message && !message.is_none() ? message.cast<std::function<void(std::string_view)>>() : warn;
+      message && !message.is_none()
+          ? value_of<std::function<void(std::string_view)>>(message, kMessage.name, kMessage.doc)
+          : warn;
   return options;
 }
 

@@ -1,7 +1,7 @@
 // Pictures in files and in memory, and compared.
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/fields.hpp"
+#include "python/misfit.hpp"
 #include "python/picture.hpp"
 
 #include "celltrace/image.hpp"
@@ -25,7 +25,9 @@ namespace {
 template <class Picture, class Channel> Picture image_of(const py::array& given, Channel opaque) {
   const bool has_alpha = given.ndim() == 3 && given.shape(2) == 4;
   const int channels = has_alpha ? 4 : 3;
-  check_shape(given, {-1, -1, channels}, "picture");
+  if (given.ndim() != 3 || given.shape(2) != channels)
+    throw py::value_error("picture: the shape has to be (height, width, 3 or 4), and is " +
+                          py::str(given.attr("shape")).cast<std::string>());
   const auto array = py::array_t<Channel, py::array::c_style>::ensure(given);
   Picture image(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
   const Channel* from = array.data();
@@ -35,6 +37,15 @@ template <class Picture, class Channel> Picture image_of(const py::array& given,
     if (!has_alpha) *to++ = opaque;
   }
   return image;
+}
+
+/// What NumPy makes an array of.
+py::array array_of(const py::object& given, const char* name) {
+  if (py::isinstance<py::array>(given)) return given; // a Picture stays one
+  if (!py::isinstance<py::str>(given))
+    if (py::array array = py::array::ensure(given)) return array;
+  throw py::type_error(std::string(name) + ": has to be an array, not a " +
+                       py::type::of(given).attr("__name__").cast<std::string>());
 }
 
 template <class Channel> bool holds(const py::array& array) {
@@ -50,7 +61,8 @@ ColourImage colours_of(const py::array& array) {
 
 using AnyImage = std::variant<Image, DeepImage, ColourImage>;
 
-AnyImage any_image_of(const py::array& array) {
+AnyImage any_image_of(const py::object& given) {
+  const py::array array = array_of(given, "picture");
   if (holds<std::uint8_t>(array)) return image_of<Image>(array, std::numeric_limits<std::uint8_t>::max());
   if (holds<std::uint16_t>(array))
     return image_of<DeepImage>(array, std::numeric_limits<std::uint16_t>::max());
@@ -98,7 +110,7 @@ struct ExrChoice {
   }
 };
 
-py::bytes encode(const py::array& picture, const std::string& format, bool full_floats,
+py::bytes encode(const py::object& picture, const std::string& format, bool full_floats,
                  const py::object& first_hits) {
   const ImageFormat wanted = format_of(format);
   AnyImage image = any_image_of(picture);
@@ -117,13 +129,19 @@ py::bytes encode(const py::array& picture, const std::string& format, bool full_
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void save(const py::object& to, const py::array& picture, const std::optional<std::string>& format,
+std::filesystem::path path_of(const py::object& given) {
+  if (py::isinstance<py::array>(given))
+    throw py::type_error("path: cannot be an array; it comes before the picture");
+  return value_of<std::filesystem::path>(given, "path", "a path, or a file open for bytes");
+}
+
+void save(const py::object& to, const py::object& picture, const std::optional<std::string>& format,
           bool full_floats, const py::object& first_hits) {
   if (py::hasattr(to, "write")) {
     to.attr("write")(encode(picture, format.value_or("png"), full_floats, first_hits));
     return;
   }
-  const auto path = to.cast<std::filesystem::path>();
+  const std::filesystem::path path = path_of(to);
   FileOptions options;
   if (format) options.format = format_of(*format);
   AnyImage image = any_image_of(picture);
@@ -145,26 +163,28 @@ py::object load(const py::object& from) {
     const py::gil_scoped_release release;
     image = decode_image(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   } else {
-    const auto path = from.cast<std::filesystem::path>();
+    const std::filesystem::path path = path_of(from);
     const py::gil_scoped_release release;
     image = load_image(path);
   }
   return as_picture(picture_array(std::move(image.rgba), image.width, image.height), std::nullopt);
 }
 
-py::object to_image_array(const py::array& colours, int bits) {
+py::object to_image_array(const py::object& given, int bits) {
+  const py::array colours = array_of(given, "colours");
   if (!holds<float>(colours)) throw py::type_error("colours: have to be of float32");
   if (bits != 8 && bits != 16) throw py::value_error("bits: 8 or 16");
-  const ColourImage given = colours_of(colours);
+  const ColourImage linear = colours_of(colours);
   if (bits == 16) {
-    DeepImage deep = to_deep_image(given);
+    DeepImage deep = to_deep_image(linear);
     return as_picture(picture_array(std::move(deep.rgba), deep.width, deep.height), std::nullopt);
   }
-  Image image = to_image(given);
+  Image image = to_image(linear);
   return as_picture(picture_array(std::move(image.rgba), image.width, image.height), std::nullopt);
 }
 
-py::object compare(const py::array& a, const py::array& b) {
+py::object compare(const py::object& one, const py::object& other) {
+  const py::array a = array_of(one, "a"), b = array_of(other, "b");
   if (!holds<std::uint8_t>(a) || !holds<std::uint8_t>(b))
     throw py::type_error("pictures to compare have to be of uint8");
   const auto opaque = std::numeric_limits<std::uint8_t>::max();
@@ -179,39 +199,32 @@ void bind_pictures(py::module_& module) {
                              "linear\ncolours, as colours=True gives them";
   const std::string exr =
       "full_floats and first_hits, as Session.first_hits has them, are for OpenEXR files.";
-  module.def(
-      "save", &save, py::arg("path"), py::arg("picture"), py::arg("format") = py::none(), py::kw_only(),
-      py::arg("full_floats") = false, py::arg("first_hits") = py::none(),
-      signed_doc(
-          "save", "path, picture, format=None, *, full_floats=False, first_hits=None",
-          "Writes a picture to a path, or to a file open for bytes, as io.BytesIO().\n\npicture: " + arrays +
-              ", which formats of integers get as to_image() makes them.\nformat: png, ppm, exr, hdr, ...; "
-              "None: by the path's extension, in open files png.\n" +
-              exr)
-          .c_str());
-  module.def("encode", &encode, py::arg("picture"), py::arg("format") = "png", py::kw_only(),
-             py::arg("full_floats") = false, py::arg("first_hits") = py::none(),
-             signed_doc("encode", "picture, format='png', *, full_floats=False, first_hits=None",
-                        "The bytes of the file that save() would write.")
-                 .c_str());
-  module.def(
-      "to_image", &to_image_array, py::arg("colours"), py::arg("bits") = 8,
-      signed_doc(
-          "to_image", "colours, bits=8",
-          "Makes a picture for display, of uint8 or, with bits=16, of uint16, of linear colours of float32:\n"
-          "they are divided by their alpha, clipped to 0..1 and encoded as sRGB.")
-          .c_str());
-  module.def(
-      "load", &load, py::arg("path"),
-      signed_doc("load", "path", "Reads a PNG or PPM, of a path or an open file: uint8, (height, width, 4).")
-          .c_str());
-  module.def(
-      "compare", &compare, py::arg("a"), py::arg("b"),
-      signed_doc(
-          "compare", "a, b",
-          "How far two pictures are apart: a dict with psnr (dB, None if they are equal), worst_ssim,\n"
-          "differing_pixels, max_difference and identical.")
-          .c_str());
+  const auto def = [&](const char* name, const auto& function, const std::string& parameters,
+                       const std::string& doc, const auto&... more) {
+    module.def(name, function, signed_doc(name, parameters, doc).c_str(), more...);
+    add_misfit([&](auto... last) { module.def(name, last...); }, {name, parameters});
+  };
+  def("save", &save, "path, picture, format=None, *, full_floats=False, first_hits=None",
+      "Writes a picture to a path, or to a file open for bytes, as io.BytesIO().\n\npicture: " + arrays +
+          ", which formats of integers get as to_image() makes them.\nformat: png, ppm, exr, hdr, ...; "
+          "None: by the path's extension, in open files png.\n" +
+          exr,
+      py::arg("path"), py::arg("picture"), py::arg("format") = py::none(), py::kw_only(),
+      py::arg("full_floats") = false, py::arg("first_hits") = py::none());
+  def("encode", &encode, "picture, format='png', *, full_floats=False, first_hits=None",
+      "The bytes of the file that save() would write.", py::arg("picture"), py::arg("format") = "png",
+      py::kw_only(), py::arg("full_floats") = false, py::arg("first_hits") = py::none());
+  def("to_image", &to_image_array, "colours, bits=8",
+      "Makes a picture for display, of uint8 or, with bits=16, of uint16, of linear colours of float32:\n"
+      "they are divided by their alpha, clipped to 0..1 and encoded as sRGB.",
+      py::arg("colours"), py::arg("bits") = 8);
+  def("load", &load, "path",
+      "Reads a PNG, PPM, BMP, TGA or JPEG, of a path or an open file: uint8, (height, width, 4).",
+      py::arg("path"));
+  def("compare", &compare, "a, b",
+      "How far two pictures are apart: a dict with psnr (dB, None if they are equal), worst_ssim,\n"
+      "differing_pixels, max_difference and identical.",
+      py::arg("a"), py::arg("b"));
 }
 
 } // namespace celltrace

@@ -1,5 +1,6 @@
 #include "python/bindings.hpp"
 #include "python/extent.hpp"
+#include "python/misfit.hpp"
 #include "python/options.hpp"
 #include "python/reading.hpp"
 
@@ -82,9 +83,21 @@ void bind_list(py::class_<PythonScene, std::shared_ptr<PythonScene>>& scene, con
                std::vector<T> Scene::*list, const char* doc) {
   scene.def_property(
       name, [list](const PythonScene& self) { return py::tuple(py::cast(self.*list)); },
-      [list](PythonScene& self, std::vector<T> to) {
-        self.*list = std::move(to);
+      [list, name, doc](PythonScene& self, const py::object& to) {
+        self.*list = value_of<std::vector<T>>(to, name, doc);
         self.placed_colours.clear(); // indices may have changed
+      },
+      doc);
+}
+
+/// A member that can be set.
+template <class T>
+void bind_member(py::class_<PythonScene, std::shared_ptr<PythonScene>>& scene, const char* name,
+                 T Scene::*member, const char* doc) {
+  scene.def_property(
+      name, [member](const PythonScene& self) { return self.*member; },
+      [member, name, doc](PythonScene& self, const py::object& to) {
+        self.*member = value_of<T>(to, name, doc);
       },
       doc);
 }
@@ -112,6 +125,7 @@ void bind_scene(py::module_& module) {
   const auto def = [&](const char* name, const auto& function, const std::string& parameters,
                        const std::string& doc, const auto&... more) {
     scene.def(name, function, signed_doc(name, "$self" + parameters, doc).c_str(), more...);
+    add_method_misfit(scene, name, {name, "$self" + parameters});
   };
   const auto reader = [&](const char* name, const auto& function, const char* from, const char* doc) {
     scene.def_static(
@@ -122,6 +136,8 @@ void bind_scene(py::module_& module) {
                        "False, Cancelled is raised.\n\n" +
                        parse_listing())
             .c_str());
+    add_misfit([&](auto... last) { scene.def_static(name, last...); },
+               {name, std::string(from) + ", *, progress=None, " + parse_signature()});
   };
   scene.def(py::init<>(), signed_init("").c_str());
   reader(
@@ -136,20 +152,20 @@ void bind_scene(py::module_& module) {
         return read({text, false}, progress, kwargs);
       },
       "text", "As from_file(), of a text in memory.");
-  scene.def_readwrite("name", &Scene::name, "for messages: the file it came from")
-      .def_readwrite("camera", &Scene::camera, "a Camera")
-      .def_readwrite("background", &Scene::background, "colour")
-      .def_readwrite("mirrored_background", &Scene::mirrored_background,
-                     "what reflected rays see in place of it in a picture with alpha, without a sky; or None")
-      .def_readwrite("background_transparency", &Scene::background_transparency,
-                     "share of what is behind a picture with alpha that comes through the background, 0 to 1")
-      .def_readwrite("ambient_light", &Scene::ambient_light, "colour")
-      .def_readwrite("max_trace_level", &Scene::max_trace_level, "how often rays are reflected or refracted")
-      .def_readwrite("adc_bailout", &Scene::adc_bailout, "rays that count for less than this are not traced")
-      .def("__repr__", [](const PythonScene& self) {
-        return "<celltrace.Scene of " + std::to_string(self.objects.size()) + " objects and " +
-               std::to_string(self.lights.size()) + " lights>";
-      });
+  bind_member(scene, "name", &Scene::name, "for messages: the file it came from");
+  bind_member(scene, "camera", &Scene::camera, "a Camera");
+  bind_member(scene, "background", &Scene::background, "colour");
+  bind_member(scene, "mirrored_background", &Scene::mirrored_background,
+              "what reflected rays see in place of it in a picture with alpha, without a sky; or None");
+  bind_member(scene, "background_transparency", &Scene::background_transparency,
+              "share of what is behind a picture with alpha that comes through the background, 0 to 1");
+  bind_member(scene, "ambient_light", &Scene::ambient_light, "colour");
+  bind_member(scene, "max_trace_level", &Scene::max_trace_level, "how often rays are reflected or refracted");
+  bind_member(scene, "adc_bailout", &Scene::adc_bailout, "rays that count for less than this are not traced");
+  scene.def("__repr__", [](const PythonScene& self) {
+    return "<celltrace.Scene of " + std::to_string(self.objects.size()) + " objects and " +
+           std::to_string(self.lights.size()) + " lights>";
+  });
   def("add", &add_object,
       ", shape, *, material=..., interior=..., transform=..., no_shadow=False, no_image=False, "
       "no_reflection=False, is_hidden=False, inverse=False, is_lit_through=False",

@@ -1,5 +1,6 @@
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
+#include "python/misfit.hpp"
 #include "python/options.hpp"
 #include "python/picture.hpp"
 #include "python/reading.hpp"
@@ -108,11 +109,11 @@ private:
 };
 
 std::filesystem::path path_of(const py::object& scene) {
-  try {
-    return scene.cast<std::filesystem::path>();
-  } catch (const py::cast_error&) {
-    throw py::type_error("scene: a Scene or a path is wanted");
-  }
+  std::filesystem::path path = value_of<std::filesystem::path>(scene, "scene", "a Scene or a path");
+  std::error_code ignored;
+  if (path.string().find('{') != std::string::npos && !std::filesystem::exists(path, ignored))
+    throw py::value_error("scene: there is no such file; Scene.from_text() makes a Scene of a text");
+  return path;
 }
 
 /// One frame of a scene, or of a scene's file.
@@ -201,15 +202,17 @@ void bind_rendering(py::module_& module) {
   const auto def = [&](const char* name, const auto& function, const std::string& parameters, const char* doc,
                        const auto&... more) {
     session.def(name, function, signed_doc(name, "$self" + parameters, doc).c_str(), more...);
+    add_method_misfit(session, name, {name, "$self" + parameters});
   };
+  session.def(py::init([](const PythonScene& scene, const py::kwargs& kwargs) {
+                refuse_parse_options(kwargs);
+                RenderOptions options;
+                set_render_options(options, kwargs);
+                return std::make_shared<GuardedSession>(scene, options);
+              }),
+              py::arg("scene"), signed_init("scene, *, " + render_signature()).c_str());
+  add_init_misfit<GuardedSession>(session, {"Session", "scene, *, " + render_signature()});
   session
-      .def(py::init([](const PythonScene& scene, const py::kwargs& kwargs) {
-             refuse_parse_options(kwargs);
-             RenderOptions options;
-             set_render_options(options, kwargs);
-             return std::make_shared<GuardedSession>(scene, options);
-           }),
-           py::arg("scene"), signed_init("scene, *, " + render_signature()).c_str())
       .def_property_readonly(
           "statistics", &GuardedSession::statistics,
           "Of the last whole frame, a dict by the keys of docs/statistics.md; None before.")

@@ -1,6 +1,6 @@
 // Cameras, lights, and what surfaces and insides look like.
 #include "python/bindings.hpp"
-#include "python/fields.hpp"
+#include "python/misfit.hpp"
 #include "python/python_scene.hpp"
 
 #include "celltrace/error.hpp"
@@ -47,7 +47,9 @@ template <class T> auto of_pigment(T Pigment::*member) {
 }
 
 void bind_camera(py::module_& module) {
-  bind_values<Camera>(
+  const char* const parameters =
+      "location, target, angle=67.38, aspect=None, sky=(0, 1, 0), *, right_handed=False";
+  auto camera = bind_values<Camera>(
       module, "Camera", "POV-Ray's cameras, finished: after sky, look_at, angle and transformations.",
       Fields<Camera>()
           .add("kind", &Camera::kind, "perspective, orthographic, spherical, ...")
@@ -59,18 +61,18 @@ void bind_camera(py::module_& module) {
           .add("vertical_angle", &Camera::vertical_angle, "in degrees")
           .add("framing", &Camera::framing,
                "in a picture of another shape than right by up: 'fixed' squeezes, 'width' shows more or less "
-               "above\nand below, 'whole' shows more at the sides, or above and below"))
-      .def_static(
-          "look_at", &look_at, py::arg("location"), py::arg("target"), py::arg("angle") = 67.38,
-          py::arg("aspect") = py::none(), py::arg("sky") = Vec3(0, 1, 0), py::kw_only(),
-          py::arg("right_handed") = false,
-          signed_doc("look_at",
-                     "location, target, angle=67.38, aspect=None, sky=(0, 1, 0), *, right_handed=False",
-                     "A perspective camera. angle: that the picture is wide, in degrees. aspect: width by "
-                     "height of\nthe pictures that it is for; None: of whatever picture it is used for. sky: "
-                     "what is up.\nright_handed: the axes are those of mathematics, as matplotlib's, and not "
-                     "POV-Ray's.")
-              .c_str());
+               "above\nand below, 'whole' shows more at the sides, or above and below"));
+  camera.def_static(
+      "look_at", &look_at, py::arg("location"), py::arg("target"), py::arg("angle") = 67.38,
+      py::arg("aspect") = py::none(), py::arg("sky") = Vec3(0, 1, 0), py::kw_only(),
+      py::arg("right_handed") = false,
+      signed_doc("look_at", parameters,
+                 "A perspective camera. angle: that the picture is wide, in degrees. aspect: width by "
+                 "height of\nthe pictures that it is for; None: of whatever picture it is used for. sky: "
+                 "what is up.\nright_handed: the axes are those of mathematics, as matplotlib's, and not "
+                 "POV-Ray's.")
+          .c_str());
+  add_misfit([&](auto... last) { camera.def_static("look_at", last...); }, {"look_at", parameters});
 }
 
 void bind_lights(py::module_& module) {

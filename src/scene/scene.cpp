@@ -152,17 +152,27 @@ bool are_sound(const Mesh& mesh, std::size_t materials) {
   return sound;
 }
 
+/// One at a time only where there is something to name.
+void check_all_finite(const std::vector<Vec3f>& vectors, const Name& name, const char* what) {
+  if (std::isfinite(greatest_magnitude(vectors))) return;
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    if (!std::isfinite(greatest_magnitude({&vectors[i], 1})))
+      throw InputError(name.text() + Name{what, i}.text() + " has a number that is not finite");
+}
+
 void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
   if (mesh.vertices.size() > kMostEntries || mesh.normals.size() > kMostEntries ||
       mesh.triangles.size() > kMostEntries)
     throw InputError(name.text() + " has more entries than 32 bits can count");
-  if (!std::isfinite(greatest_magnitude(mesh.vertices)) || !std::isfinite(greatest_magnitude(mesh.normals)))
-    throw InputError(name.text() + " has a number that is not finite");
+  check_all_finite(mesh.vertices, name, ", vertex");
+  check_all_finite(mesh.normals, name, ", normal");
   if (!mesh.coordinates.empty() && mesh.coordinates.size() != mesh.triangles.size())
     throw InputError(name.text() + " has surface coordinates for other triangles than it has");
-  for (const Mesh::Coordinates& coordinates : mesh.coordinates)
-    for (const Vec2f& at : coordinates.corner)
-      check_finite({at.x, at.y}, name);
+  for (std::size_t i = 0; i < mesh.coordinates.size(); ++i)
+    for (const Vec2f& at : mesh.coordinates[i].corner)
+      if (!std::isfinite(at.x) || !std::isfinite(at.y))
+        throw InputError(name.text() + Name{", triangle", i}.text() +
+                         " has surface coordinates that are not finite");
   if (!is_finite(mesh.inside_vector))
     throw InputError(name.text() + " has an inside vector that is not finite");
   if (are_sound(mesh, materials)) return;

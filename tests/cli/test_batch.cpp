@@ -47,6 +47,33 @@ TEST_CASE("many scenes are rendered into a folder, with a page of all") {
                        Contains("<pre>in/wrong.pov:2:1: error:") && Contains("in/green.pov"));
 }
 
+TEST_CASE("whoever renders many scenes hears of --lenient once") {
+  const TemporaryFolder folder;
+  write_scene(folder / "red.pov", "rgb <1, 0, 0>");
+  write_bytes(folder / "a.pov", "text { ttf \"a.ttf\" \"a\" 1, 0 }");
+  write_bytes(folder / "b.pov", "text { ttf \"a.ttf\" \"b\" 1, 0 }");
+  const Outcome outcome =
+      celltrace_run(folder, {"a.pov", "red.pov", "b.pov", "-W", "8", "-H", "6", "-o", "out/"});
+  CAPTURE(outcome.err);
+  const std::size_t first = outcome.err.find("note: --lenient renders");
+  REQUIRE(first != outcome.err.npos);
+  CHECK(outcome.err.find("note: --lenient", first + 1) == outcome.err.npos);
+  CHECK_THAT(read_bytes(folder / "out/contact-sheet.html"),
+             Contains("1 of 3 scenes rendered; 2 use what is not supported yet: <code>--lenient</code>"));
+}
+
+TEST_CASE("one scene, too, goes into a folder that is there or is made") {
+  const TemporaryFolder folder;
+  write_scene(folder / "in/red.pov", "rgb <1, 0, 0>");
+  CHECK(celltrace_run(folder, {"in/red.pov", "-W", "8", "-H", "6", "-o", "new/folder/"}).exit_code == 0);
+  CHECK(std::filesystem::exists(folder / "new/folder/red.png"));
+  CHECK(celltrace_run(folder, {"in/red.pov", "-W", "8", "-H", "6", "-o", "in"}).exit_code == 0);
+  CHECK(std::filesystem::exists(folder / "in/red.png"));
+  // A file's folder is nobody's wish.
+  CHECK(celltrace_run(folder, {"in/red.pov", "-W", "8", "-H", "6", "-o", "none/a.png"}).exit_code == 1);
+  CHECK_FALSE(std::filesystem::exists(folder / "none"));
+}
+
 TEST_CASE("each scene has its own time") {
   const TemporaryFolder folder;
   write_bytes(folder / "slow.pov",
@@ -67,7 +94,11 @@ TEST_CASE("without a folder the last scene counts, as in POV-Ray") {
   const TemporaryFolder folder;
   write_scene(folder / "red.pov", "rgb <1, 0, 0>");
   write_scene(folder / "green.pov", "rgb <0, 1, 0>");
-  CHECK(celltrace_run(folder, {"red.pov", "green.pov", "-W", "8", "-H", "6", "-o", "p.png"}).exit_code == 0);
+  const Outcome outcome =
+      celltrace_run(folder, {"red.pov", "green.pov", "-W", "8", "-H", "6", "-o", "p.png"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err,
+             Contains("of 2 scenes the last one is rendered, 'green.pov'; -o DIR/ renders each"));
   CHECK(first_pixel(folder / "p.png") == std::vector<std::uint8_t>{0, 255, 0});
   CHECK(celltrace_run(folder, {"red.pov", "green.pov", "+W8", "+H6", "+Oq.png"}).exit_code == 0);
   CHECK(first_pixel(folder / "q.png") == std::vector<std::uint8_t>{0, 255, 0});

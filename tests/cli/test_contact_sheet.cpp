@@ -7,9 +7,9 @@ using Catch::Matchers::Contains;
 
 TEST_CASE("names and errors are text in a contact sheet") {
   ContactSheet sheet;
-  sheet.add({SheetEntry::State::failed, "<script>.pov", "a.png", "a & <b> \"c\"", 0.5});
-  sheet.add({SheetEntry::State::partial, "q.pov", "a \"b\"#?.png", "", 1.25});
-  sheet.add({SheetEntry::State::done, "d.pov", "d.png", "", 0});
+  sheet.add({SheetEntry::State::failed, "<script>.pov", "a.png", "a & <b> \"c\"", false, 0.5});
+  sheet.add({SheetEntry::State::partial, "q.pov", "a \"b\"#?.png", "", false, 1.25});
+  sheet.add({SheetEntry::State::done, "d.pov", "d.png", "", false, 0});
   CHECK(sheet.count(SheetEntry::State::done) == 1);
   CHECK(sheet.count(SheetEntry::State::partial) == 1);
   CHECK(sheet.count(SheetEntry::State::failed) == 1);

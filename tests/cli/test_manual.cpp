@@ -81,6 +81,19 @@ TEST_CASE("the manual page has every option that --help has") {
   CHECK(options > 60);
 }
 
+TEST_CASE("the manual page has examples, whose options there are") {
+  const std::string page = without_backslashes(output_of({"--man-page"}));
+  const std::size_t begin = page.find(".SH EXAMPLES");
+  REQUIRE(begin != page.npos);
+  const std::string section = page.substr(begin, page.find("\n.SH ", begin) - begin);
+  const std::string known = output_of({"render", "--help"}) + output_of({"compare", "--help"});
+  const std::regex option("--?[A-Za-z][a-z-]*(?= )");
+  int options = 0;
+  for (std::sregex_iterator at(section.begin(), section.end(), option), end; at != end; ++at, ++options)
+    CHECK_THAT(known, Contains(' ' + at->str()));
+  CHECK(options >= 10);
+}
+
 TEST_CASE("the synopsis of the documentation has every command that --help has") {
   std::istringstream help(output_of({"--help"}));
   const std::string page = read_bytes(CELLTRACE_SOURCE_DIR "/docs/program.md");

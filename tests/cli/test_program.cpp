@@ -32,6 +32,18 @@ TEST_CASE("the program explains itself") {
   CHECK(lines(nothing.err) == 1);
 }
 
+TEST_CASE("what is no scene is said to be none") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "scenes");
+  for (const char* name : {"scenes", "scenes/"})
+    CHECK(celltrace_run(folder, {name}).err == "celltrace: error: scenes: this is a directory, not a file\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, {"render"}, {"+W320"}, {"view"}})
+    CHECK_THAT(celltrace_run(folder, arguments).err, StartsWith("celltrace: error: no scene is named"));
+  CHECK_THAT(celltrace_run(folder, {kScene, "--max", "seconds"}).err,
+             Contains("'seconds' is not NAME=VALUE"));
+}
+
 TEST_CASE("a scene alone is rendered beside the caller") {
   const TemporaryFolder folder;
   const Outcome outcome = celltrace_run(folder, {kScene, "-W", "32", "-H", "18"});

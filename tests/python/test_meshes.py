@@ -118,6 +118,8 @@ def test_values_and_maps():
 def test_maps_of_matplotlib():
     matplotlib = pytest.importorskip("matplotlib")
     viridis = matplotlib.colormaps["viridis"]
+    with pytest.raises(ValueError, match=r"has no 'virids' \(did you mean 'viridis'"):
+        celltrace.Mesh(QUAD, HALVES, values=QUAD[:, 0], colour_map="virids")
     pictures = [colours_of(celltrace.Mesh(QUAD, HALVES, values=QUAD[:, 0], colour_map=colour_map))
                 for colour_map in (viridis, "viridis", None)]
     assert (pictures[0] == pictures[1]).all() and numpy.abs(pictures[0] - pictures[2]).max() < 0.02
@@ -180,6 +182,11 @@ def test_lists_are_arrays():
     (lambda: celltrace.Mesh(QUAD, HALVES, uv=QUAD[:, :2], values=QUAD[:, 0]), TypeError, "uv, values"),
     (lambda: celltrace.Mesh(QUAD, HALVES, colours=QUAD, values=QUAD[:, 0]), TypeError, "colours, values"),
     (lambda: celltrace.Mesh(QUAD, HALVES, colour_map="viridis"), TypeError, "for values"),
+    (lambda: celltrace.Mesh("abc", HALVES), ValueError, "vertices: has to be an array of numbers"),
+    (lambda: celltrace.Mesh([[0, 0, 0], [1, 0]], HALVES), ValueError, "vertices: has to be an array of numbers"),
+    (lambda: celltrace.Mesh(QUAD, HALVES, uv="a"), ValueError, "uv: has to be an array of numbers"),
+    (lambda: celltrace.Mesh(QUAD, HALVES, skip_nans=True), TypeError, r"Mesh\(\) has no 'skip_nans' \(did you mean 'skip_nan'"),
+    (lambda: celltrace.Mesh(QUAD), TypeError, r"Mesh\(vertices, triangles, ...\) cannot be called with"),
     (lambda: celltrace.Mesh(QUAD, HALVES, colours=QUAD[:3]), ValueError, "colours: the shape"),
     (lambda: celltrace.Mesh(QUAD, HALVES, values=QUAD), ValueError, "values: the shape"),
     (lambda: celltrace.Mesh(QUAD, HALVES, values=QUAD[:, 0], value_range=(2, 1)), ValueError, "value_range"),

@@ -81,6 +81,24 @@ def test_a_session_makes_what_has_changed(ball):
         session.set_picture(spes=1)
 
 
+def test_time_and_memory_can_be_limited(ball):
+    assert celltrace.render(ball, width=40, height=30, most_seconds=1000, most_memory=1 << 30).shape == (30, 40, 4)
+    with pytest.raises(celltrace.Cancelled):
+        celltrace.render(ball, width=40, height=30, most_seconds=1e-9)
+    with pytest.raises(celltrace.InputError, match="1000 are allowed"):
+        celltrace.render(ball, width=40, height=30, most_memory=1000)
+    into = numpy.zeros((30, 40, 4), numpy.uint8)
+    session = celltrace.Session(ball, width=40, height=30, most_seconds=1e-9)
+    for _ in range(2):
+        with pytest.raises(celltrace.Cancelled):
+            session.render(into=into)
+
+
+def test_words_of_the_program_are_known(ball):
+    usual = celltrace.render(ball, width=40, height=30)
+    assert (celltrace.render(ball, width=40, height=30, balance="static", accelerator="auto") == usual).all()
+
+
 @pytest.mark.parametrize("channels", [3, 4])
 def test_pixels_go_into_an_array_of_the_callers(ball, channels):
     session = celltrace.Session(ball, width=40, height=30)

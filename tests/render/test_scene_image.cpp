@@ -378,6 +378,20 @@ TEST_CASE("What is wrong with a mesh in CSG is said") {
           "object 0 has an inside vector that is not finite");
   refused([](Mesh& mesh) { mesh.triangles[1].vertex[2] = 4; },
           "object 0, triangle 1 has an index that is out of range");
+  // Of a set of measured points one wants to know which.
+  refused([](Mesh& mesh) { mesh.vertices[3].y = std::numeric_limits<float>::quiet_NaN(); },
+          "object 0, vertex 3 has a number that is not finite");
+  refused(
+      [](Mesh& mesh) {
+        mesh.normals = {{0, 1, 0}, {0, std::numeric_limits<float>::infinity(), 0}};
+      },
+      "object 0, normal 1 has a number that is not finite");
+  refused(
+      [](Mesh& mesh) {
+        mesh.coordinates.resize(mesh.triangles.size());
+        mesh.coordinates[1].corner[2].y = std::numeric_limits<float>::quiet_NaN();
+      },
+      "object 0, triangle 1 has surface coordinates that are not finite");
 }
 
 TEST_CASE("Every index of every triangle is looked at") {

@@ -440,7 +440,8 @@ class Session:
                  quality: int = 9, region: Optional[Tuple[int, int, int, int]] = None,
                  antialiasing: Optional[Antialiasing] = None, colours: bool = False,
                  alpha: bool = False, first_hits: bool = False,
-                 schedule: Literal["free", "lockstep"] = "free", seed: int = 0) -> None: ...
+                 schedule: Literal["free", "lockstep"] = "free", seed: int = 0,
+                 most_seconds: float = 0, most_memory: int = 0) -> None: ...
     def render(self, *, into: Optional[NDArray[numpy.uint8]] = None,
                progress: Optional[Progress] = None) -> Picture: ...
     def cancel(self) -> None: ...
@@ -470,6 +471,7 @@ def render(scene: Union[Scene, Path], *, progress: Optional[Progress] = None, wi
            region: Optional[Tuple[int, int, int, int]] = None, antialiasing: Optional[Antialiasing] = None,
            colours: bool = False, alpha: bool = False, first_hits: bool = False,
            schedule: Literal["free", "lockstep"] = "free", seed: int = 0,
+           most_seconds: float = 0, most_memory: int = 0,
            library_paths: Iterable[Path] = (), readable_folders: Iterable[Path] = (),
            writable_folders: Iterable[Path] = (), clock: float = 0, version: Optional[float] = None,
            lenient: bool = False, declares: Dict[str, Union[float, str]] = {}, limits: Dict[str, int] = {},

@@ -1,5 +1,6 @@
 """Colours as other programs say them, and those of meshes."""
 
+import difflib
 import re
 
 import numpy
@@ -54,7 +55,11 @@ def map_colours(colour_map):
             import matplotlib
         except ImportError:
             raise ValueError(f"colour_map: '{colour_map}' is a name of matplotlib's, which is not installed") from None
-        colour_map = matplotlib.colormaps[colour_map]
+        name = colour_map
+        colour_map = matplotlib.colormaps.get(name)
+        if colour_map is None:
+            near = difflib.get_close_matches(name, matplotlib.colormaps, 1)
+            raise ValueError(f"colour_map: matplotlib has no '{name}'" + (f" (did you mean '{near[0]}'?)" if near else ""))
     if colour_map is None:
         points = numpy.array([_of_text("#" + colour) for colour in _VIRIDIS])
         places = numpy.linspace(0, len(points) - 1, _MAP_COLOURS)

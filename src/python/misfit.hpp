@@ -1,0 +1,78 @@
+// What calls get whose arguments do not fit: the parameters by name, in place of pybind11's list of C++
+// types.
+#pragma once
+
+#include "python/fields.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace celltrace {
+
+/// A first argument of any type, which fits only where pybind11 has tried everything else.
+struct LastResort {
+  py::object given;
+};
+
+} // namespace celltrace
+
+namespace pybind11::detail {
+
+template <> struct type_caster<celltrace::LastResort> {
+  PYBIND11_TYPE_CASTER(celltrace::LastResort, const_name("object"));
+
+  /// In its first round pybind11 converts nothing; what it then finds would come before what can be
+  /// converted.
+  bool load(handle source, bool convert) {
+    value.given = reinterpret_borrow<object>(source);
+    return convert;
+  }
+};
+
+} // namespace pybind11::detail
+
+namespace celltrace {
+
+/// A function's last overload, which throws TypeError for every call that gets there.
+class Misfit {
+public:
+  /// `parameters` as in signed_doc().
+  Misfit(std::string name, std::string parameters)
+      : name_(std::move(name)), parameters_(std::move(parameters)) {}
+
+  [[noreturn]] void refuse(const LastResort& first, const py::args& args, const py::kwargs& kwargs) const;
+
+private:
+  std::string name_, parameters_;
+};
+
+/// Default of the first argument, where there is none.
+inline py::object no_argument() {
+  return py::ellipsis();
+}
+
+/// Adds the last overload of a function of a module, or of a static one of a class.
+template <class Define> void add_misfit(const Define& define, Misfit misfit) {
+  define([misfit = std::move(misfit)](const LastResort& first, const py::args& args,
+                                      const py::kwargs& kwargs) { misfit.refuse(first, args, kwargs); },
+         py::arg("first") = no_argument());
+}
+/// The same of a method.
+template <class Class> void add_method_misfit(Class& bound, const char* name, Misfit misfit) {
+  bound.def(
+      name,
+      [misfit = std::move(misfit)](const py::object&, const LastResort& first, const py::args& args,
+                                   const py::kwargs& kwargs) { misfit.refuse(first, args, kwargs); },
+      py::arg("first") = no_argument());
+}
+/// The same of the constructor of a class whose values are a T each.
+template <class T, class Class> void add_init_misfit(Class& bound, Misfit misfit) {
+  bound.def(py::init([misfit = std::move(misfit)](const LastResort& first, const py::args& args,
+                                                  const py::kwargs& kwargs) -> std::shared_ptr<T> {
+              misfit.refuse(first, args, kwargs);
+            }),
+            py::arg("first") = no_argument());
+}
+
+} // namespace celltrace
