@@ -43,8 +43,16 @@ def test_what_progress_raises_comes_through(ball, slow_options):
     assert session.render().any()
 
 
+@pytest.fixture
+def interrupts():
+    """Ctrl-C raises KeyboardInterrupt, which shells take from what they start in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.parametrize("what", ["render", "session", "read"])
-def test_an_interrupt_ends_it_soon(ball, slow_options, what):
+def test_an_interrupt_ends_it_soon(ball, slow_options, interrupts, what):
     session = celltrace.Session(ball, **slow_options)
     work = {
         "render": lambda: celltrace.render(ball, **slow_options),
