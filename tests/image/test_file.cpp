@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 using namespace celltrace;
@@ -81,6 +82,21 @@ TEST_CASE("the other names of a file that is overwritten stay names of it") {
   CHECK(node_of(folder / "a") == node_of(folder / "b"));
   CHECK(fs::is_symlink(folder / "c"));
   CHECK(files_in(folder.path()) == 3);
+}
+
+TEST_CASE("a file that is overwritten keeps its extended attributes") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a", "something that is longer");
+  if (setxattr((folder / "a").c_str(), "user.celltrace", "kept", 4, 0) != 0) {
+    WARN("skipped, as the file system has no extended attributes");
+    return;
+  }
+  put(folder / "a", "new");
+  CHECK(read_bytes(folder / "a") == "new");
+  char value[8] = {};
+  CHECK(getxattr((folder / "a").c_str(), "user.celltrace", value, sizeof value) == 4);
+  CHECK(std::string(value) == "kept");
+  CHECK(files_in(folder.path()) == 1);
 }
 
 TEST_CASE("a write-protected file is an error, for root too") {

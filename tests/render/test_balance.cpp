@@ -206,3 +206,25 @@ TEST_CASE("Dimension exchange takes less than half the time of strips that stay,
   };
   CHECK(cycles(Balance::gde) * 2 < cycles(Balance::fixed));
 }
+
+TEST_CASE("Tiles are dealt in no order") {
+  const WorkPlan plan(Balance::tiles, 64, 64, 2);
+  bool is_in_order = true;
+  for (std::uint32_t unit = 1; unit < plan.units(); ++unit)
+    is_in_order &= plan.unit(unit).row / 4 >= plan.unit(unit - 1).row / 4;
+  CHECK_FALSE(is_in_order);
+}
+
+TEST_CASE("The first SPE's first piece is the picture's, the last SPE's second one follows its first") {
+  constexpr std::uint32_t kSpes = 4;
+  const WorkPlan plan(Balance::gde, 64, 64, kSpes);
+  CHECK(plan.unit(0).row == 0);
+  CHECK(plan.unit(0).column == 0);
+  // To and fro: the last of a round is the first of the next one.
+  const std::uint32_t last = plan.units() / kSpes * (kSpes - 1);
+  const auto place = [&](std::uint32_t unit) { return plan.unit(unit).row * 64u + plan.unit(unit).column; };
+  std::uint32_t unit = last;
+  while (place(unit + 1) == place(unit) + plan.unit(unit).bundles)
+    ++unit;
+  CHECK(unit - last + 1 == 2 * (plan.units() / (16 * kSpes)));
+}
