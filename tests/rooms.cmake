@@ -3,18 +3,18 @@
 #   cmake -DSOURCE=src -P rooms.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Of src/scene, for the language: what computes in double precision and knows no records.
-set(computing "scene/(extent|mesh_geometry|noise|point_texture|shape_geometry|triangle_tree)\\.hpp")
-
 # Of each room, what it may include besides itself and public headers.
 set(allowed_cli "study/|pov/|render/|image/|cache/|viewer/|memory/")
 set(allowed_viewer "")
 set(allowed_python "")
-set(allowed_study "render/|image/|cache/|kernel/|scene/parallel\\.hpp")
+set(allowed_study "render/|image/|cache/|kernel/|scene/")
 set(allowed_job "")
-set(allowed_pov "${computing}|memory/")
-set(allowed_render "scene/|image/|memory/|kernel/|backends/spe_entry\\.hpp|backends/native/query_spu\\.hpp")
-set(allowed_scene "memory/|kernel/")
+set(allowed_pov "scene/|geometry/|scene_image/(point_texture|single_precision)\\.hpp|memory/")
+set(allowed_render "scene/|geometry/|scene_image/|image/|memory/|kernel/|backends/spe_entry\\.hpp|backends/native/query_spu\\.hpp")
+set(allowed_scene_image "prepare/|geometry/|scene/|memory/|kernel/")
+set(allowed_prepare "geometry/|scene/|kernel/records\\.hpp")
+set(allowed_geometry "scene/|kernel/(records|textures/noise_tables)\\.hpp")
+set(allowed_scene "")
 set(allowed_image "")
 set(allowed_memory "")
 set(allowed_cache "")
@@ -22,7 +22,7 @@ set(allowed_kernel "")
 
 # Complains about each include of a file that is of a room, or a backend, and that `allowed` does not begin.
 function(check_includes file allowed)
-  file(STRINGS ${file} lines REGEX "^#include \"(backends|cache|cli|image|job|kernel|memory|pov|python|render|scene|study|viewer)/")
+  file(STRINGS ${file} lines REGEX "^#include \"(backends|cache|cli|geometry|image|job|kernel|memory|pov|prepare|python|render|scene|scene_image|study|viewer)/")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" included ${line})
     if(NOT included MATCHES "^(${allowed})")
@@ -31,7 +31,7 @@ function(check_includes file allowed)
   endforeach()
 endfunction()
 
-foreach(room cli viewer python study job pov render scene image memory cache kernel)
+foreach(room cli viewer python study job pov render scene_image prepare geometry scene image memory cache kernel)
   file(GLOB_RECURSE files ${SOURCE}/${room}/*.[ch]pp ${SOURCE}/${room}/*.[ly])
   if(NOT files)
     message(FATAL_ERROR "there is no ${SOURCE}/${room}")
@@ -57,8 +57,8 @@ foreach(file IN LISTS files)
 endforeach()
 
 # Where the eye is, passes ask an Eye, which remembers that they did: the image is made anew when it moves.
-file(GLOB files ${SOURCE}/scene/*.[ch]pp)
-list(FILTER files EXCLUDE REGEX "/(eye\\.hpp|scene\\.cpp|scene_image\\.cpp)$")
+file(GLOB files ${SOURCE}/geometry/*.[ch]pp ${SOURCE}/prepare/*.[ch]pp ${SOURCE}/scene_image/*.[ch]pp)
+list(FILTER files EXCLUDE REGEX "/(eye\\.hpp|validation\\.cpp|scene_image\\.cpp)$")
 foreach(file IN LISTS files)
   file(STRINGS ${file} lines REGEX "[.>]camera[^a-z_]")
   foreach(line IN LISTS lines)
@@ -66,15 +66,8 @@ foreach(file IN LISTS files)
   endforeach()
 endforeach()
 
-# Programs of functions know neither the parser nor places in scenes.
-file(GLOB files ${SOURCE}/pov/function_*.[ch]pp)
-list(FILTER files EXCLUDE REGEX "function_reader\\.cpp$")
+# Programs of functions know neither the language nor places in scenes.
+file(GLOB files ${SOURCE}/geometry/function_*.[ch]pp)
 foreach(file IN LISTS files)
-  check_includes(${file} "pov/function_")
-endforeach()
-
-file(GLOB headers ${SOURCE}/scene/*.hpp)
-list(FILTER headers INCLUDE REGEX "${computing}$")
-foreach(header IN LISTS headers)
-  check_includes(${header} "${computing}")
+  check_includes(${file} "geometry/function_")
 endforeach()

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "geometry/function_operations.hpp"
 #include "pov/actions.hpp"
-#include "pov/function_operations.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
 #include "pov/session.hpp"

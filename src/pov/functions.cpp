@@ -10,9 +10,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "geometry/function_operations.hpp"
+#include "geometry/noise.hpp"
 #include "pov/characters.hpp"
-#include "pov/function_operations.hpp"
-#include "scene/noise.hpp"
 
 namespace celltrace::pov {
 

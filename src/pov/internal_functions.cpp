@@ -3,8 +3,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "geometry/noise.hpp"
 #include "pov/user_function.hpp"
-#include "scene/noise.hpp"
 
 namespace celltrace::pov {
 

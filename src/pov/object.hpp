@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "celltrace/scene.hpp"
+#include "geometry/triangle_tree.hpp"
 #include "pov/heap_value.hpp"
 #include "pov/location.hpp"
 #include "pov/memory.hpp"
 #include "pov/texture.hpp"
 #include "pov/token.hpp"
-#include "scene/triangle_tree.hpp"
 
 namespace celltrace::pov {
 

@@ -5,11 +5,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "geometry/mesh_geometry.hpp"
+#include "geometry/shape_geometry.hpp"
 #include "pov/finite.hpp"
 #include "pov/patterns.hpp"
 #include "pov/session.hpp"
-#include "scene/mesh_geometry.hpp"
-#include "scene/shape_geometry.hpp"
 
 namespace celltrace::pov {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "geometry/extent.hpp"
 #include "pov/object.hpp"
-#include "scene/extent.hpp"
 
 namespace celltrace::pov {
 

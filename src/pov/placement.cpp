@@ -11,11 +11,12 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "geometry/shape_geometry.hpp"
 #include "pov/finite.hpp"
 #include "pov/light.hpp"
 #include "pov/mesh.hpp"
 #include "pov/shapes.hpp"
-#include "scene/shape_geometry.hpp"
+#include "scene_image/single_precision.hpp"
 
 namespace celltrace::pov {
 

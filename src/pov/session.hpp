@@ -7,7 +7,7 @@
 
 #include "celltrace/pov.hpp"
 #include "pov/diagnostics.hpp"
-#include "pov/function_machine.hpp"
+#include "geometry/function_machine.hpp"
 #include "pov/input.hpp"
 #include "pov/memory.hpp"
 #include "pov/names.hpp"

@@ -6,7 +6,7 @@
 #include "pov/memory.hpp"
 #include "pov/texture.hpp"
 #include "pov/user_function.hpp"
-#include "scene/point_texture.hpp"
+#include "scene_image/point_texture.hpp"
 
 namespace celltrace::pov {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "pov/function_machine.hpp"
+#include "geometry/function_machine.hpp"
 #include "pov/location.hpp"
 #include "pov/memory.hpp"
 #include "pov/quantity.hpp"

@@ -7,8 +7,8 @@
 #include "render/bvh_refit.hpp"
 #include "render/frame_fields.hpp"
 #include "render/spe_team.hpp"
-#include "scene/scene_image.hpp"
-#include "scene/shared_image.hpp"
+#include "scene_image/scene_image.hpp"
+#include "scene_image/shared_image.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -5,7 +5,7 @@
 #include "celltrace/render.hpp"
 #include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <bit>
 

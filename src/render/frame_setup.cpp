@@ -5,8 +5,8 @@
 #include "kernel/cameras/list.hpp"
 #include "kernel/direct/door.hpp"
 #include "render/quality.hpp"
-#include "scene/object_records.hpp"
-#include "scene/surface_records.hpp"
+#include "scene_image/object_records.hpp"
+#include "scene_image/surface_records.hpp"
 
 #include <algorithm>
 #include <array>

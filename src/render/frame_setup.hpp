@@ -4,8 +4,8 @@
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
 #include "kernel/records.hpp"
-#include "scene/insides.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/insides.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <vector>
 

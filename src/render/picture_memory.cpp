@@ -4,7 +4,7 @@
 #include "kernel/program/pixel_sampler.hpp"
 #include "render/blocks.hpp"
 #include "render/frame_setup.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <algorithm>
 #include <cstring>

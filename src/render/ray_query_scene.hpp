@@ -4,7 +4,7 @@
 #include "celltrace/ray_queries.hpp"
 #include "kernel/direct/ray_queries.hpp"
 #include "render/single_ray_bvh.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <atomic>
 #include <memory>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/direct/query_bvh.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 // Triangles and meshes in double precision, beside what every triangle says by itself.
-#include "scene/mesh_geometry.hpp"
-#include "scene/triangle_tree.hpp"
+#include "geometry/mesh_geometry.hpp"
+#include "geometry/triangle_tree.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // Crossings, insides and normals of shapes in double precision, beside each shape's equation.
-#include "scene/shape_geometry.hpp"
+#include "geometry/shape_geometry.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -3,8 +3,8 @@
 
 #include "direct_spu.hpp"
 #include "kernel/direct/build_bvh.hpp"
-#include "scene/object_order.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/object_order.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <algorithm>
 #include <barrier>

@@ -4,7 +4,7 @@
 #include "direct_spu.hpp"
 #include "kernel/program/prepare_frame.hpp"
 #include "render/frame_setup.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <optional>
 

@@ -6,7 +6,7 @@
 #include "kernel/lights/illumination.hpp"
 #include "lanes.hpp"
 #include "reference/area_light.hpp"
-#include "scene/surface_records.hpp"
+#include "scene_image/surface_records.hpp"
 
 #include <catch2/catch.hpp>
 

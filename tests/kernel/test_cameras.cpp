@@ -3,7 +3,7 @@
 #include "lanes.hpp"
 #include "reference/camera.hpp"
 #include "render/frame_setup.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 

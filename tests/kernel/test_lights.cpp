@@ -2,7 +2,7 @@
 #include "kernel/lights/illumination.hpp"
 #include "lanes.hpp"
 #include "reference/shading.hpp"
-#include "scene/surface_records.hpp"
+#include "scene_image/surface_records.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,7 @@
 #include "kernel/primitives/csg.hpp"
 #include "lanes.hpp"
 #include "render/scenes.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,7 @@
 #include "lanes.hpp"
 #include "prepared_scene.hpp"
 #include "render/scenes.hpp"
-#include "scene/shapes.hpp"
+#include "scene_image/shapes.hpp"
 
 #include <catch2/catch.hpp>
 

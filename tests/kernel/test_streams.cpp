@@ -1,7 +1,7 @@
 // Streams and the radix sort through local store, with counts around the borders of chunks and lines.
 #include "kernel/accel/radix_sort.hpp"
 #include "kernel/records.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 #include "spe/run_on.hpp"
 
 #include <catch2/catch.hpp>

@@ -2,7 +2,7 @@
 #include "kernel/program/pixel_writer.hpp"
 #include "lanes.hpp"
 #include "reference/shading.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -5,7 +5,7 @@
 #include "compiled_once.hpp"
 #include "kernel/textures/pigments.hpp"
 #include "lanes.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <functional>
 #include <memory>

@@ -5,7 +5,7 @@
 #include "celltrace/pov.hpp"
 #include "models/models.hpp"
 #include "render/scenes.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 

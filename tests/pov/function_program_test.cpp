@@ -1,7 +1,7 @@
 // Programs of functions give, bit for bit, what their expressions give when these are evaluated as written.
-#include "pov/function_graph.hpp"
-#include "pov/function_machine.hpp"
-#include "pov/function_operations.hpp"
+#include "geometry/function_graph.hpp"
+#include "geometry/function_machine.hpp"
+#include "geometry/function_operations.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -152,8 +152,13 @@ public:
 
   std::size_t below(std::size_t count) { return random_() % count; }
   double number() {
-    static constexpr double kSpecial[] = {
-        0, -0.0, 1, -1, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()};
+    static constexpr double kSpecial[] = {0,
+                                          -0.0,
+                                          1,
+                                          -1,
+                                          1e300,
+                                          std::numeric_limits<double>::infinity(),
+                                          std::numeric_limits<double>::quiet_NaN()};
     return below(8) == 0 ? kSpecial[below(7)] : (static_cast<double>(below(4001)) - 2000) / 500;
   }
 

@@ -53,7 +53,8 @@ TEST_CASE("loops that cannot end are found before they have run long") {
   CHECK(contains(error_line("#for (I, 0, -1e10, -1) #end"), by_default));
   ParseOptions few;
   few.limits.loop_iterations = 1'000'000;
-  CHECK(contains(error_line("#while (now < 1e9) #end", few), "the loops of the scene run more than 1000000 "));
+  CHECK(
+      contains(error_line("#while (now < 1e9) #end", few), "the loops of the scene run more than 1000000 "));
 }
 
 TEST_CASE("loops that only seem to be endless end") {

@@ -1,5 +1,5 @@
-#include "pov/nearest_word.hpp"
 #include "parsing.hpp"
+#include "pov/nearest_word.hpp"
 
 #include <catch2/catch.hpp>
 

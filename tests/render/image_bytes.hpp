@@ -1,7 +1,7 @@
 // The bytes of a scene image, to be changed and sealed again.
 #pragma once
 
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <cstddef>
 #include <cstdint>

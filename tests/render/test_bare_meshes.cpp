@@ -3,7 +3,7 @@
 #include "render/backends.hpp"
 #include "render/image_bytes.hpp"
 #include "render/scenes.hpp"
-#include "scene/csg_parts.hpp"
+#include "scene_image/csg_parts.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,8 +3,8 @@
 #include "render/models/stage_fields.hpp"
 #include "render/scenes.hpp"
 #include "render/work_plan.hpp"
-#include "scene/image_fields.hpp"
-#include "scene/shared_image.hpp"
+#include "scene_image/image_fields.hpp"
+#include "scene_image/shared_image.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // Which of several surfaces at one place is seen: the first object, and what order objects are in.
 #include "memory/aligned_block.hpp"
 #include "render/scenes.hpp"
-#include "scene/coincident_surfaces.hpp"
-#include "scene/csg_parts.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/coincident_surfaces.hpp"
+#include "scene_image/csg_parts.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 

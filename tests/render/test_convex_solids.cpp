@@ -1,7 +1,7 @@
 // What CSG makes of planes and boxes becomes boxes or meshes, where that is convex.
 #include "kernel/records.hpp"
 #include "render/scenes.hpp"
-#include "scene/csg_parts.hpp"
+#include "scene_image/csg_parts.hpp"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // Bounds of what CSG shows: tight enough for a BVH, and around all that can be seen.
 #include "render/scenes.hpp"
-#include "scene/csg_parts.hpp"
-#include "scene/polytope.hpp"
-#include "scene/quadric_bounds.hpp"
+#include "scene_image/csg_parts.hpp"
+#include "scene_image/polytope.hpp"
+#include "scene_image/quadric_bounds.hpp"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>

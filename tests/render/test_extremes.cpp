@@ -1,11 +1,11 @@
 // Scenes at the limits: of size, of distance, of transparency.
 #include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
+#include "prepare/coplanar_faces.hpp"
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
-#include "scene/coplanar_faces.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 

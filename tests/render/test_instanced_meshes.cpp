@@ -8,7 +8,7 @@
 #include "render/backends.hpp"
 #include "render/image_bytes.hpp"
 #include "render/scenes.hpp"
-#include "scene/mesh_bvh.hpp"
+#include "scene_image/mesh_bvh.hpp"
 
 #include <catch2/catch.hpp>
 

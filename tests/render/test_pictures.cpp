@@ -5,7 +5,7 @@
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
-#include "scene/scene_image.hpp"
+#include "scene_image/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,7 @@
 #include "kernel/accel/object_bounds.hpp"
 #include "render/image_bytes.hpp"
 #include "render/scenes.hpp"
-#include "scene/mesh_prototype.hpp"
+#include "scene_image/mesh_prototype.hpp"
 
 #include <catch2/catch.hpp>
 

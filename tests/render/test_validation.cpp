@@ -1,7 +1,7 @@
 // What validate() takes and refuses, on both sides of every bound.
 #include "celltrace/error.hpp"
 #include "celltrace/scene.hpp"
-#include "scene/shape_geometry.hpp"
+#include "geometry/shape_geometry.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

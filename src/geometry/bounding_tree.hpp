@@ -1,0 +1,48 @@
+// The tree of boxes that POV-Ray puts around a scene's objects: it decides which of two surfaces at one place
+// is seen, as the first one counts that is tested there.
+#pragma once
+
+#include "geometry/extent.hpp"
+#include "geometry/shape_geometry.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace celltrace {
+
+/// Built as POV-Ray builds it, in its order and precision. Thread safety: as a standard container.
+class BoundingTree {
+public:
+  /// Of objects in the order of the scene. `lights`: those of the scene, which are objects there, too.
+  BoundingTree(const std::vector<Extent>& objects, std::size_t lights);
+
+  /// Whether a ray that hits both objects at the same distance is tested for `a` first, if nothing else is in
+  /// its way.
+  bool tests_first(std::size_t a, std::size_t b, const geometry::Ray& ray) const;
+
+  /// Where an object is among the leaves, from left to right: of two that rays reach at the same distance the
+  /// one of lower rank is mostly tested first.
+  std::size_t rank(std::size_t object) const { return ranks_[object]; }
+
+private:
+  struct Box {
+    float low[3] = {}, size[3] = {};
+  };
+  struct Node {
+    Box box;
+    std::size_t object = 0;            ///< of a leaf
+    std::vector<std::size_t> children; ///< none: a leaf
+  };
+
+  void build(std::vector<std::size_t>& nodes);
+  std::size_t sort_and_cut(std::vector<std::size_t>& nodes, std::size_t first, std::size_t last) const;
+  void add_parent(std::vector<std::size_t>& nodes, std::size_t first, std::size_t last);
+  static Box around(const Box& a, const Box& b);
+
+  std::vector<Node> nodes_;        ///< the last one is the root
+  std::vector<std::size_t> ranks_; ///< by object
+  std::vector<bool> is_infinite_;
+  bool is_list_; ///< of so few objects that there is no tree
+};
+
+} // namespace celltrace

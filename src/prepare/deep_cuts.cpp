@@ -1,0 +1,176 @@
+#include "prepare/deep_cuts.hpp"
+
+#include "prepare/csg_leaves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+namespace {
+
+constexpr std::size_t kMostComparisons =
+    1 << 22; ///< of faces in all of the scene: beyond them nobody waits for more
+
+/// A face in the scene. `ends`: which of a shape's, by axis and then the lower one first; of a cylinder or
+/// cone the base's is first.
+struct EndFace {
+  Vec3 normal; ///< outwards
+  double distance;
+  Vec3 point;
+  std::size_t leaf;
+  int end;
+};
+
+class DeepCuts {
+public:
+  explicit DeepCuts(const Eye& eye) : eye_(eye) {}
+
+  /// The object with deeper cuts, if it needs any.
+  std::optional<Object> changed(const Object& object) {
+    if (!std::holds_alternative<std::shared_ptr<const Csg>>(object.shape)) return {};
+    if (!has_leaf(object, false, cuts)) return {};
+    kept_.clear();
+    cut_.clear();
+    leaves_ = 0;
+    const auto add = [this](const Object& leaf, const LeafPlace& place) {
+      add_faces(leaf, place);
+      ++leaves_;
+    };
+    visit_leaves(object, LeafPlace(), add);
+    find_shallow();
+    if (moves_.empty()) return {};
+    leaves_ = 0;
+    const auto deepen = [this](const Object& leaf, const LeafPlace& place) { return deeper(leaf, place); };
+    return with_leaves_changed(object, LeafPlace(), deepen);
+  }
+
+private:
+  struct Move {
+    std::size_t leaf;
+    int end;
+    double way; ///< along the normal
+    Vec3 normal;
+  };
+
+  /// Whether it has ends that may lie a little beyond those of what is kept.
+  static bool cuts(const Object& leaf, bool inverse) {
+    return inverse &&
+           (std::holds_alternative<Box>(leaf.shape) || std::holds_alternative<Cylinder>(leaf.shape) ||
+            std::holds_alternative<Cone>(leaf.shape));
+  }
+
+  void add_face(const LeafPlace& place, int end, const Vec3& outward, const Vec3& point) {
+    EndFace face{};
+    face.normal = glm::normalize(place.transform.normal(outward));
+    face.point = place.transform.point(point);
+    face.distance = glm::dot(face.normal, face.point);
+    face.leaf = leaves_;
+    face.end = end;
+    if (!std::isfinite(face.distance)) return;
+    (place.inverse ? cut_ : kept_).push_back(face);
+  }
+  void add_ends(const LeafPlace& place, const Vec3& base, const Vec3& cap, bool has_base, bool has_cap) {
+    const Vec3 along = cap - base;
+    if (!(glm::dot(along, along) > 0)) return;
+    if (has_base) add_face(place, 0, -along, base);
+    if (has_cap) add_face(place, 1, along, cap);
+  }
+  void add_faces(const Object& leaf, const LeafPlace& place) {
+    if (const auto* const box = std::get_if<Box>(&leaf.shape)) {
+      for (int end = 0; end < 6; ++end) {
+        Vec3 outward(0);
+        outward[end / 2] = end % 2 != 0 ? 1 : -1;
+        add_face(place, end, outward, box->corner[corner_of(*box, end)]);
+      }
+    } else if (const auto* const cylinder = std::get_if<Cylinder>(&leaf.shape)) {
+      if (!cylinder->open) add_ends(place, cylinder->base, cylinder->cap, true, true);
+    } else if (const auto* const cone = std::get_if<Cone>(&leaf.shape)) {
+      if (!cone->open) add_ends(place, cone->base, cone->cap, cone->base_radius != 0, cone->cap_radius != 0);
+    } else if (const auto* const plane = std::get_if<Plane>(&leaf.shape)) {
+      if (!place.inverse) add_face(place, 0, plane->normal, glm::normalize(plane->normal) * plane->distance);
+    }
+  }
+  static int corner_of(const Box& box, int end) {
+    const int axis = end / 2;
+    return (box.corner[0][axis] > box.corner[1][axis]) != (end % 2 != 0);
+  }
+
+  void find_shallow() {
+    constexpr double kSameDirection = 1e-9, kSamePlane = 1e-11;
+    constexpr double kDeepEnough = 2e-6; // of the distance: single precision is wrong by up to a tenth of it
+    moves_.clear();
+    const Vec3 eye = eye_.location();
+    for (const EndFace& cut : cut_) {
+      if (pairs_ > kMostComparisons) return;
+      pairs_ += kept_.size();
+      const double size = glm::length(eye) + glm::length(cut.point) + glm::length(cut.point - eye);
+      double way = 0;
+      for (const EndFace& kept : kept_) {
+        const double beyond = cut.distance - kept.distance;
+        const Vec3 turned = glm::abs(cut.normal - kept.normal);
+        if (beyond > kSamePlane * size && beyond < kDeepEnough * size &&
+            std::max({turned.x, turned.y, turned.z}) < kSameDirection)
+          way = std::max(way, kDeepEnough * size - beyond);
+      }
+      if (way > 0) moves_.push_back({cut.leaf, cut.end, way, cut.normal});
+    }
+  }
+
+  /// How much longer a leaf becomes along one of its axes so that its end moves by `move`.
+  static double growth(const Move& move, const Vec3& outward, const LeafPlace& place) {
+    return move.way / glm::dot(place.transform.direction(outward), move.normal);
+  }
+  std::optional<Object> deeper(const Object& leaf, const LeafPlace& place) {
+    std::optional<Object> result;
+    for (const Move& move : moves_) {
+      if (move.leaf != leaves_) continue;
+      if (!result) result = leaf;
+      if (auto* const box = std::get_if<Box>(&result->shape)) {
+        Vec3 outward(0);
+        outward[move.end / 2] = move.end % 2 != 0 ? 1 : -1;
+        box->corner[corner_of(*box, move.end)] += outward * growth(move, outward, place);
+      } else if (auto* const cylinder = std::get_if<Cylinder>(&result->shape)) {
+        Vec3& end = move.end != 0 ? cylinder->cap : cylinder->base;
+        const Vec3 outward = glm::normalize(end - (move.end != 0 ? cylinder->base : cylinder->cap));
+        end += outward * growth(move, outward, place);
+      } else if (auto* const cone = std::get_if<Cone>(&result->shape)) {
+        Vec3& end = move.end != 0 ? cone->cap : cone->base;
+        double& radius = move.end != 0 ? cone->cap_radius : cone->base_radius;
+        const Vec3 along = end - (move.end != 0 ? cone->base : cone->cap);
+        const double other = move.end != 0 ? cone->base_radius : cone->cap_radius,
+                     length = glm::length(along);
+        const double longer = growth(move, along / length, place);
+        end += along / length * longer;
+        radius += (radius - other) * longer / length;
+      }
+    }
+    ++leaves_;
+    return result;
+  }
+
+  const Eye& eye_;
+  std::vector<EndFace> kept_, cut_;
+  std::vector<Move> moves_;
+  std::size_t leaves_ = 0, pairs_ = 0;
+};
+
+} // namespace
+
+SceneWithDeepCuts::SceneWithDeepCuts(const Scene& scene, const Eye& eye) : scene_(scene) {
+  DeepCuts cuts(eye);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    std::optional<Object> object = cuts.changed(scene.objects[i]);
+    if (!object) continue;
+    if (!copy_) copy_ = scene;
+    copy_->objects[i] = *std::move(object);
+  }
+}
+
+} // namespace celltrace

@@ -1,0 +1,44 @@
+#include "prepare/eye.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+namespace {
+
+constexpr double kNear = 256; ///< radii beside the distance from the surface
+
+bool is_near(const Sphere& sphere, const Vec3& location) {
+  const double radius = std::abs(sphere.radius);
+  const double distance = glm::length(location - sphere.centre);
+  return radius > kNear * std::abs(distance - radius) && distance > 0;
+}
+
+} // namespace
+
+bool Eye::is_near_surface(const Sphere& sphere, const Transform& transform) const {
+  if (transform.is_identity()) {
+    if (is_near(sphere, location_)) return is_asked_ = true;
+    if (may_move_) spheres_.push_back(sphere);
+    return false;
+  }
+  const Transform to_sphere = transform.inverse();
+  if (is_near(sphere, to_sphere.point(location_))) return is_asked_ = true;
+  if (may_move_) placed_spheres_.push_back({sphere, to_sphere});
+  return false;
+}
+
+bool Eye::prepares_alike(const Vec3& location) const {
+  if (location == location_) return true;
+  if (is_asked_ || !may_move_) return false;
+  return std::none_of(spheres_.begin(), spheres_.end(),
+                      [&](const Sphere& sphere) { return is_near(sphere, location); }) &&
+         std::none_of(placed_spheres_.begin(), placed_spheres_.end(), [&](const PlacedSphere& placed) {
+           return is_near(placed.sphere, placed.to_sphere.point(location));
+         });
+}
+
+} // namespace celltrace

@@ -1,0 +1,78 @@
+#include "prepare/large_spheres.hpp"
+
+#include "kernel/records.hpp"
+#include "prepare/csg_leaves.hpp"
+
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+namespace {
+
+constexpr std::size_t kMostSpheres = 8; ///< quadrics have no bounds: each ray is tested against all of them
+
+class LargeSpheres {
+public:
+  LargeSpheres(const Eye& eye, const std::vector<std::uint32_t>& material_flags)
+      : eye_(eye), material_flags_(material_flags) {}
+
+  /// The object as it is to be, its parts too, if one of them has changed.
+  std::optional<Object> changed(const Object& object) {
+    const auto is_sphere = [](const Object& leaf, bool) {
+      return std::holds_alternative<Sphere>(leaf.shape);
+    };
+    if (!has_leaf(object, false, is_sphere)) return {};
+    const auto change = [this](const Object& leaf, const LeafPlace& place) -> std::optional<Object> {
+      const auto* const sphere = std::get_if<Sphere>(&leaf.shape);
+      if (sphere == nullptr) return {};
+      return about_nearest_point(leaf, *sphere, place.transform);
+    };
+    return with_leaves_changed(object, LeafPlace(), change);
+  }
+
+private:
+  std::optional<Object> about_nearest_point(const Object& object, const Sphere& sphere,
+                                            const Transform& transform) {
+    if (object.inverse || object.clipped_by != nullptr || count_ == kMostSpheres) return {};
+    if (object.material < material_flags_.size() &&
+        (material_flags_[object.material] & kernel::object_flag::by_surface) != 0)
+      return {};
+    if (!eye_.is_near_surface(sphere, transform)) return {};
+    ++count_;
+    const double radius = std::abs(sphere.radius);
+    const Vec3 eye = eye_.location();
+    const Vec3 from_centre = (transform.is_identity() ? eye : transform.inverse().point(eye)) - sphere.centre;
+    const Vec3 normal = from_centre / glm::length(from_centre);
+    Object quadric = object;
+    Quadric shape;
+    shape.linear = normal * (2 * radius);
+    shape.constant = 0;
+    quadric.shape = shape;
+    quadric.transform = Transform::translate(sphere.centre + normal * radius).then(object.transform);
+    return quadric;
+  }
+
+  const Eye& eye_;
+  const std::vector<std::uint32_t>& material_flags_;
+  std::size_t count_ = 0;
+};
+
+} // namespace
+
+SceneWithLargeSpheres::SceneWithLargeSpheres(const Scene& scene,
+                                             const std::vector<std::uint32_t>& material_flags, const Eye& eye)
+    : scene_(scene) {
+  LargeSpheres spheres(eye, material_flags);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    std::optional<Object> object = spheres.changed(scene.objects[i]);
+    if (!object) continue;
+    if (!copy_) copy_ = scene;
+    copy_->objects[i] = *std::move(object);
+  }
+}
+
+} // namespace celltrace

@@ -1,0 +1,146 @@
+#include "scene_image/coincident_surfaces.hpp"
+
+#include "geometry/bounding_tree.hpp"
+#include "geometry/object_extents.hpp"
+#include "scene/build_watch.hpp"
+#include "scene_image/object_order.hpp"
+#include "scene_image/shapes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace celltrace {
+
+namespace {
+
+/// Pairs of objects to look at: beyond them nobody waits for more.
+constexpr std::size_t kMostSurfacePairs = 1 << 16;
+
+/// A surface of an object, and where that may show it.
+struct PlacedSurface {
+  std::uint32_t kind;
+  std::array<float, 14> numbers; ///< geometry and parameters
+  std::size_t object;
+  kernel::Aabb bounds;
+
+  bool is_same_as(const PlacedSurface& other) const { return kind == other.kind && numbers == other.numbers; }
+};
+
+class PlacedSurfaces {
+public:
+  PlacedSurfaces(const Scene& scene, std::size_t count, const CsgParts& parts) {
+    for (const CsgPart& part : parts.parts)
+      if (part.whole < count && !is_mesh(part.object)) add(part.shape, part.whole, part.bounds);
+    for (const CsgSurface& surface : parts.replaced)
+      add(surface.shape, surface.whole, surface.bounds);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Object& object = scene.objects[i];
+      if (CsgParts::contains(object) || is_mesh(object) || !has_bounds(object)) continue;
+      const PlacedShape shape = place_shape(object);
+      if (!shape.is_empty) add(shape, i, shape.bounds());
+    }
+    std::stable_sort(surfaces_.begin(), surfaces_.end(), [](const PlacedSurface& a, const PlacedSurface& b) {
+      return a.kind != b.kind ? a.kind < b.kind : a.numbers < b.numbers;
+    });
+  }
+
+  /// Calls `visit(a, b)` for surfaces of different objects that are the same one.
+  template <class Visit> void for_each_pair(const Visit& visit) const {
+    std::size_t pairs = 0;
+    for (std::size_t first = 0, last; first < surfaces_.size(); first = last) {
+      for (last = first + 1; last < surfaces_.size() && surfaces_[last].is_same_as(surfaces_[first]);)
+        ++last;
+      for (std::size_t a = first; a < last; ++a)
+        for (std::size_t b = a + 1; b < last; ++b) {
+          BuildWatch::look_at(pairs);
+          if (++pairs > kMostSurfacePairs) return;
+          if (surfaces_[a].object != surfaces_[b].object) visit(surfaces_[a], surfaces_[b]);
+        }
+    }
+  }
+
+private:
+  static bool is_mesh(const Object& object) {
+    return std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape);
+  }
+  void add(const PlacedShape& shape, std::size_t object, const kernel::Aabb& bounds) {
+    PlacedSurface& surface = surfaces_.emplace_back();
+    surface.kind = shape.kind_and_flags;
+    std::copy(shape.geometry, shape.geometry + 12, surface.numbers.begin());
+    std::copy(shape.parameters, shape.parameters + 2, surface.numbers.begin() + 12);
+    surface.object = object;
+    surface.bounds = bounds;
+  }
+
+  std::vector<PlacedSurface> surfaces_;
+};
+
+/// The objects of `order`, but each behind those of `before`, by object; where these go in circles, one of
+/// them does not count.
+std::vector<std::size_t> sorted(const std::vector<std::size_t>& order,
+                                std::vector<std::vector<std::size_t>> before) {
+  std::vector<std::size_t> result;
+  std::vector<bool> is_visited(before.size());
+  std::vector<std::size_t> path;
+  const auto enter = [&](std::size_t object) {
+    if (!is_visited[object]) path.push_back(object);
+    is_visited[object] = true;
+  };
+  for (const std::size_t object : order) {
+    enter(object);
+    while (!path.empty()) {
+      std::vector<std::size_t>& open = before[path.back()];
+      if (open.empty()) {
+        result.push_back(path.back());
+        path.pop_back();
+      } else {
+        const std::size_t next = open.back();
+        open.pop_back();
+        enter(next);
+      }
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+std::vector<std::size_t> order_of_tests(const Scene& scene, const Eye& eye, std::size_t count,
+                                        const CsgParts& parts) {
+  std::vector<std::size_t> order;
+  for (const bool are_csgs : {false, true})
+    for (std::size_t i = 0; i < count; ++i)
+      if (CsgParts::contains(scene.objects[i]) == are_csgs) order.push_back(i);
+  std::vector<std::vector<std::size_t>> before(count);
+  if (has_order_of_tests(count, parts)) {
+    std::optional<BoundingTree> tree;
+    PlacedSurfaces(scene, count, parts).for_each_pair([&](const PlacedSurface& a, const PlacedSurface& b) {
+      const kernel::Aabb both = intersected(a.bounds, b.bounds);
+      Vec3 middle;
+      for (int i = 0; i < 3; ++i) {
+        if (both.min[i] > both.max[i]) return;
+        middle[i] = 0.5 * (static_cast<double>(both.min[i]) + static_cast<double>(both.max[i]));
+      }
+      if (!tree) {
+        std::vector<Extent> extents;
+        for (std::size_t i = 0; i < count; ++i)
+          extents.push_back(extent_of(scene.objects[i], Transform()));
+        tree.emplace(extents, scene.lights.size());
+      }
+      const Vec3 from = eye.location();
+      const bool a_first = tree->tests_first(a.object, b.object, {from, middle - from});
+      before[(a_first ? b : a).object].push_back((a_first ? a : b).object);
+    });
+  }
+  return sorted(order, std::move(before));
+}
+
+bool has_order_of_tests(std::size_t count, const CsgParts& parts) {
+  return !parts.parts.empty() && count + parts.parts.size() < kMinObjectsToOrder;
+}
+
+} // namespace celltrace

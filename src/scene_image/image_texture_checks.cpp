@@ -1,0 +1,308 @@
+// What the tables of textures in a scene image have to be.
+#include "kernel/textures/list.hpp"
+#include "kernel/textures/map_walk.hpp"
+#include "scene_image/image_checks.hpp"
+#include "scene_image/patterns.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+/// Looks at the tables of textures.
+class TextureCheck {
+public:
+  TextureCheck(const std::byte* base, const ImageHeader& h)
+      : base_(base), h_(h), materials_(base, h.material_offset, h.material_count),
+        patterns_(base, h.pattern_offset, h.pattern_count),
+        steps_(base, h.space_step_offset, h.space_step_count),
+        entries_(base, h.map_entry_offset, h.map_entry_count),
+        normals_(base, h.normal_offset, h.normal_count) {}
+
+  /// True if every reference is to a record of its table, and no walk through maps and layers is too long.
+  bool holds() {
+    for (std::uint32_t i = 0; i < h_.pattern_count; ++i)
+      if (!is_sound(patterns_[i])) return false;
+    const Table<FogRecord> fogs(base_, h_.fog_offset, h_.fog_count);
+    for (std::uint32_t i = 0; i < h_.fog_count; ++i)
+      if (!turbulence_is_sound(fogs[i].turbulence)) return false;
+    const Table<RainbowRecord> rainbows(base_, h_.rainbow_offset, h_.rainbow_count);
+    for (std::uint32_t i = 0; i < h_.rainbow_count; ++i) {
+      const std::uint32_t first = entries_.find(rainbows[i].entries), count = rainbows[i].entry_count;
+      if (first == entries_.count || count == 0 || count > entries_.count - first) return false;
+    }
+    for (std::uint32_t i = 0; i < h_.space_step_count; ++i)
+      if (!is_sound(steps_[i])) return false;
+    if (h_.feature_count != 0 && h_.feature_count != kFeatures) return false;
+    if (h_.gradient_count != 0 && h_.gradient_count != kGradients) return false;
+    find_pigment_depths();
+    for (std::uint32_t i = 0; i < h_.normal_count; ++i)
+      if (!normal_is_sound(i)) return false;
+    // Materials refer to later ones only.
+    for (std::uint32_t i = h_.material_count; i-- > 0;)
+      if (!material_is_sound(i)) return false;
+    if (!surfaces_are_told_of()) return false;
+    if (h_.sky == kNoOffset) return true;
+    const std::uint32_t sky = materials_.find(h_.sky);
+    return sky != materials_.count && (materials_[sky].flags & material_flag::mapped) == 0 &&
+           !material_asks_[sky];
+  }
+
+private:
+  template <class Record> struct Table {
+    const Record* records;
+    std::uint32_t offset, count;
+    Table(const std::byte* base, std::uint32_t at, std::uint32_t n)
+        : records(reinterpret_cast<const Record*>(base + at)), offset(at), count(n) {}
+    const Record& operator[](std::uint32_t i) const { return records[i]; }
+    /// The index of the record at an offset; `count` if there is none.
+    std::uint32_t find(std::uint32_t at) const {
+      return refers_to(at, offset, count, sizeof(Record)) ? (at - offset) / std::uint32_t{sizeof(Record)}
+                                                          : count;
+    }
+  };
+
+  static bool turbulence_is_sound(const TurbulenceWords& t) { return t.octaves <= 10; }
+
+  bool is_sound(const PatternRecord& r) const {
+    if ((r.kind_and_flags & pattern_flag::kind_mask) >= Patterns::kCount) return false;
+    if (!turbulence_is_sound(r.turbulence)) return false;
+    if (r.entry_count != 0) {
+      const std::uint32_t first = entries_.find(r.entries);
+      if (first == entries_.count || r.entry_count > entries_.count - first) return false;
+    }
+    for (std::uint32_t i = 0; i < r.step_count; ++i)
+      if (!refers_to(r.steps + i * std::uint32_t{sizeof(SpaceStepRecord)}, h_.space_step_offset,
+                     h_.space_step_count, sizeof(SpaceStepRecord)))
+        return false;
+    return table_is_sound(r);
+  }
+  /// A black hole may do without the table, but not read it anywhere else.
+  bool is_sound(const SpaceStepRecord& r) const {
+    const std::uint32_t kind = r.kind_and_flags & warp_flag::kind_mask;
+    if (kind >= kWarpKinds || !turbulence_is_sound(r.turbulence)) return false;
+    if ((r.kind_and_flags >> warp_flag::axis_shift & 3) == 3) return false;
+    const float(&amount)[3] = r.turbulence.amount;
+    const bool is_moved = !(amount[0] == 0 && amount[1] == 0 && amount[2] == 0);
+    return kind != static_cast<std::uint32_t>(WarpKind::black_hole) || !is_moved || features_are_at(r.table);
+  }
+  bool features_are_at(std::uint32_t offset) const {
+    return h_.feature_count == kFeatures && offset == h_.feature_offset;
+  }
+  /// The table that a pattern reads is there, and whole; hashes lead to no other place.
+  bool table_is_sound(const PatternRecord& r) const {
+    switch (pattern_table(r.kind_and_flags)) {
+    case PatternTable::none:
+      return (r.kind_and_flags & pattern_flag::kind_mask) != kPatternKind<FractalPattern> ||
+             (r.parameter[2] >= 1 && r.parameter[2] <= 65535);
+    case PatternTable::features:
+      return features_are_at(r.table);
+    case PatternTable::gradients:
+      return h_.gradient_count == kGradients && r.table == h_.gradient_offset &&
+             features_are_at(r.table - kFeatures * std::uint32_t{sizeof(FeatureRecord)});
+    case PatternTable::waves:
+      return r.parameter[0] >= 1 && r.parameter[0] <= static_cast<float>(h_.wave_count) &&
+             r.table == h_.wave_offset;
+    case PatternTable::slopes:
+      return refers_to(r.table, h_.slope_offset, h_.slope_count, sizeof(SlopeRecord));
+    case PatternTable::pigments:
+      return patterns_.find(r.table) != patterns_.count;
+    case PatternTable::objects:
+      return refers_to(r.table, h_.csg_offset, h_.csg_count, sizeof(CsgRecord));
+    }
+    return false;
+  }
+
+  /// How deep the maps of pigments nest, by pattern; 0: it has none, or they are not sound. Patterns refer to
+  /// earlier ones only.
+  void find_pigment_depths() {
+    pigment_depth_.assign(h_.pattern_count, 0);
+    pattern_asks_.assign(h_.pattern_count, false);
+    for (std::uint32_t i = 0; i < h_.pattern_count; ++i) {
+      pigment_depth_[i] = depth_of(i);
+      const PatternRecord& r = patterns_[i];
+      bool asks = pattern_asks(i);
+      for (std::uint32_t entry = 0; pigment_depth_[i] > 1 && entry < r.entry_count; ++entry)
+        if (const std::uint32_t child = child_of(r, entry); child != kNoOffset)
+          asks = asks || pattern_asks_[patterns_.find(child)];
+      pattern_asks_[i] = asks;
+    }
+  }
+  /// Whether it is asked at more than points.
+  static bool asks_by_itself(const PatternRecord& r) {
+    return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
+           Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
+  }
+  /// Of earlier patterns this has been found out.
+  bool pattern_asks(std::uint32_t pattern) const {
+    const PatternRecord& r = patterns_[pattern];
+    return asks_by_itself(r) || (is_pigment(r) && pattern_asks_[patterns_.find(r.table)]);
+  }
+  /// How deep the maps of the pigment nest that a pattern is; 0: it is none.
+  std::uint32_t depth_inside(std::uint32_t pattern) const {
+    const PatternRecord& r = patterns_[pattern];
+    return is_pigment(r) ? pigment_depth_[patterns_.find(r.table)] : 0;
+  }
+  /// Whether a pattern, if it is a pigment, is one that is known, and found by looking for its value.
+  bool inside_is_sound(std::uint32_t pattern) const {
+    const PatternRecord& r = patterns_[pattern];
+    if (!is_pigment(r)) return true;
+    return (r.kind_and_flags & pattern_flag::nested) != 0 && patterns_.find(r.table) < pattern &&
+           !is_relative(patterns_.find(r.table)) && depth_inside(pattern) != 0;
+  }
+  std::uint32_t depth_of(std::uint32_t pattern) const {
+    const PatternRecord& r = patterns_[pattern];
+    if (r.entry_count == 0 || !inside_is_sound(pattern)) return 0;
+    std::uint32_t deepest = depth_inside(pattern);
+    if (deepest == kDeepestMapWalk) return 0;
+    for (std::uint32_t i = 0; i < r.entry_count; ++i) {
+      const std::uint32_t child = child_of(r, i);
+      if (child == kNoOffset) continue;
+      if ((r.kind_and_flags & pattern_flag::nested) == 0) return 0;
+      const std::uint32_t nested = patterns_.find(child);
+      if (nested >= pattern || is_relative(nested) || pigment_depth_[nested] == 0 ||
+          pigment_depth_[nested] == kDeepestMapWalk)
+        return 0;
+      deepest = std::max(deepest, pigment_depth_[nested]);
+    }
+    return deepest + 1;
+  }
+  /// Then it is in no other map.
+  bool is_relative(std::uint32_t pattern) const {
+    return (patterns_[pattern].kind_and_flags & pattern_flag::relative) != 0;
+  }
+  std::uint32_t child_of(const PatternRecord& r, std::uint32_t entry) const {
+    return entries_[entries_.find(r.entries) + entry].child;
+  }
+
+  /// Normals refer to earlier ones only.
+  bool normal_is_sound(std::uint32_t normal) {
+    const NormalRecord& r = normals_[normal];
+    const std::uint32_t pattern = patterns_.find(r.pattern);
+    std::uint32_t depth = 0;
+    if (pattern == patterns_.count) return false;
+    if (!inside_is_sound(pattern) || is_relative(pattern)) return false;
+    bool asks = pattern_asks(pattern);
+    depth = depth_inside(pattern);
+    if (r.is_mapped != 0)
+      for (std::uint32_t i = 0; i < patterns_[pattern].entry_count; ++i) {
+        const std::uint32_t child = normals_.find(child_of(patterns_[pattern], i));
+        if (child >= normal) return false;
+        depth = std::max(depth, normal_depth_[child]);
+        asks = asks || normal_asks_[child];
+      }
+    normal_depth_.push_back(r.is_mapped != 0 ? depth + 1 : depth);
+    normal_asks_.push_back(asks);
+    return normal_depth_.back() <= kDeepestMapWalk &&
+           (r.is_mapped == 0 || patterns_[pattern].entry_count != 0);
+  }
+
+  bool material_is_sound(std::uint32_t material) {
+    const MaterialRecord& r = materials_[material];
+    const auto has = [&](std::uint32_t flag) { return (r.flags & flag) != 0; };
+    if (material_depth_.empty()) {
+      layers_ = material_depth_ = std::vector<std::uint32_t>(h_.material_count, 0);
+      material_asks_.assign(h_.material_count, false);
+    }
+    const bool mapped = has(material_flag::mapped);
+    bool asks = false;
+    if (mapped || has(material_flag::patterned)) {
+      const std::uint32_t pattern = patterns_.find(r.pattern);
+      if (pattern == patterns_.count) return false;
+      if (mapped ? !inside_is_sound(pattern) : pigment_depth_[pattern] == 0) return false;
+      asks = pattern_asks_[pattern];
+      if (mapped) material_depth_[material] = depth_inside(pattern) + 1;
+      for (std::uint32_t i = 0; mapped && i < patterns_[pattern].entry_count; ++i) {
+        const std::uint32_t child = materials_.find(child_of(patterns_[pattern], i));
+        if (child == materials_.count || child <= material || is_relative_map(materials_[child]))
+          return false;
+        material_depth_[material] = std::max(material_depth_[material], material_depth_[child] + 1);
+        asks = asks || material_asks_[child];
+      }
+      if (mapped && (patterns_[pattern].entry_count == 0 || material_depth_[material] > kDeepestMapWalk))
+        return false;
+    }
+    if (r.finish != kNoOffset &&
+        !refers_to(r.finish, h_.finish_offset, h_.finish_count, sizeof(FinishRecord)))
+      return false;
+    if (has(material_flag::disturbed)) {
+      const std::uint32_t normal = normals_.find(r.normal);
+      if (normal == normals_.count) return false;
+      asks = asks || normal_asks_[normal];
+    }
+    material_asks_[material] = asks;
+    if (!has(material_flag::layered)) return r.below == kNoOffset;
+    const std::uint32_t below = materials_.find(r.below);
+    if (below == materials_.count || below <= material || mapped ||
+        (materials_[below].flags & material_flag::mapped) != 0)
+      return false;
+    layers_[material] = layers_[below] + 1;
+    material_asks_[material] = asks || material_asks_[below];
+    return layers_[material] <= kMostLayers;
+  }
+
+  bool is_relative_map(const MaterialRecord& r) const {
+    return (r.flags & material_flag::mapped) != 0 && is_relative(patterns_.find(r.pattern));
+  }
+
+  /// Patterns are asked at more than points only where this is found out: on objects that say so, and in
+  /// shadows of those that let light through, of scenes that say so.
+  bool surfaces_are_told_of() const {
+    const auto* objects =
+        reinterpret_cast<const ObjectRecord*>(base_ + h_.object_offset) - h_.unbounded_count;
+    const auto asks = [&](std::uint32_t offset, bool two_sided) {
+      const std::uint32_t material = materials_.find(offset);
+      return material_asks_[material] ||
+             (two_sided && material_asks_[materials_.find(materials_[material].inside)]);
+    };
+    for (std::uint32_t i = 0; i < h_.object_count + h_.unbounded_count; ++i) {
+      const ObjectRecord& object = objects[i];
+      const auto has = [&](std::uint32_t flag) { return (object.kind_and_flags & flag) != 0; };
+      bool object_asks = false;
+      if (has(object_flag::blended)) {
+        const BlendRecord& blend = *reinterpret_cast<const BlendRecord*>(base_ + object.material);
+        object_asks = asks(blend.material[0], has(object_flag::two_sided)) ||
+                      asks(blend.material[1], false) || asks(blend.material[2], false);
+      } else {
+        object_asks = asks(object.material, has(object_flag::two_sided));
+      }
+      if (!object_asks) continue;
+      const std::uint32_t ways =
+          light_way::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_way::stepwise});
+      if (!has(object_flag::by_surface) || (h_.light_ways & ways) != ways) return false;
+    }
+    // Triangles of instances are not told of at all.
+    const auto is_plain = [&](std::uint32_t offset) {
+      const std::uint32_t material = materials_.find(offset);
+      return material == materials_.count || !material_asks_[material];
+    };
+    const auto* instances = reinterpret_cast<const InstanceRecord*>(base_ + h_.instance_offset);
+    const auto* triangles = reinterpret_cast<const ObjectRecord*>(base_ + h_.mesh_object_offset);
+    return std::all_of(instances, instances + h_.instance_count,
+                       [&](const InstanceRecord& instance) { return is_plain(instance.material); }) &&
+           std::all_of(triangles, triangles + h_.mesh_object_count,
+                       [&](const ObjectRecord& triangle) { return is_plain(triangle.material); });
+  }
+
+  const std::byte* base_;
+  const ImageHeader& h_;
+  Table<MaterialRecord> materials_;
+  Table<PatternRecord> patterns_;
+  Table<SpaceStepRecord> steps_;
+  Table<MapEntryRecord> entries_;
+  Table<NormalRecord> normals_;
+  std::vector<std::uint32_t> pigment_depth_, normal_depth_, material_depth_, layers_;
+  std::vector<bool> pattern_asks_, normal_asks_, material_asks_; ///< by record, if at more than points
+};
+
+} // namespace
+
+bool textures_are_valid(const std::byte* base, const ImageHeader& h) {
+  return TextureCheck(base, h).holds();
+}
+
+} // namespace celltrace

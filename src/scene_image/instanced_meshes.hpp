@@ -1,0 +1,82 @@
+// Meshes of which the scene image has one copy, whatever number of objects consists of them.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/records.hpp"
+#include "scene_image/mesh_prototype.hpp"
+#include "scene_image/object_records.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace celltrace {
+
+/// Where their records go.
+struct InstancedMeshTables {
+  RecordTables records;
+  kernel::InstanceRecord* instances;
+  kernel::ObjectRecord* objects;
+  std::uint32_t object_offset;
+  kernel::NodeRecord* nodes;
+  std::uint32_t node_offset;
+  std::uint32_t first_extra; ///< in the table of all
+};
+
+class InstancedMeshes {
+public:
+  /// An object that consists of such a mesh.
+  struct Instance {
+    const Object* object;
+    std::uint32_t mesh;
+    std::uint32_t first_number; ///< of its triangles
+    kernel::Aabb box;           ///< around it, in the world
+  };
+
+  /// Of the first `objects` objects of `scene`, which is valid and stays as it is as long as this lives.
+  /// None, unless copies of all of them would be so many triangles that rays had better take the way to each
+  /// mesh's space. `material_flags`: what objects have that consist of a material. Throws InputError if there
+  /// are too many triangles, or if coordinates leave what single precision can hold.
+  InstancedMeshes(const Scene& scene, std::size_t objects, const std::vector<std::uint32_t>& material_flags,
+                  unsigned threads);
+
+  /// Whether an object of the scene is among them.
+  bool contains(std::size_t object) const {
+    return object < instance_of_.size() && instance_of_[object] != kNoIndex;
+  }
+  /// The same, of one of the scene's; null: none.
+  const Instance* find(const Object& object) const {
+    const auto index = static_cast<std::size_t>(&object - objects_);
+    return contains(index) ? &instances_[instance_of_[index]] : nullptr;
+  }
+
+  std::uint32_t instance_count() const { return static_cast<std::uint32_t>(instances_.size()); }
+  std::uint32_t object_count() const { return object_count_; }
+  std::uint32_t extra_count() const { return extra_count_; }
+  std::uint32_t node_count() const { return node_count_; }
+
+  /// Their number and the box around an instance, for the record of its object.
+  kernel::ExtraRecord extra_of(const Instance& instance, std::uint32_t table_offset) const;
+  void write(const InstancedMeshTables& tables) const;
+
+private:
+  struct SharedMesh {
+    MeshPrototype prototype;
+    std::vector<kernel::NodeRecord> nodes;
+    std::uint32_t first_object, first_extra, first_node;
+  };
+
+  void add_mesh(MeshPrototype&& prototype);
+  void add_instance(const Object& object, std::uint32_t mesh);
+  void write(const SharedMesh& mesh, const InstancedMeshTables& tables) const;
+  kernel::InstanceRecord record_of(const Instance& instance, const InstancedMeshTables& tables) const;
+
+  const Object* objects_;
+  std::vector<SharedMesh> meshes_;
+  std::vector<Instance> instances_;
+  std::vector<Index> instance_of_; ///< by object of the scene; kNoIndex: none
+  std::uint32_t object_count_ = 0, extra_count_ = 0, node_count_ = 0;
+  std::uint32_t next_number_ = 1;
+};
+
+} // namespace celltrace

@@ -1,0 +1,112 @@
+// What all have in common that make the records of objects.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/accel/object_bounds.hpp"
+#include "kernel/records.hpp"
+#include "scene_image/interior_records.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace celltrace {
+
+/// What there is in a range of objects.
+struct ObjectCensus {
+  std::uint32_t objects = 0;             ///< that can be hit
+  std::uint32_t extras = 0, blended = 0; ///< of them, those with such records
+  kernel::Aabb around = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+
+  static constexpr float kFar = 3e38f;
+  void add(const ObjectCensus& other);
+};
+
+/// Whether a material with these flags looks the same from both sides and asks nothing of surfaces but
+/// points.
+inline bool is_of_points(std::uint32_t material_flags) {
+  using namespace kernel;
+  return (material_flags & (object_flag::two_sided | object_flag::by_surface)) == 0;
+}
+/// Whether it lets no light through either.
+inline bool is_plain(std::uint32_t material_flags) {
+  return (material_flags & kernel::object_flag::opaque) != 0 && is_of_points(material_flags);
+}
+
+inline std::uint32_t offset_of_interior(std::uint32_t table_offset, Index interior) {
+  return table_offset + interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
+}
+
+/// Where records go that objects refer to, and where the tables lie in the image.
+struct RecordTables {
+  const Scene& scene;
+  std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
+  std::uint32_t csg_offset, polygon_edge_offset, instance_offset;
+  kernel::ExtraRecord* extras;                      ///< table
+  kernel::BlendRecord* blends;                      ///< table
+  const std::vector<std::uint32_t>& material_flags; ///< object_flags by material
+
+  std::uint32_t offset_of_material(Index index) const {
+    return material_offset + index * static_cast<std::uint32_t>(sizeof(kernel::MaterialRecord));
+  }
+  /// For objects of the scene, and for parts of CSGs, whose interior is known.
+  std::uint32_t interior_of(const Object& object) const {
+    if (object.interior != kNoIndex) return offset_of_interior(interior_offset, object.interior);
+    const auto index = static_cast<std::size_t>(&object - scene.objects.data());
+    return offset_of_interior(interior_offset, own_interior(scene, index));
+  }
+  /// Not blended.
+  void set_material(kernel::ObjectRecord& record, Index material) const {
+    record.material = offset_of_material(material);
+    record.kind_and_flags |= material_flags[material];
+  }
+  /// Of a flat triangle of a mesh: its normal points to its inside, unless `object` is a mirror image.
+  static void change_sides(kernel::ObjectRecord& record, const Object& object) {
+    if ((record.kind_and_flags & kernel::object_flag::two_sided) != 0 && object.transform.determinant() > 0)
+      record.kind_and_flags ^= kernel::object_flag::inverse;
+  }
+  std::uint32_t offset_of_extra(std::uint32_t index) const {
+    return extra_offset + index * static_cast<std::uint32_t>(sizeof(kernel::ExtraRecord));
+  }
+};
+
+/// The number of the set of lights that shine on an object: 0 of all that are global, then those of groups.
+inline std::uint32_t light_set_of(const Object& object) {
+  return object.light_group == kNoIndex ? 0 : object.light_group + 1;
+}
+
+/// Whether the material for its inside is seen where its normals point. POV-Ray turns an inverse quadric
+/// round twice, its coefficients and its normals: that is as if it were not inverse, here alone.
+inline bool is_seen_inverse(const Object& object) {
+  return object.inverse && !std::holds_alternative<Quadric>(object.shape);
+}
+
+/// A record without a material, without extras and without geometry.
+inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
+                                         const RecordTables& tables) {
+  kernel::ObjectRecord r{};
+  r.kind_and_flags =
+      kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
+      (object.no_image ? kernel::object_flag::no_image : 0) |
+      (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
+      (is_seen_inverse(object) ? kernel::object_flag::inverse : 0) |
+      (object.is_lit_through ? kernel::object_flag::lit_behind | kernel::object_flag::lit_through : 0) |
+      light_set_of(object) << kernel::object_flag::light_set_shift;
+  r.interior = tables.interior_of(object);
+  r.extra = kernel::kNoOffset;
+  return r;
+}
+
+/// Makes the record one that no ray sees, at a point: it keeps its place in the image for the day that it is
+/// shown.
+void hide(kernel::ObjectRecord& record, const Vec3f& at);
+
+/// Coordinates whose squares single precision holds are less, in either direction.
+inline constexpr float kMostCoordinate = 1e18f;
+bool has_size(const kernel::Aabb& box);
+/// Throws InputError, naming the object by its index in the scene, unless its coordinates are all less.
+void check_size(const kernel::Aabb& box, std::size_t object);
+
+} // namespace celltrace

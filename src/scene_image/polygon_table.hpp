@@ -1,0 +1,29 @@
+// The edges of polygons, as points in a polygon's plane are tested against them.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/primitives/polygon.hpp"
+
+#include <unordered_map>
+#include <vector>
+
+namespace celltrace {
+
+/// The edges of polygons, in the frames of these; polygons that objects share have them once.
+class PolygonTable {
+public:
+  /// Those of an object, or of all parts of a CSG.
+  void add(const Object& object);
+
+  const std::vector<kernel::PolygonEdgeRecord>& edges() const { return edges_; }
+  /// Those of a polygon that has been added: `first` is an index.
+  kernel::PolygonEdges of(const Polygon& polygon) const { return known_.at(&polygon); }
+
+private:
+  void add(const Polygon& polygon);
+
+  std::vector<kernel::PolygonEdgeRecord> edges_;
+  std::unordered_map<const Polygon*, kernel::PolygonEdges> known_;
+};
+
+} // namespace celltrace

@@ -1,0 +1,471 @@
+#include "scene_image/shapes.hpp"
+
+#include "celltrace/error.hpp"
+#include "geometry/basis.hpp"
+#include "geometry/polygons.hpp"
+#include "geometry/shape_geometry.hpp"
+#include "kernel/accel/object_bounds.hpp"
+#include "scene_image/record_vectors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+void write_map(const Transform& map, float (&to)[12]) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      to[row * 4 + column] = static_cast<float>(map.rows[column][row]);
+}
+
+namespace {
+
+using namespace kernel;
+
+/// The factor by which a transformation scales everything, or 0 if it does not scale all directions alike.
+double uniform_scale(const Transform& t) {
+  const double x = glm::length(t.rows[0]);
+  const double y = glm::length(t.rows[1]);
+  const double z = glm::length(t.rows[2]);
+  const double tolerance = 1e-9 * x * x;
+  const bool round = std::abs(x - y) <= 1e-9 * x && std::abs(x - z) <= 1e-9 * x &&
+                     std::abs(glm::dot(t.rows[0], t.rows[1])) <= tolerance &&
+                     std::abs(glm::dot(t.rows[0], t.rows[2])) <= tolerance &&
+                     std::abs(glm::dot(t.rows[1], t.rows[2])) <= tolerance;
+  return round ? x : 0;
+}
+
+Vec3 unit(const Vec3& v) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : Vec3(0, 1, 0);
+}
+
+/// The shape of kind P whose own space is mapped to the object's by `from_own`.
+template <class P> PlacedShape in_own_space(const Object& object, const Transform& from_own) {
+  PlacedShape shape;
+  shape.kind_and_flags = kPrimitiveKind<P>;
+  shape.has_parameters = P::kHasParameters;
+  shape.is_bounded = P::kIsBounded;
+  write_map(from_own.then(object.transform).inverse(), shape.geometry);
+  return shape;
+}
+
+PlacedShape nothing() {
+  PlacedShape shape;
+  shape.is_empty = true;
+  return shape;
+}
+
+/// How long the first two axes of a box or a cylinder are in the world, compared with the third. What is
+/// about as thick as it is long needs no such parameters.
+void set_proportions(PlacedShape& shape, const Transform& to_world) {
+  constexpr double kThin = 100;
+  double axis[3];
+  for (int i = 0; i < 3; ++i)
+    axis[i] = glm::length(to_world.rows[i]);
+  if (*std::max_element(axis, axis + 3) <= kThin * *std::min_element(axis, axis + 3)) return;
+  shape.has_parameters = true;
+  for (int i = 0; i < 2; ++i)
+    shape.parameters[i] = static_cast<float>(axis[i] / axis[2] - 1);
+}
+
+/// An axis of its own space from `base` to `cap`; `radius` to the sides.
+Transform along_axis(const Vec3& base, const Vec3& cap, double radius) {
+  Transform t;
+  complete_basis(unit(cap - base), t.rows[0], t.rows[1]);
+  t.rows[0] *= radius;
+  t.rows[1] *= radius;
+  t.rows[2] = cap - base;
+  t.rows[3] = base;
+  return t;
+}
+
+// One of these for each shape. Spheres that a transformation leaves round stay spheres.
+
+PlacedShape place(const Object& object, const Sphere& sphere) {
+  const double radius = std::abs(sphere.radius);
+  if (radius == 0) return nothing();
+  const double scale = object.transform.is_identity() ? 1 : uniform_scale(object.transform);
+  if (scale > 0) {
+    PlacedShape shape;
+    shape.kind_and_flags = kPrimitiveKind<SpherePrimitive>;
+    copy(object.transform.point(sphere.centre), shape.geometry);
+    shape.geometry[3] = static_cast<float>(radius * scale);
+    const Vec3(&axes)[4] = object.transform.rows;
+    copy(axes[0] / scale, shape.geometry + 4);
+    copy(axes[1] / scale, shape.geometry + 7);
+    shape.geometry[10] = glm::dot(glm::cross(axes[0], axes[1]), axes[2]) > 0 ? 1.0f : -1.0f;
+    return shape;
+  }
+  PlacedShape shape = in_own_space<EllipsoidPrimitive>(object, Transform());
+  const Transform inverse = object.transform.inverse();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) {
+      const double value = inverse.rows[column][row] - (column == 3 ? sphere.centre[row] : 0);
+      shape.geometry[row * 4 + column] = static_cast<float>(value / radius);
+    }
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Plane& plane) {
+  Transform own;
+  own.rows[2] = unit(plane.normal);
+  complete_basis(own.rows[2], own.rows[0], own.rows[1]);
+  own.rows[3] = own.rows[2] * plane.distance;
+  PlacedShape shape = in_own_space<PlanePrimitive>(object, own);
+  // Distances from the plane in the world's units, whatever the transformation scales.
+  const Vec3 normal = object.transform.normal(unit(plane.normal));
+  const double length = glm::length(normal);
+  if (length > 0) {
+    const Vec3 n = normal / length;
+    const double d = glm::dot(n, object.transform.point(own.rows[3]));
+    copy(n, shape.geometry + 8);
+    shape.geometry[11] = static_cast<float>(-d);
+  }
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Disc& disc) {
+  // Nothing is seen as far away as this edge, and single precision has the square of it.
+  constexpr double kFarthestEdge = 1e12;
+  if (disc.radius == 0 || std::abs(disc.hole_radius) >= std::abs(disc.radius)) return nothing();
+  const double radius = std::min(std::abs(disc.radius), kFarthestEdge);
+  Transform own;
+  const Vec3 normal = unit(disc.normal);
+  complete_basis(normal, own.rows[0], own.rows[1]);
+  own.rows[0] *= radius;
+  own.rows[1] *= radius;
+  own.rows[2] = normal * radius;
+  own.rows[3] = disc.centre;
+  PlacedShape shape = in_own_space<DiscPrimitive>(object, own);
+  shape.parameters[0] = static_cast<float>(std::abs(disc.hole_radius) / radius);
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Box& box) {
+  if (box.corner[0] == box.corner[1]) return nothing();
+  Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
+  Vec3 scale;
+  for (int i = 0; i < 3; ++i) {
+    scale[i] = glm::length(object.transform.rows[i]);
+    // A side that no ray gets to would take the precision of the one across.
+    const double reach = 2 * double{kMaxHitDistance} / scale[i];
+    low[i] = glm::clamp(low[i], -reach, reach);
+    high[i] = glm::clamp(high[i], -reach, reach);
+  }
+  const Vec3 half = 0.5 * (high - low);
+  const double largest = std::max({half.x, half.y, half.z});
+  Transform own;
+  for (int i = 0; i < 3; ++i) {
+    // A flat box shows both of its sides.
+    const double least = half[i] == 0 ? std::min(1e-6 * largest, 1e-4 / scale[i]) : 1e-12 * largest;
+    own.rows[i][i] = std::max(half[i], least);
+  }
+  own.rows[3] = 0.5 * (low + high);
+  PlacedShape shape = in_own_space<BoxPrimitive>(object, own);
+  set_proportions(shape, own.then(object.transform));
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Cylinder& cylinder) {
+  if (cylinder.radius == 0 || cylinder.base == cylinder.cap) return nothing();
+  const Transform own = along_axis(cylinder.base, cylinder.cap, std::abs(cylinder.radius));
+  PlacedShape shape = in_own_space<CylinderPrimitive>(object, own);
+  if (cylinder.open) shape.kind_and_flags |= object_flag::open;
+  set_proportions(shape, own.then(object.transform));
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Cone& cone) {
+  double small = std::abs(cone.base_radius), large = std::abs(cone.cap_radius);
+  Vec3 from = cone.base, to = cone.cap;
+  if (small > large) {
+    std::swap(small, large);
+    std::swap(from, to);
+  }
+  if (small == large) return place(object, Cylinder{cone.base, cone.cap, large, cone.open});
+  if (from == to) return nothing();
+  PlacedShape shape = in_own_space<ConePrimitive>(object, along_axis(from, to, large));
+  shape.parameters[0] = static_cast<float>(small / large);
+  shape.parameters[1] = static_cast<float>((large - small) / large);
+  if (cone.open) shape.kind_and_flags |= object_flag::open;
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Torus& torus) {
+  const double major = std::abs(torus.major_radius), minor = std::abs(torus.minor_radius);
+  if (minor == 0) return nothing();
+  if (major == 0) return place(object, Sphere{Vec3(0), minor});
+  Transform own;
+  own.rows[0] = Vec3(0, 0, major);
+  own.rows[1] = Vec3(major, 0, 0);
+  own.rows[2] = Vec3(0, major, 0);
+  PlacedShape shape = in_own_space<TorusPrimitive>(object, own);
+  shape.parameters[0] = static_cast<float>(minor / major);
+  return shape;
+}
+
+/// Turns a symmetric matrix until it is diagonal, by Jacobi's rotations: what is left on its diagonal are the
+/// factors of squares along the axes.
+void diagonalise(double (&m)[3][3], Vec3 (&axes)[3]) {
+  for (int i = 0; i < 3; ++i)
+    axes[i] = Vec3(i == 0, i == 1, i == 2);
+  for (int turn = 0; turn < 48; ++turn) {
+    const int p = turn % 3 == 2 ? 1 : 0, q = turn % 3 == 0 ? 1 : 2;
+    if (m[p][q] == 0) continue;
+    const double angle = 0.5 * std::atan2(2 * m[p][q], m[q][q] - m[p][p]);
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (int i = 0; i < 3; ++i) {
+      const double a = m[i][p], b = m[i][q];
+      m[i][p] = c * a - s * b;
+      m[i][q] = s * a + c * b;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const double a = m[p][i], b = m[q][i];
+      m[p][i] = c * a - s * b;
+      m[q][i] = s * a + c * b;
+    }
+    const Vec3 first = axes[p];
+    axes[p] = c * first - s * axes[q];
+    axes[q] = s * first + c * axes[q];
+  }
+}
+
+struct CurvedAxis {
+  Vec3 direction;
+  double square; ///< the factor of the square of what is along it
+};
+
+/// An ellipsoid whose surface goes through (0, 0, 0), from which it is measured: there no digits are lost
+/// however large it is. In its own space it is a sphere of diameter 1 below the origin.
+PlacedShape place_about_surface(const Object& object, const std::vector<CurvedAxis>& axes,
+                                const Vec3& linear) {
+  // Where all squares are alike, z is the way out.
+  Vec3 out(0), across[2];
+  for (int i = 0; i < 3; ++i)
+    out[i] = glm::dot(linear, axes[i].direction) / std::sqrt(axes[i].square);
+  const double diameter = glm::length(out);
+  out /= diameter;
+  complete_basis(out, across[0], across[1]);
+  const Vec3 rows[3] = {across[0], across[1], out};
+  Transform own;
+  for (int row = 0; row < 3; ++row) {
+    own.rows[row] = Vec3(0);
+    for (int i = 0; i < 3; ++i)
+      own.rows[row] += axes[i].direction * (rows[row][i] * diameter / std::sqrt(axes[i].square));
+  }
+  PlacedShape shape = in_own_space<QuadricPrimitive>(object, own);
+  shape.parameters[0] = QuadricPrimitive::code(1, 1, 1, 1, 0);
+  return shape;
+}
+
+/// In its own space a quadric has its axes along the coordinates', and its factors are 1, 0 or -1.
+PlacedShape place(const Object& object, const Quadric& quadric) {
+  double m[3][3] = {{quadric.square.x, quadric.mixed.x / 2, quadric.mixed.y / 2},
+                    {quadric.mixed.x / 2, quadric.square.y, quadric.mixed.z / 2},
+                    {quadric.mixed.y / 2, quadric.mixed.z / 2, quadric.square.z}};
+  Vec3 axes[3];
+  diagonalise(m, axes);
+  const double largest = std::max({std::abs(m[0][0]), std::abs(m[1][1]), std::abs(m[2][2])});
+  // Curved axes come first. Each has its middle where the linear term along it ends.
+  std::vector<CurvedAxis> curved, straight;
+  for (int i = 0; i < 3; ++i)
+    (std::abs(m[i][i]) > 1e-9 * largest ? curved : straight).push_back({axes[i], m[i][i]});
+  const bool is_ellipsoid =
+      std::all_of(curved.begin(), curved.end(), [](const CurvedAxis& axis) { return axis.square > 0; });
+  if (curved.size() == 3 && is_ellipsoid && quadric.constant == 0 && quadric.linear != Vec3(0))
+    return place_about_surface(object, curved, quadric.linear);
+  Vec3 middle(0), linear = quadric.linear;
+  double constant = quadric.constant;
+  for (const CurvedAxis& axis : curved) {
+    const double along = glm::dot(quadric.linear, axis.direction);
+    middle -= axis.direction * (along / (2 * axis.square));
+    constant -= along * along / (4 * axis.square);
+    linear -= axis.direction * along;
+  }
+  const double slope = straight.empty() ? 0 : glm::length(linear);
+  const bool has_slope = slope > 1e-9 * std::max(largest, glm::length(quadric.linear));
+  if (has_slope) {
+    const Vec3 up = linear / slope;
+    if (straight.size() == 3) complete_basis(up, straight[0].direction, straight[1].direction);
+    if (straight.size() == 2) straight[0].direction = glm::cross(curved[0].direction, up);
+    straight.back().direction = up;
+    middle -= up * (constant / slope);
+    constant = 0;
+  } else if (curved.empty() || std::abs(constant) <= 1e-12 * largest) {
+    if (curved.empty()) return nothing();
+    constant = 0;
+  }
+  const double unit = has_slope ? slope : constant != 0 ? std::abs(constant) : largest;
+  Transform own;
+  int factors[3] = {0, 0, 0};
+  int next = 0;
+  for (const CurvedAxis& axis : curved) {
+    own.rows[next] = axis.direction * std::sqrt(unit / std::abs(axis.square));
+    factors[next++] = axis.square > 0 ? 1 : -1;
+  }
+  for (const CurvedAxis& axis : straight)
+    own.rows[next++] = axis.direction;
+  own.rows[3] = middle;
+  const int sign = constant > 0 ? 1 : constant < 0 ? -1 : 0;
+  if (factors[0] + factors[1] + factors[2] == 3 && sign < 0) {
+    PlacedShape ellipsoid = in_own_space<EllipsoidPrimitive>(object, own);
+    ellipsoid.kind_and_flags |= object_flag::flat_map;
+    return ellipsoid;
+  }
+  PlacedShape shape = in_own_space<QuadricPrimitive>(object, own);
+  shape.parameters[0] = QuadricPrimitive::code(factors[0], factors[1], factors[2], has_slope, sign);
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Superellipsoid& s) {
+  PlacedShape shape = in_own_space<SuperellipsoidPrimitive>(object, Transform());
+  const auto [across, along] = geometry::powers_of(s);
+  shape.parameters[0] = static_cast<float>(across);
+  shape.parameters[1] = static_cast<float>(along);
+  return shape;
+}
+
+PlacedShape place(const Object& object, const std::shared_ptr<const Polygon>& polygon) {
+  const std::optional<Transform> frame = frame_of(*polygon);
+  return frame ? in_own_space<PolygonPrimitive>(object, *frame) : nothing();
+}
+
+PlacedShape place(const Object&, const std::shared_ptr<const Mesh>&) {
+  return nothing();
+}
+PlacedShape place(const Object&, const std::shared_ptr<const Csg>&) {
+  return nothing();
+}
+
+// The numbers of each.
+
+std::vector<double> numbers(std::initializer_list<Vec3> vectors, std::initializer_list<double> scalars) {
+  std::vector<double> all(scalars);
+  for (const Vec3& v : vectors)
+    all.insert(all.end(), {v.x, v.y, v.z});
+  return all;
+}
+std::vector<double> numbers_of(const Sphere& s) {
+  return numbers({s.centre}, {s.radius});
+}
+std::vector<double> numbers_of(const Plane& p) {
+  return numbers({p.normal}, {p.distance});
+}
+std::vector<double> numbers_of(const Disc& d) {
+  return numbers({d.centre, d.normal}, {d.radius, d.hole_radius});
+}
+std::vector<double> numbers_of(const Box& b) {
+  return numbers({b.corner[0], b.corner[1]}, {});
+}
+std::vector<double> numbers_of(const Cylinder& c) {
+  return numbers({c.base, c.cap}, {c.radius});
+}
+std::vector<double> numbers_of(const Cone& c) {
+  return numbers({c.base, c.cap}, {c.base_radius, c.cap_radius});
+}
+std::vector<double> numbers_of(const Torus& t) {
+  return numbers({}, {t.major_radius, t.minor_radius});
+}
+std::vector<double> numbers_of(const Quadric& q) {
+  return numbers({q.square, q.mixed, q.linear}, {q.constant});
+}
+std::vector<double> numbers_of(const Superellipsoid& s) {
+  return numbers({}, {s.east_west, s.north_south});
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Polygon>& polygon) {
+  std::vector<double> all;
+  for (const std::vector<Vec3>& loop : polygon->loops)
+    for (const Vec3& point : loop)
+      all.insert(all.end(), {point.x, point.y, point.z});
+  return all;
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Mesh>&) {
+  return {};
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Csg>&) {
+  return {};
+}
+
+} // namespace
+
+kernel::Aabb PlacedShape::bounds() const {
+  ObjectRecord record{};
+  record.kind_and_flags = kind_and_flags;
+  std::copy(geometry, geometry + 12, record.geometry);
+  ExtraRecord extra{};
+  std::copy(parameters, parameters + 2, extra.value);
+  return bounding_box(record, extra);
+}
+
+PlacedShape place_shape(const Object& object) {
+  return std::visit([&](const auto& shape) { return place(object, shape); }, object.shape);
+}
+
+PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
+  const std::uint32_t kind = shape.kind_and_flags & object_flag::kind_mask;
+  const bool is_round = kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive>;
+  const bool has_boundary =
+      is_round || kind == kPrimitiveKind<PlanePrimitive> || kind == kPrimitiveKind<BoxPrimitive>;
+  if (shape.is_empty || !has_boundary) return shape;
+  // A point is as precise as its coordinates and those of its ray's origin are large. What is farther away
+  // than this is seen too small for its boundary to matter.
+  const double far_away = 100 + 4 * glm::length(eye.location());
+  Vec3 reach = glm::abs(eye.location());
+  if (shape.is_bounded) {
+    const kernel::Aabb box = shape.bounds();
+    for (int i = 0; i < 3; ++i)
+      reach[i] += std::min<double>(std::max(std::abs(box.min[i]), std::abs(box.max[i])), far_away);
+  }
+  PlacedShape solid = shape;
+  float* const map = solid.geometry;
+  const auto error = [&](int row) { // in units of the shape's own space
+    constexpr double kRounding = 4e-7;
+    double sum = std::abs(map[row * 4 + 3]);
+    for (int i = 0; i < 3; ++i)
+      sum += std::abs(map[row * 4 + i]) * reach[i];
+    return sum * kRounding;
+  };
+  const auto scale = [&](int row, double factor) {
+    for (int i = 0; i < 4; ++i)
+      map[row * 4 + i] = static_cast<float>(map[row * 4 + i] * factor);
+  };
+  const double errors[3] = {error(0), error(1), error(2)};
+  const double across = std::max(errors[0], errors[1]), along = std::min(errors[2], 0.25);
+  if (kind == kPrimitiveKind<PlanePrimitive>) {
+    map[11] = static_cast<float>(map[11] - errors[2]);
+  } else if (kind == kPrimitiveKind<BoxPrimitive>) {
+    for (int row = 0; row < 3; ++row)
+      scale(row, 1 / (1 + errors[row]));
+  } else if (is_round) {
+    // To another height of a cone belongs another radius. Open ones have their boundary inside.
+    const double sign = (shape.kind_and_flags & object_flag::open) != 0 ? -1 : 1;
+    const double narrower =
+        sign * std::min(across + (kind == kPrimitiveKind<ConePrimitive> ? 2 * along : 0), 0.5);
+    scale(0, 1 + narrower);
+    scale(1, 1 + narrower);
+    map[11] = static_cast<float>(map[11] - sign * along);
+    scale(2, 1 / (1 - sign * 2 * along));
+  }
+  return solid;
+}
+
+bool has_bounds(const Object& object) {
+  // Most shapes always have: they are not placed to find out.
+  if (std::holds_alternative<Plane>(object.shape)) return false;
+  return !std::holds_alternative<Quadric>(object.shape) || place_shape(object).is_bounded;
+}
+
+void validate_shape(const Object& object, const std::string& name) {
+  const std::vector<double> all =
+      std::visit([](const auto& shape) { return numbers_of(shape); }, object.shape);
+  if (!std::all_of(all.begin(), all.end(), [](double x) { return std::isfinite(x); }))
+    throw InputError(name + " has a number that is not finite");
+}
+
+} // namespace celltrace

@@ -1,0 +1,668 @@
+#include "scene_image/textures.hpp"
+
+#include "celltrace/error.hpp"
+#include "geometry/pattern_tables.hpp"
+#include "kernel/textures/list.hpp"
+#include "scene_image/list_waves.hpp"
+#include "scene_image/record_vectors.hpp"
+#include "scene_image/surface_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+void set(const Transform& to_space, float (&m)[12]) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      m[row * 4 + column] = static_cast<float>(to_space.rows[column][row]);
+}
+
+bool is_still(const Turbulence& t) {
+  return t.amount == Vec3(0);
+}
+
+void fill(SpaceStepRecord& r, const Turbulence& t) {
+  r.kind_and_flags = static_cast<std::uint32_t>(WarpKind::turbulence);
+  r.turbulence = words_of(t);
+}
+void fill(SpaceStepRecord& r, const warp::Repeat& w) {
+  r.kind_and_flags = static_cast<std::uint32_t>(WarpKind::repeat) | static_cast<std::uint32_t>(w.axis)
+                                                                        << warp_flag::axis_shift;
+  r.value[0] = static_cast<float>(w.width);
+  for (int i = 0; i < 3; ++i)
+    r.value[1 + i] = w.flip[i] != 0 ? -1.0f : 1.0f;
+  copy(w.offset, r.value + 4);
+}
+void fill(SpaceStepRecord& r, const warp::BlackHole& w) {
+  r.kind_and_flags =
+      static_cast<std::uint32_t>(WarpKind::black_hole) | (w.is_inverse ? warp_flag::inverse : 0);
+  copy(w.centre, r.value);
+  r.value[3] = static_cast<float>(w.radius);
+  r.value[4] = static_cast<float>(w.strength);
+  r.value[5] = static_cast<float>(w.falloff);
+  copy(w.repeat, r.value + 6);
+  copy(w.turbulence, r.turbulence.amount);
+}
+void fill(SpaceStepRecord& r, const warp::Mapping& w) {
+  using Shape = warp::Mapping::Shape;
+  const WarpKind kind = w.shape == Shape::planar        ? WarpKind::planar
+                        : w.shape == Shape::cylindrical ? WarpKind::cylindrical
+                        : w.shape == Shape::spherical   ? WarpKind::spherical
+                                                        : WarpKind::toroidal;
+  r.kind_and_flags = static_cast<std::uint32_t>(kind);
+  copy(glm::normalize(w.orientation), r.value);
+  r.value[3] = static_cast<float>(w.shape == Shape::planar ? w.distance : w.distance_exponent);
+  r.value[4] = static_cast<float>(w.major_radius);
+}
+void fill(SpaceStepRecord&, const Transform&) {
+} // is what its record's neighbours have
+
+SpaceStepRecord record_of(const SpaceStep& step) {
+  SpaceStepRecord r{};
+  std::visit([&](const auto& one) { fill(r, one); }, step);
+  return r;
+}
+
+bool reads_features(const SpaceStepRecord& r) {
+  const float(&amount)[3] = r.turbulence.amount;
+  return (r.kind_and_flags & warp_flag::kind_mask) == static_cast<std::uint32_t>(WarpKind::black_hole) &&
+         (amount[0] != 0 || amount[1] != 0 || amount[2] != 0);
+}
+
+/// Of all textures together, in each of the tables: what several maps share is written once for each space
+/// that it is in.
+constexpr std::size_t kMostRecords = std::size_t{1} << 22;
+
+template <class Record>
+void make_room(const std::vector<Record>& table, std::size_t count, const char* what) {
+  if (table.size() + count > kMostRecords)
+    throw InputError("all textures together have more than " + std::to_string(kMostRecords) + ' ' + what);
+}
+
+/// Whether the turbulence of such a pattern moves the points that it is asked at.
+bool is_moved_by_turbulence(const pattern::Kind& kind) {
+  return !std::holds_alternative<pattern::Marble>(kind) && !std::holds_alternative<pattern::Wood>(kind);
+}
+
+/// From a pattern's space to the scene, without displacements, as normals go through it.
+Transform whole_map(const PatternSpace& space) {
+  Transform map;
+  for (const SpaceStep& step : space.steps)
+    if (const auto* transform = std::get_if<Transform>(&step)) map = map.then(*transform);
+  return map.then(space.of_normals);
+}
+
+/// From the pattern's own space to the scene or the surface, for a pattern inside maps whose patterns are in
+/// `outer`.
+PatternSpace space_of(const Pattern& pattern, const PatternSpace& outer) {
+  if (pattern.uv_mapping) return {pattern.space, true, pattern.normal_space.then(whole_map(outer))};
+  PatternSpace all = outer;
+  all.steps.insert(all.steps.begin(), pattern.space.begin(), pattern.space.end());
+  return all;
+}
+
+/// What the patterns inside a map are in, whose pattern is in `outer` itself.
+PatternSpace space_inside(const Pattern& pattern, const PatternSpace& outer) {
+  PatternSpace inside = space_of(pattern, outer);
+  if (is_moved_by_turbulence(pattern.kind) && !is_still(pattern.turbulence))
+    inside.steps.insert(inside.steps.begin(), pattern.turbulence);
+  return inside;
+}
+
+std::size_t hash_of(const Vec3& vector) {
+  const std::hash<double> hash;
+  return (hash(vector.x) * 31 + hash(vector.y)) * 31 + hash(vector.z);
+}
+
+template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table) {
+  if (index != kNoOffset) index = table + index * static_cast<std::uint32_t>(sizeof(Record));
+}
+
+/// Of an interval of a map; 0 if it has none.
+float inverse_width(double from, double to) {
+  const float inverse = to > from ? static_cast<float>(1 / (to - from)) : 0;
+  return std::isfinite(inverse) ? inverse : 0;
+}
+
+/// Of the nodes that several materials push, so many of which count.
+std::uint32_t sum_of_greatest(std::vector<std::uint32_t> nodes, std::size_t count) {
+  std::sort(nodes.begin(), nodes.end(), std::greater<>());
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < std::min(count, nodes.size()); ++i)
+    sum = std::min(sum + nodes[i], kMostSurfaceNodes);
+  return sum;
+}
+/// What its rays take of a stack; those of light that is bent are followed by a node that gathers it.
+std::uint32_t nodes_of_mirror(const MaterialRecord& r) {
+  if ((r.flags & material_flag::reflects) == 0) return 0;
+  return (r.flags & material_flag::bends_reflection) != 0 ? 2 : 1;
+}
+
+/// Whether points do not tell a pattern's values.
+bool asks_for_surface(const PatternRecord& r) {
+  return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
+         Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
+}
+
+} // namespace
+
+TurbulenceWords words_of(const Turbulence& t) {
+  return {{static_cast<float>(t.amount.x), static_cast<float>(t.amount.y), static_cast<float>(t.amount.z)},
+          static_cast<float>(t.lambda),
+          static_cast<float>(t.omega),
+          static_cast<std::uint32_t>(t.octaves)};
+}
+
+Material sky_of(const Scene& scene) {
+  Material top;
+  for (const Pigment& pigment : scene.sky_sphere) {
+    const bool is_lowest = &pigment == &scene.sky_sphere.front();
+    top = Material{pigment, {}, nullptr, is_lowest ? nullptr : std::make_shared<const Material>(top)};
+  }
+  return top;
+}
+
+void TextureTables::Traits::add(const Traits& other) {
+  opaque = opaque && other.opaque;
+  spawns = spawns || other.spawns;
+  textured = textured || other.textured;
+  disturbed = disturbed || other.disturbed;
+  lit_behind = lit_behind || other.lit_behind;
+  by_surface = by_surface || other.by_surface;
+  nodes = std::max(nodes, other.nodes);
+}
+
+TextureTables::TextureTables(const Scene& scene) : scene_(scene), sharing_(scene.materials) {
+  materials.resize(scene.materials.size());
+  object_flags.reserve(scene.materials.size());
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {}, Place::root);
+    object_flags.push_back(
+        (traits.opaque ? object_flag::opaque : 0) | (traits.spawns ? object_flag::spawns : 0) |
+        (traits.textured ? object_flag::textured : 0) | (traits.disturbed ? object_flag::disturbed : 0) |
+        (traits.two_sided ? object_flag::two_sided : 0) | (traits.lit_behind ? object_flag::lit_behind : 0) |
+        (traits.by_surface ? object_flag::by_surface : 0));
+    by_surface = by_surface || traits.by_surface;
+    filters = filters || !traits.opaque;
+    filters_by_surface = filters_by_surface || (traits.by_surface && !traits.opaque);
+    if (scene.materials[i].map || scene.materials[i].inside)
+      mapped_nodes_.push_back(traits.nodes);
+    else
+      unmapped_nodes_ = std::max(unmapped_nodes_, traits.nodes);
+  }
+  sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}, Place::root).index;
+  for (const Rainbow& rainbow : scene.rainbows)
+    if (is_visible(rainbow)) add_rainbow(rainbow);
+}
+
+std::uint32_t TextureTables::most_nodes(bool has_blends) const {
+  // The rays of a node may hit as many maps as a packet has lanes, besides surfaces without and with layers.
+  const std::uint32_t of_material = 2 * unmapped_nodes_ + sum_of_greatest(mapped_nodes_, kSimdLanes);
+  return std::min(kMostSurfaceNodes, has_blends ? 3 * of_material : of_material);
+}
+
+TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
+                                                   const PatternSpace& outer, Place place) {
+  MaterialRecord r{};
+  r.pattern = r.normal = r.below = r.finish = r.inside = kNoOffset;
+  Traits traits;
+  std::uint32_t inside = kNoOffset;
+  Traits inside_traits;
+  if (material.inside) {
+    const Known known = add_material(*material.inside, outer, Place::root);
+    inside = known.index;
+    inside_traits = known.traits;
+  }
+  if (material.map) {
+    const Known map = add_map(material.map, outer, place);
+    r.flags = material_flag::mapped;
+    r.pattern = map.index;
+    traits = map.traits;
+    traits.spawns = traits.textured = true;
+  } else {
+    r = make_record(material, scene_);
+    traits.lit_behind = material.finish.diffuse_behind != 0;
+    if (has_record(material.finish)) {
+      r.finish = static_cast<std::uint32_t>(finishes.size());
+      finishes.push_back(make_record(material.finish, scene_));
+    }
+    if (material.pigment.map) {
+      const Known map = add_map(material.pigment.map, outer, Place::root);
+      r.flags |= material_flag::patterned;
+      r.pattern = map.index;
+      traits.add(map.traits);
+      traits.textured = true;
+    } else {
+      traits.opaque = is_opaque(material.pigment);
+    }
+    traits.spawns = !traits.opaque || (r.flags & material_flag::reflects) != 0;
+    const std::uint32_t mirrors = nodes_of_mirror(r);
+    traits.nodes = mirrors + (traits.opaque ? 0 : 1);
+    if (material.normal) {
+      r.flags |= material_flag::disturbed;
+      const Known normal = add_normal(*material.normal, outer);
+      r.normal = normal.index;
+      traits.disturbed = traits.textured = true;
+      traits.by_surface = traits.by_surface || normal.traits.by_surface;
+    }
+    if (material.below) {
+      const Known below = add_material(*material.below, outer, Place::inside);
+      r.flags |= material_flag::layered;
+      r.below = below.index;
+      // What comes through a layer stays inside, but a Fresnel mirror asks what rays are inside of.
+      traits.opaque = traits.opaque || below.traits.opaque;
+      constexpr std::uint32_t kAsksRays = material_flag::reflects | material_flag::fresnel;
+      traits.spawns = (r.flags & kAsksRays) != 0 || below.traits.spawns;
+      traits.nodes = mirrors + below.traits.nodes;
+      traits.disturbed = traits.disturbed || below.traits.disturbed;
+      traits.lit_behind = traits.lit_behind || below.traits.lit_behind;
+      traits.by_surface = traits.by_surface || below.traits.by_surface;
+      traits.textured = true;
+    }
+  }
+  if (material.inside) {
+    r.inside = inside;
+    traits.add(inside_traits);
+    traits.two_sided = true;
+    has_clear_side = has_clear_side || !traits.opaque;
+  }
+  materials[index] = r;
+  return traits;
+}
+
+TextureTables::Known TextureTables::add_material(const Material& material, const PatternSpace& outer,
+                                                 Place place) {
+  const auto index = static_cast<std::uint32_t>(materials.size());
+  make_room(materials, 1, "layers");
+  materials.emplace_back();
+  const Traits traits = fill_material(index, material, outer, place);
+  return {index, traits};
+}
+
+/// Adds a material of a relative map, or finds an equal one.
+TextureTables::Known TextureTables::add_shared_material(const Material& material) {
+  const auto words = {hash_of(material.pigment.rgb), hash_of(material.finish.ambient),
+                      std::hash<const void*>()(material.map.get()),
+                      std::hash<const void*>()(material.below.get())};
+  std::size_t hash = 0;
+  for (const std::size_t word : words)
+    hash = hash * 31 + word;
+  const auto [first, last] = known_materials_.equal_range(hash);
+  const auto known =
+      std::find_if(first, last, [&](const auto& one) { return *one.second.first == material; });
+  if (known != last) return known->second.second;
+  const Known added = add_material(material, {}, Place::inside);
+  known_materials_.emplace(hash, std::pair(&material, added));
+  return added;
+}
+
+/// Where equal entries are, which may be these; then these are taken back if they are the last ones.
+std::uint32_t TextureTables::share_entries(const EntryBlock& block) {
+  const auto bytes_of = [this](const EntryBlock& one) {
+    return std::string_view(reinterpret_cast<const char*>(entries.data() + one.first),
+                            one.count * sizeof(MapEntryRecord));
+  };
+  if (block.first + block.count != entries.size()) return block.first;
+  const std::size_t hash = std::hash<std::string_view>()(bytes_of(block));
+  const auto [first, last] = blocks_.equal_range(hash);
+  const auto known = std::find_if(first, last, [&](const auto& one) {
+    return children_[one.second.first] == children_[block.first] && bytes_of(one.second) == bytes_of(block);
+  });
+  if (known == last) {
+    blocks_.emplace(hash, block);
+    return block.first;
+  }
+  entries.resize(block.first);
+  children_.resize(block.first);
+  return known->second.first;
+}
+
+TextureTables::Traits TextureTables::fill(MapEntryRecord& entry, const Pigment& pigment) {
+  for (int i = 0; i < 3; ++i)
+    entry.rgb[i] = static_cast<float>(pigment.rgb[i]);
+  entry.filter = static_cast<float>(pigment.filter);
+  entry.transmit = static_cast<float>(pigment.transmit);
+  Traits traits;
+  traits.opaque = is_opaque(pigment);
+  return traits;
+}
+
+template <class T>
+TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternMap<T>>& map,
+                                            const PatternSpace& outer, Place place) {
+  const bool is_shared = outer.is_scene() || (std::is_same_v<T, Pigment> && map->pattern.uv_mapping);
+  const std::pair<const void*, Place> key(map.get(), sharing_.is_needed() ? place : Place::inside);
+  if (is_shared)
+    if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  if (!map->is_average && blends_list(map->pattern)) {
+    const auto list = without_wave(*map);
+    made_.push_back(list);
+    const Known known = add_map(list, outer, place);
+    if (is_shared) known_[key] = known;
+    return known;
+  }
+  const bool is_relative = sharing_.is_needed() && place == Place::root && sharing_.may_be_relative(*map);
+  const PatternSpace composed = space_inside(map->pattern, outer);
+  const PatternSpace inside = is_relative ? PatternSpace() : composed;
+  const std::size_t count = map->entries.size();
+  make_room(entries, count, "entries of maps");
+  const auto first = static_cast<std::uint32_t>(entries.size());
+  entries.resize(entries.size() + count);
+  children_.resize(entries.size());
+  bool is_nested = false;
+  double weights = 0;
+  for (const auto& entry : map->entries)
+    weights += entry.position;
+  Traits traits;
+  std::vector<std::uint32_t> nodes; // by entry
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& from = map->entries[i];
+    MapEntryRecord entry{};
+    entry.position = static_cast<float>(map->is_average ? from.position / weights : from.position);
+    entry.inverse_width = i == 0 ? 0 : inverse_width(map->entries[i - 1].position, from.position);
+    entry.child = kNoOffset;
+    if constexpr (!std::is_same_v<T, Normal>) {
+      // Between two entries that are the same the lower one counts alone: it is not looked at twice.
+      if (i != 0 && from.value == map->entries[i - 1].value) {
+        const float position = entry.position;
+        entry = entries[first + i - 1];
+        entry.position = position;
+        entry.inverse_width = 0;
+        children_[first + i] = children_[first + i - 1];
+        entries[first + i] = entry;
+        if (!nodes.empty()) nodes.push_back(nodes.back());
+        continue;
+      }
+    }
+    if constexpr (std::is_same_v<T, Pigment>) {
+      children_[first + i] = Child::pattern;
+      Traits own = fill(entry, from.value);
+      if (from.value.map) {
+        const Known nested = add_map(from.value.map, inside, Place::inside);
+        entry.child = nested.index;
+        is_nested = true;
+        own = nested.traits;
+      }
+      traits.add(own);
+    } else if constexpr (std::is_same_v<T, Normal>) {
+      children_[first + i] = Child::normal;
+      const Known normal = add_normal(from.value, inside);
+      entry.child = normal.index;
+      traits.add(normal.traits);
+    } else {
+      children_[first + i] = Child::material;
+      const Known material =
+          is_relative ? add_shared_material(from.value) : add_material(from.value, inside, Place::inside);
+      entry.child = material.index;
+      traits.add(material.traits);
+      nodes.push_back(material.traits.nodes);
+    }
+    entries[first + i] = entry;
+  }
+  const auto [pattern, of_pattern] = add_pattern(map->pattern, outer, composed, map->is_average, count);
+  patterns[pattern].entries = sharing_.is_needed() ? share_entries({first, count}) : first;
+  if (is_relative) patterns[pattern].kind_and_flags |= pattern_flag::relative;
+  if (is_nested) patterns[pattern].kind_and_flags |= pattern_flag::nested;
+  traits.by_surface = traits.by_surface || of_pattern.by_surface;
+  // Where they are not averaged, two count in each lane.
+  traits.nodes = sum_of_greatest(nodes, map->is_average ? count : 2 * kSimdLanes);
+  if (is_shared) known_[key] = {pattern, traits};
+  return {pattern, traits};
+}
+
+TextureTables::Known TextureTables::add_normal(const Normal& normal, const PatternSpace& outer) {
+  NormalRecord r{};
+  Traits traits;
+  if (normal.map) {
+    const Known map = add_map(normal.map, outer, Place::inside);
+    r.is_mapped = 1;
+    r.pattern = map.index;
+    traits = map.traits;
+  } else {
+    const bool has_slopes =
+        !normal.slopes.empty() &&
+        !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask);
+    const std::uint32_t first = has_slopes ? add_slopes(normal.slopes) : 0;
+    // What is in the pattern is asked at points of its own space.
+    const Known pattern =
+        add_pattern(normal.pattern, outer, {}, false, has_slopes ? normal.slopes.size() : 0);
+    r.pattern = pattern.index;
+    patterns[r.pattern].entries = first;
+    if (!has_slopes && blends_list(normal.pattern)) set_list_heights(patterns[r.pattern], normal.pattern);
+    const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.kind);
+    r.amount = static_cast<float>(!facets ? normal.amount : facets->size > 0 ? 1 : facets->coords);
+    r.accuracy = static_cast<float>(normal.accuracy);
+    const Transform map = whole_map(space_of(normal.pattern, outer)).inverse();
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        r.linear[row * 3 + column] = static_cast<float>(map.rows[column][row]);
+    traits.by_surface = pattern.traits.by_surface;
+  }
+  traits.disturbed = traits.textured = true;
+  make_room(normals, 1, "normals");
+  normals.push_back(r);
+  return {static_cast<std::uint32_t>(normals.size() - 1), traits};
+}
+
+/// Of a list with a wave as a normal: a slope map of its numbers' shares of a power of two.
+void TextureTables::set_list_heights(PatternRecord& r, const Pattern& pattern) {
+  constexpr double kShare = 0.125;
+  static_assert(kShare * kMostListEntries <= 1);
+  std::vector<SlopePoint> heights;
+  for (std::size_t i = 0; i < kMostListEntries; ++i)
+    heights.push_back({static_cast<double>(i) * kShare, in_wave(pattern, i), 0});
+  r.entries = add_slopes(heights);
+  r.entry_count = static_cast<std::uint32_t>(heights.size());
+  r.kind_and_flags &= ~(pattern_flag::wave_mask << pattern_flag::wave_shift);
+  static_assert(static_cast<std::uint32_t>(PatternWave::ramp) == 0);
+  r.frequency = static_cast<float>(kShare);
+  r.phase = 0;
+}
+
+std::uint32_t TextureTables::add_slopes(const std::vector<SlopePoint>& points) {
+  make_room(entries, points.size(), "entries of maps");
+  const auto first = static_cast<std::uint32_t>(entries.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    MapEntryRecord entry{};
+    entry.position = static_cast<float>(points[i].position);
+    entry.inverse_width = i == 0 ? 0 : inverse_width(points[i - 1].position, points[i].position);
+    entry.rgb[0] = static_cast<float>(points[i].height);
+    entry.rgb[1] = static_cast<float>(points[i].slope);
+    entry.child = kNoOffset;
+    entries.push_back(entry);
+  }
+  children_.resize(entries.size(), Child::none);
+  return first;
+}
+
+void TextureTables::add_rainbow(const Rainbow& rainbow) {
+  const std::vector<Rainbow::Colour>& colours = rainbow.colours;
+  make_room(entries, colours.size(), "entries of maps");
+  RainbowRecord r = make_record(rainbow);
+  r.entries = static_cast<std::uint32_t>(entries.size());
+  r.entry_count = static_cast<std::uint32_t>(colours.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    MapEntryRecord entry{};
+    entry.position = static_cast<float>(colours[i].position);
+    entry.inverse_width = i == 0 ? 0 : inverse_width(colours[i - 1].position, colours[i].position);
+    copy(colours[i].rgb, entry.rgb);
+    entry.filter = static_cast<float>(colours[i].filter);
+    entry.transmit = static_cast<float>(colours[i].transmit);
+    entry.child = kNoOffset;
+    entries.push_back(entry);
+  }
+  children_.resize(entries.size(), Child::none);
+  rainbows.push_back(r);
+}
+
+/// The index of the pattern whose map a pigment is.
+TextureTables::Known TextureTables::add_pigment(const Pigment& pigment, const PatternSpace& outer) {
+  if (pigment.map) return add_map(pigment.map, outer, Place::inside);
+  auto map = std::make_shared<PatternMap<Pigment>>();
+  map->is_average = true;
+  map->entries = {{1, pigment}};
+  made_.push_back(map);
+  return add_map<Pigment>(map, outer, Place::inside);
+}
+
+TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const PatternSpace& outer,
+                                                const PatternSpace& inside, bool is_average,
+                                                std::size_t entry_count) {
+  PatternRecord r{};
+  const auto* grey = is_average ? nullptr : std::get_if<pattern::Grey>(&pattern.kind);
+  Known of_grey{0, {}};
+  if (grey != nullptr) of_grey = add_pigment(*grey->of, inside);
+  r.entries = r.steps = 0;
+  r.entry_count = static_cast<std::uint32_t>(entry_count);
+  tables_.push_back(PatternTable::none);
+  if (is_average) {
+    r.kind_and_flags = pattern_flag::average;
+  } else {
+    const PatternWords words = pattern_words(pattern.kind, scene_.number_of_waves);
+    r.kind_and_flags = words.kind_and_flags;
+    std::copy(std::begin(words.parameter), std::end(words.parameter), r.parameter);
+    const std::uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
+    const PatternWave wave =
+        Patterns::kAreLists[kind] ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
+    r.kind_and_flags |= static_cast<std::uint32_t>(wave) << pattern_flag::wave_shift;
+    const int generator = pattern.noise_generator == 0 ? scene_.noise_generator : pattern.noise_generator;
+    if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
+    const bool is_gradient_noise = generator == 3 && Patterns::kReadNoise[kind];
+    if (is_gradient_noise) r.kind_and_flags |= pattern_flag::gradient_noise;
+    if (!is_still(pattern.turbulence)) {
+      if (is_moved_by_turbulence(pattern.kind)) r.kind_and_flags |= pattern_flag::turbulent;
+      if (Patterns::kAreShifted[kind]) r.kind_and_flags |= pattern_flag::shifted;
+    }
+    r.table = words.fractal;
+    tables_.back() = pattern_table(r.kind_and_flags);
+    if (tables_.back() == PatternTable::slopes) {
+      r.table = static_cast<std::uint32_t>(slopes.size());
+      slopes.push_back(words.slope);
+    }
+    if (grey != nullptr) {
+      r.table = of_grey.index;
+      r.kind_and_flags |= pattern_flag::nested;
+    }
+    if (const auto* solid = std::get_if<pattern::Inside>(&pattern.kind)) {
+      r.table = static_cast<std::uint32_t>(objects.size());
+      objects.push_back(solid->of);
+    }
+    add_table(tables_.back());
+  }
+  // A frequency of 0 leaves numbers as they are.
+  const bool is_own = pattern.frequency == 0;
+  if (is_own) r.kind_and_flags |= pattern_flag::never_repeats;
+  r.frequency = static_cast<float>(is_own ? 1 : pattern.frequency);
+  r.phase = static_cast<float>(is_own ? 0 : pattern.phase);
+  r.wave_exponent = static_cast<float>(pattern.wave_exponent);
+  r.turbulence = words_of(pattern.turbulence);
+  const PatternSpace space = space_of(pattern, outer);
+  if (space.uv_mapping) r.kind_and_flags |= pattern_flag::uv_mapping;
+  add_steps(r, space.steps);
+  make_room(patterns, 1, "patterns");
+  patterns.push_back(r);
+  Traits traits;
+  traits.by_surface = asks_for_surface(r) || of_grey.traits.by_surface;
+  return {static_cast<std::uint32_t>(patterns.size() - 1), traits};
+}
+
+void TextureTables::add_table(PatternTable table) {
+  if (table == PatternTable::waves && waves.empty()) waves = make_waves(scene_.number_of_waves);
+  if (table == PatternTable::gradients && gradients.empty()) gradients = make_gradients();
+  const bool has_features = table == PatternTable::features || table == PatternTable::gradients;
+  if (has_features && features.empty()) features = make_features();
+}
+
+/// What is met first is written last.
+void TextureTables::add_steps(PatternRecord& r, const std::vector<SpaceStep>& space) {
+  const auto first_step = static_cast<std::uint32_t>(steps.size());
+  r.steps = first_step;
+  Transform map;
+  const auto end_map = [&] {
+    set(map, steps.size() == first_step ? r.to_space : steps.back().to_space);
+    map = Transform();
+  };
+  for (auto step = space.rbegin(); step != space.rend(); ++step) {
+    if (const auto* transform = std::get_if<Transform>(&*step)) {
+      map = map.then(transform->inverse());
+      continue;
+    }
+    if (const auto* moved = std::get_if<Turbulence>(&*step); moved && is_still(*moved)) continue;
+    end_map();
+    make_room(steps, 1, "warps of patterns");
+    steps.push_back(record_of(*step));
+    if (reads_features(steps.back())) add_table(PatternTable::features);
+  }
+  end_map();
+  r.step_count = static_cast<std::uint32_t>(steps.size()) - first_step;
+}
+
+void TextureTables::relocate(const ImageHeader& header) {
+  for (SpaceStepRecord& r : steps)
+    if (reads_features(r)) r.table = header.feature_offset;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    PatternRecord& r = patterns[i];
+    to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
+    to_offset<SpaceStepRecord>(r.steps, header.space_step_offset);
+    switch (tables_[i]) {
+    case PatternTable::features:
+      r.table = header.feature_offset;
+      break;
+    case PatternTable::gradients:
+      r.table = header.gradient_offset;
+      break;
+    case PatternTable::waves:
+      r.table = header.wave_offset;
+      break;
+    case PatternTable::slopes:
+      to_offset<SlopeRecord>(r.table, header.slope_offset);
+      break;
+    case PatternTable::pigments:
+      to_offset<PatternRecord>(r.table, header.pattern_offset);
+      break;
+    case PatternTable::objects:
+      to_offset<CsgRecord>(r.table, header.csg_offset);
+      break;
+    case PatternTable::none:
+      break;
+    }
+  }
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    switch (children_[i]) {
+    case Child::pattern:
+      to_offset<PatternRecord>(entries[i].child, header.pattern_offset);
+      break;
+    case Child::normal:
+      to_offset<NormalRecord>(entries[i].child, header.normal_offset);
+      break;
+    case Child::material:
+      to_offset<MaterialRecord>(entries[i].child, header.material_offset);
+      break;
+    case Child::none:
+      break;
+    }
+  for (RainbowRecord& r : rainbows)
+    to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
+  for (NormalRecord& r : normals)
+    to_offset<PatternRecord>(r.pattern, header.pattern_offset);
+  for (MaterialRecord& r : materials) {
+    to_offset<PatternRecord>(r.pattern, header.pattern_offset);
+    to_offset<NormalRecord>(r.normal, header.normal_offset);
+    to_offset<MaterialRecord>(r.below, header.material_offset);
+    to_offset<MaterialRecord>(r.inside, header.material_offset);
+    to_offset<FinishRecord>(r.finish, header.finish_offset);
+  }
+}
+
+} // namespace celltrace
