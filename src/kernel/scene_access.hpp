@@ -3,11 +3,11 @@
 
 #include "celltrace/cache.hpp"
 #include "celltrace/spe/one_copy.hpp"
-#include "kernel/accel/traversal_stack.hpp"
 #include "kernel/direct/door.hpp"
 #include "kernel/direct/feature_neighbours.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
+#include "kernel/traversal_stack.hpp"
 
 #include <stddef.h>
 

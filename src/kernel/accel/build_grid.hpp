@@ -3,9 +3,9 @@
 #pragma once
 
 #include "kernel/accel/object_bounds.hpp"
+#include "kernel/accel/prepare_result.hpp"
 #include "kernel/accel/radix_sort.hpp"
 #include "kernel/accel/stream.hpp"
-#include "kernel/program/prepare_result.hpp"
 
 namespace celltrace::kernel {
 

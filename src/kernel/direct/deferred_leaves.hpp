@@ -1,8 +1,8 @@
 // Leaves whose objects are prefetched before they are tested. Kernel dialect.
 #pragma once
 
-#include "kernel/accel/traversal_stack.hpp"
 #include "kernel/direct/door.hpp"
+#include "kernel/traversal_stack.hpp"
 
 namespace celltrace::kernel {
 

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
-#include "kernel/accel/traversal_stack.hpp"
 #include "kernel/direct/record_lanes.hpp"
 #include "kernel/primitives/triangle.hpp"
+#include "kernel/traversal_stack.hpp"
 
 namespace celltrace::kernel {
 

@@ -6,13 +6,13 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
-#include "kernel/accel/traversal_stack.hpp"
 #include "kernel/direct/instance_rays.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/primitives/local_shape.hpp"
 #include "kernel/primitives/triangle.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
+#include "kernel/traversal_stack.hpp"
 
 #include <stddef.h>
 #include <string.h>

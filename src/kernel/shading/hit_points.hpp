@@ -3,11 +3,11 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/record_lanes.hpp"
+#include "kernel/lights/surfaces.hpp"
 #include "kernel/primitives/instances_module.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
-#include "kernel/shading/surfaces.hpp"
 
 namespace celltrace::kernel {
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
+#include "kernel/lights/surfaces.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
-#include "kernel/shading/surfaces.hpp"
 #include "kernel/textures/normals.hpp"
 #include "kernel/textures/pigments.hpp"
 
