@@ -227,7 +227,7 @@ private:
     const bool hints = kPrefetchesLines<Spu> && frame_.object_count > tuning::kObjectsInCoreCache;
     if constexpr (kPoolsRays<Spu>) begin_pooling();
     if constexpr (kIteratesAhead<Spu>)
-      if (auto* const fractals = scene_.fractals(); fractals != nullptr && fractals->begin())
+      if (auto* const fractals = scene_.known_patterns().fractals; fractals != nullptr && fractals->begin())
         iterate_fractals(*fractals);
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
@@ -309,7 +309,7 @@ private:
   bool shade_root(Member& member) {
     if constexpr (kPoolsRays<Spu>) pool_.clear_lanes();
     if constexpr (kIteratesAhead<Spu>)
-      if (auto* const fractals = scene_.fractals())
+      if (auto* const fractals = scene_.known_patterns().fractals)
         fractals->show(static_cast<uint32_t>(&member - store_.members));
     if constexpr (kHasRoomForCode<Spu>) {
       if (member.hit != 0) {

@@ -1,0 +1,12 @@
+// The strategy of an SPU whose memory is direct. Kernel dialect.
+#pragma once
+
+#include "kernel/direct/memory.hpp"
+#include "kernel/direct/packets.hpp"
+#include "kernel/direct/patterns.hpp"
+
+namespace celltrace::kernel {
+
+struct DirectStrategy : DirectMemory, DirectPackets, DirectPatterns {};
+
+} // namespace celltrace::kernel
