@@ -4,9 +4,10 @@
 #include "kernel/local/memory.hpp"
 #include "kernel/local/packets.hpp"
 #include "kernel/local/patterns.hpp"
+#include "kernel/local/shapes.hpp"
 
 namespace celltrace::kernel {
 
-struct LocalStrategy : LocalMemory, LocalPackets, LocalPatterns {};
+struct LocalStrategy : LocalMemory, LocalPackets, LocalPatterns, LocalShapes {};
 
 } // namespace celltrace::kernel
