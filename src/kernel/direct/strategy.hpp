@@ -1,13 +1,22 @@
 // The strategy of an SPU whose memory is direct. Kernel dialect.
 #pragma once
 
+#include "kernel/direct/bundle_queries.hpp"
+#include "kernel/direct/bundle_steps.hpp"
 #include "kernel/direct/memory.hpp"
+#include "kernel/direct/object_shortcuts.hpp"
+#include "kernel/direct/packet_steps.hpp"
 #include "kernel/direct/packets.hpp"
 #include "kernel/direct/patterns.hpp"
 #include "kernel/direct/shapes.hpp"
 
 namespace celltrace::kernel {
 
-struct DirectStrategy : DirectMemory, DirectPackets, DirectPatterns, DirectShapes {};
+struct DirectStrategy : DirectMemory, DirectPackets, DirectPatterns, DirectShapes {
+  template <class Tests, class Spu> using ObjectShortcuts = DirectObjectShortcuts<Tests, Spu>;
+  template <class Traversal, class Spu> using PacketSteps = DirectPacketSteps<Traversal, Spu>;
+  template <class Search, class Spu> using BundleSteps = DirectBundleSteps<Search, Spu>;
+  template <class Traversal, class Spu> using BundleQueries = DirectBundleQueries<Traversal, Spu>;
+};
 
 } // namespace celltrace::kernel

@@ -1,13 +1,22 @@
 // The strategy of an SPU that has a local store. Kernel dialect.
 #pragma once
 
+#include "kernel/local/bundle_queries.hpp"
+#include "kernel/local/bundle_steps.hpp"
 #include "kernel/local/memory.hpp"
+#include "kernel/local/object_shortcuts.hpp"
+#include "kernel/local/packet_steps.hpp"
 #include "kernel/local/packets.hpp"
 #include "kernel/local/patterns.hpp"
 #include "kernel/local/shapes.hpp"
 
 namespace celltrace::kernel {
 
-struct LocalStrategy : LocalMemory, LocalPackets, LocalPatterns, LocalShapes {};
+struct LocalStrategy : LocalMemory, LocalPackets, LocalPatterns, LocalShapes {
+  template <class Tests, class Spu> using ObjectShortcuts = LocalObjectShortcuts<Tests, Spu>;
+  template <class Traversal, class Spu> using PacketSteps = LocalPacketSteps<Traversal, Spu>;
+  template <class Search, class Spu> using BundleSteps = LocalBundleSteps<Search, Spu>;
+  template <class Traversal, class Spu> using BundleQueries = LocalBundleQueries<Traversal, Spu>;
+};
 
 } // namespace celltrace::kernel

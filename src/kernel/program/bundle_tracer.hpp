@@ -6,6 +6,7 @@
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/direct/fractal_ahead.hpp"
+#include "kernel/direct/pinhole_bundle.hpp"
 #include "kernel/program/bundle_pool.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/ray_tracer.hpp"
@@ -52,7 +53,7 @@ public:
             if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, rays_of(member));
             put(member.column, member.row, tracer_.background(rays_of(member), member.lanes));
           });
-        find_hits([&](RayQuery* queries) { shadows_.traversal().intersect(queries, bundle); });
+        find_hits([&](RayQuery* queries) { shadows_.traversal().intersect_from_pinhole(queries, bundle); });
       }
     } else {
       place(column, row);

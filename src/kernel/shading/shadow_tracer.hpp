@@ -5,7 +5,9 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/list.hpp"
+#include "kernel/direct/area_occluders.hpp"
 #include "kernel/direct/area_pairs.hpp"
+#include "kernel/direct/kept_crossings.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/shading/ray_tree.hpp"
 #include "kernel/shading/shadow_walk.hpp"
@@ -285,7 +287,7 @@ private:
       lanes = traversal_.unoccluded_by_recent(rays, lanes, distance, of_place);
       if (lanes == 0) return false;
       if (occluders != nullptr)
-        traversal_.transmittance(rays, lanes, distance, of_place, *occluders);
+        traversal_.transmittance_of(*occluders, rays, lanes, distance, of_place);
       else
         traversal_.transmittance(rays, lanes, distance, of_place);
       return true;
