@@ -2,9 +2,6 @@
 // tests that there are. For memory that is direct.
 #pragma once
 
-#include "kernel/direct/leaf_tests.hpp"
-#include "kernel/direct/pinhole_triangles.hpp"
-#include "kernel/direct/shadow_volumes.hpp"
 #include "kernel/entry/strategies.hpp"
 
 #include <stdint.h>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
-#include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
 #include "kernel/parts.hpp"
 #include "kernel/records.hpp"

@@ -10,7 +10,7 @@ namespace celltrace::kernel {
 
 /// Finds objects by a BVH; where code takes no local store, by what the frame asks for.
 template <class Spu> void tracer(Spu& spu, ea_t argument) {
-  Tracer<Spu, kHasRoomForCode<Spu> ? kAnyAccelerator : kBvhOnly>(spu, argument).run();
+  Tracer<Spu, Strategy<Spu>::kAccelerators>(spu, argument).run();
 }
 /// By a uniform grid, which it also builds.
 template <class Spu> void grid_tracer(Spu& spu, ea_t argument) {
