@@ -2,9 +2,7 @@
 // tests that there are. For memory that is direct.
 #pragma once
 
-#include "kernel/direct/leaf_tests.hpp"
-#include "kernel/direct/pinhole_triangles.hpp"
-#include "kernel/direct/shadow_volumes.hpp"
+#include "kernel/entry/strategies.hpp"
 
 #include <stdint.h>
 
@@ -76,7 +74,7 @@ template <class Spu> void test_triangles(TriangleTask& task) {
     for (uint32_t i = 0; i < task.triangle_count; ++i)
       for (uint32_t packet = 0; packet < task.packet_count; ++packet)
         kernel::keep_closest<S>(seen.crossed(i, task.packets[packet].direction.template load<S>()),
-                            triangle_offset(i), task.hits[packet]);
+                                triangle_offset(i), task.hits[packet]);
   } else if (task.test == TriangleTest::shadow_volumes) {
     const ShadowVolumes<S> volumes(sides, task.origins);
     for (uint32_t i = 0; i < task.triangle_count; ++i)

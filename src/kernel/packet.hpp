@@ -2,13 +2,12 @@
 // Kernel dialect.
 #pragma once
 
-#include "celltrace/spe/one_copy.hpp"
 #include "celltrace/spe/simd.hpp"
-#include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
 #include "kernel/parts.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar.hpp"
+#include "kernel/strategy.hpp"
 
 #include <stdint.h>
 
@@ -66,26 +65,12 @@ template <class Lanes>
   copy_lane(from.z, lane, to.z, to_lane);
 }
 
-namespace detail {
-
-/// Not inlined: one copy of the code saves local store.
-template <class S>
-CELLTRACE_ONE_COPY void put_elsewhere(const typename S::M& lanes, const float* values, V3<S>& into) {
-  into = select<S>(lanes, splat3<S>(values), into);
-}
-
-} // namespace detail
-
 /// Sets some lanes of a vector to the same three values. If these are `all` lanes that matter, `into` need
 /// not be initialised.
 template <class Spu>
-[[gnu::always_inline]] inline void put_in_lanes([[maybe_unused]] bool all, const typename Spu::simd::M& lanes,
+[[gnu::always_inline]] inline void put_in_lanes(bool all, const typename Spu::simd::M& lanes,
                                                 const float* values, V3<typename Spu::simd>& into) {
-  using S = typename Spu::simd;
-  if constexpr (kHasRoomForCode<Spu>)
-    into = all ? splat3<S>(values) : select<S>(lanes, splat3<S>(values), into);
-  else
-    detail::put_elsewhere<S>(lanes, values, into);
+  Strategy<Spu>::template put_in_lanes<typename Spu::simd>(all, lanes, values, into);
 }
 
 /// Rays with directions of unit length. `start_object` is the offset of the object on which a secondary ray
@@ -118,19 +103,10 @@ struct HitPacket {
   copy_lane(from.v, lane, to.v, to_lane);
 }
 
-namespace detail {
-CELLTRACE_ONE_COPY inline void copy_out_of_line(void* to, const void* from, uint32_t bytes) {
-  __builtin_memcpy(to, from, bytes);
-}
-} // namespace detail
-
-/// Copies what there is of all lanes. On an SPE by a call: inlined, each quadword would take two
-/// instructions.
-template <class Spu, class Packet> void copy_packet(const Packet& from, Packet& to) {
-  if constexpr (kHasRoomForCode<Spu>)
-    to = from;
-  else
-    detail::copy_out_of_line(&to, &from, sizeof(Packet));
+/// Copies what there is of all lanes.
+template <class Spu, class Packet>
+[[gnu::always_inline]] inline void copy_packet(const Packet& from, Packet& to) {
+  Strategy<Spu>::copy_packet(from, to);
 }
 
 /// A ray query of one packet. If `hits` is given: find the closest hits of the rays. Otherwise, for shadow

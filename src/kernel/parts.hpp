@@ -10,6 +10,15 @@ namespace celltrace::kernel {
 /// A packet's lanes are one part.
 template <class Spu> constexpr bool kOnePart = Spu::rare_simd::kLanes == kSimdLanes;
 
+/// All of what belongs to a packet where its lanes are one part, otherwise what `cut()` makes of it.
+template <class Spu, class Whole, class Cut>
+[[gnu::always_inline]] inline decltype(auto) whole_or(const Whole& whole, [[maybe_unused]] const Cut& cut) {
+  if constexpr (kOnePart<Spu>)
+    return (whole);
+  else
+    return cut();
+}
+
 /// Calls `visit(first)` for the first lane of each part.
 template <class Spu, class Visit> [[gnu::always_inline]] inline void for_each_part(Visit visit) {
   for (uint32_t first = 0; first < kSimdLanes; first += Spu::rare_simd::kLanes)

@@ -2,28 +2,21 @@
 #pragma once
 
 #include "celltrace/cache.hpp"
-#include "celltrace/spe/one_copy.hpp"
-#include "kernel/accel/traversal_stack.hpp"
-#include "kernel/direct/door.hpp"
-#include "kernel/direct/feature_neighbours.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
+#include "kernel/strategy.hpp"
+#include "kernel/traversal_stack.hpp"
 
 #include <stddef.h>
-
-#include <type_traits>
 
 namespace celltrace::kernel {
 
 /// A record that stays while others are read: itself where records are read in place, otherwise a copy.
-template <class Spu, class Record>
-using Kept = std::conditional_t<kReadsInPlace<Spu>, const Record&, const Record>;
+template <class Spu, class Record> using Kept = typename Strategy<Spu>::template Kept<Record>;
 /// The same of one record after the other, a copy of which has `room`.
 template <class Spu, class Record>
-[[gnu::always_inline]] inline const Record* keep(const Record* record, [[maybe_unused]] Record& room) {
-  if constexpr (kReadsInPlace<Spu>) return record;
-  room = *record;
-  return &room;
+[[gnu::always_inline]] inline const Record* keep(const Record* record, Record& room) {
+  return Strategy<Spu>::keep(record, room);
 }
 
 /// The software cache that a frame asks for.
@@ -33,18 +26,13 @@ inline CacheConfig cache_config(const FrameBlock& frame) {
                          static_cast<CacheReplacement>(frame.cache_replacement));
 }
 
-template <class S, uint32_t kPackets> class FractalValues;
-
 /// Typed reads of the scene image by offset. A returned pointer is valid until the next read of any kind.
 template <class Spu> class SceneAccess {
 public:
   SceneAccess(Spu& spu, const CacheConfig& config, ea_t image) : cache_(spu, config, image) {}
 
   /// The scene image where records are read in place, else null.
-  const uint8_t* image() {
-    if constexpr (kReadsInPlace<Spu>) return read<uint8_t>(0, DataKind::object);
-    return nullptr;
-  }
+  const uint8_t* image() { return Strategy<Spu>::image(cache_); }
   const ObjectRecord* object(uint32_t offset) { return read<ObjectRecord>(offset, DataKind::object); }
   const ObjectRecord* object_apart(uint32_t offset) {
     return read_apart<ObjectRecord>(offset, DataKind::object);
@@ -131,24 +119,22 @@ public:
       cache_.hint(ref.child + leaf_word::step_bytes(ref.leaf));
   }
 
-  /// What patterns know of points, where a ScopedCache keeps it, else null: random points for points that are
-  /// close together; what fractals are at points that are about to be asked for.
-  using Neighbours = NeighbourCache<typename Spu::rare_simd>;
-  using Fractals = FractalValues<typename Spu::rare_simd, kBundlePackets<Spu>>;
-  Neighbours* neighbours() const { return neighbours_; }
-  Fractals* fractals() const { return fractals_.known; }
-  void use(Neighbours* cache) { neighbours_ = cache; }
-  void use(Fractals* cache) { fractals_.known = cache; }
+  /// The knowledge that patterns have of points before they are asked.
+  typename Strategy<Spu>::template KnownPatterns<Spu>& known_patterns() { return known_patterns_; }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
 
-private:
   /// Objects that follow each other by `step` bytes from `first` on, or if that is 0, whose offsets do, a
   /// word each.
   struct Sequence {
     uint32_t first, count, step;
   };
+  uint32_t offset_of(const Sequence& objects, uint32_t i) {
+    return objects.step == 0 ? list_word(objects.first + i * 4) : objects.first + i * objects.step;
+  }
+
+private:
   template <class Visit> void for_each_of(const Sequence& objects, const Visit& visit) {
     if (objects.count == 0) return;
     uint32_t next = member(objects, 0);
@@ -160,62 +146,18 @@ private:
     }
   }
   /// The offset of one of them; of those after the first one, on its way.
-  uint32_t member(const Sequence& objects, uint32_t i) {
-    if constexpr (!kHasRoomForCode<Spu>) return member_through_cache(objects, i);
-    const uint32_t object = offset_of(objects, i);
-    if (i != 0) cache_.hint(object);
-    return object;
-  }
-  /// One copy: local store is short.
-  CELLTRACE_ONE_COPY uint32_t member_through_cache(const Sequence& objects, uint32_t i) {
-    const uint32_t object = offset_of(objects, i);
-    if (i != 0) cache_.prefetch(object);
-    return object;
-  }
-  uint32_t offset_of(const Sequence& objects, uint32_t i) {
-    return objects.step == 0 ? list_word(objects.first + i * 4) : objects.first + i * objects.step;
-  }
+  uint32_t member(const Sequence& objects, uint32_t i) { return Strategy<Spu>::member(*this, objects, i); }
 
   template <class T> const T* read(uint32_t offset, DataKind kind) {
     return cache_.template get<T>(offset, kind);
   }
-  /// What is not read in the innermost loops: one copy of the code for all records, as local store is
-  /// short.
+  /// Reads records that the innermost loops do not want.
   template <class T> const T* read_apart(uint32_t offset, DataKind kind) {
-    if constexpr (kReadsInPlace<Spu>)
-      return read<T>(offset, kind);
-    else
-      return reinterpret_cast<const T*>(read_bytes(offset, sizeof(T), kind));
-  }
-  CELLTRACE_ONE_COPY const uint8_t* read_bytes(uint32_t offset, uint32_t size, DataKind kind) {
-    return cache_.bytes(offset, size, kind);
+    return Strategy<Spu>::template read_apart<T>(cache_, offset, kind);
   }
 
   SoftwareCache<Spu, DataKind> cache_;
-  Neighbours* neighbours_ = nullptr;
-  struct KnownFractals {
-    Fractals* known = nullptr;
-  };
-  [[no_unique_address]] Present<KnownFractals, kIteratesAhead<Spu>> fractals_;
-};
-
-/// As long as it lives, patterns have a cache, where memory is direct: one of SceneAccess's. On the stack, as
-/// local store has no room for it.
-template <class Spu, class Cache, bool kIsThere = kHasRoomForCode<Spu>> class ScopedCache {
-public:
-  /// Not inlined: GCC 12 would say that the pointer outlives the cache, whatever the destructor does.
-  [[gnu::noinline]] explicit ScopedCache(SceneAccess<Spu>& scene) : scene_(scene) { scene.use(&cache_); }
-  ~ScopedCache() { scene_.use(static_cast<Cache*>(nullptr)); }
-  ScopedCache(const ScopedCache&) = delete;
-  ScopedCache& operator=(const ScopedCache&) = delete;
-
-private:
-  SceneAccess<Spu>& scene_;
-  Cache cache_;
-};
-template <class Spu, class Cache> class ScopedCache<Spu, Cache, false> {
-public:
-  explicit ScopedCache(SceneAccess<Spu>&) {}
+  [[no_unique_address]] typename Strategy<Spu>::template KnownPatterns<Spu> known_patterns_;
 };
 
 } // namespace celltrace::kernel

@@ -3,7 +3,6 @@
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
 #include "kernel/cameras/list.hpp"
-#include "kernel/direct/door.hpp"
 #include "render/quality.hpp"
 #include "scene_image/object_records.hpp"
 #include "scene_image/surface_records.hpp"

@@ -1,5 +1,5 @@
 // The tracer with a uniform grid, compiled once per SPU type.
-#include "kernel/program/tracer.hpp"
+#include "kernel/entry/tracer.hpp"
 
 #include "backends/spe_entry.hpp"
 

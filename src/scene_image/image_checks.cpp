@@ -2,6 +2,7 @@
 
 #include "kernel/lights/list.hpp"
 #include "kernel/primitives/instances_module.hpp"
+#include "kernel/primitives/list.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
-#include "kernel/direct/door.hpp"
+#include "kernel/direct/memory.hpp"
+#include "kernel/local/patterns.hpp"
 #include "kernel/math.hpp"
 #include "kernel/textures/angles.hpp"
 #include "kernel/textures/lattice.hpp"
@@ -109,9 +110,9 @@ public:
 
 namespace kernel {
 
-// One lane has no use for shortcuts that look at many.
-template <> inline constexpr bool kHasRoomForCode<PointSpu> = false;
-template <> inline constexpr bool kIteratesAhead<PointSpu> = false;
+/// Patterns ask of it where records are; one lane has no use for shortcuts that look at many.
+struct PointStrategy : DirectMemory, LocalPatterns {};
+template <> struct StrategyOf<PointSpu> { using Type = PointStrategy; };
 
 // Elementary functions as exact as numbers are.
 template <> inline PointSimd::F log2<PointSimd>(const PointSimd::F& x) {

@@ -3,7 +3,7 @@
 #include "backends/native/spu.hpp"
 #include "celltrace/render.hpp"
 #include "celltrace/spe/emulated_spu.hpp"
-#include "kernel/program/tracer.hpp"
+#include "kernel/entry/tracer.hpp"
 #include "render/scenes.hpp"
 #include "render/tracer_program.hpp"
 

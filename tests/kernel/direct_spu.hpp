@@ -4,6 +4,7 @@
 #include "celltrace/spe/simd_host.hpp"
 #include "celltrace/spe/spu.hpp"
 #include "celltrace/spe/types.hpp"
+#include "kernel/direct/strategy.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
-# Fails if a file of the kernel other than the door asks whether memory is direct:
+# Fails if a file of the kernel other than the one that chooses strategies asks whether memory is direct:
 #
 #   cmake -DKERNEL=src/kernel -P one_door.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(door ${KERNEL}/direct/door.hpp)
+set(door ${KERNEL}/strategy.hpp)
 file(GLOB_RECURSE files ${KERNEL}/*.hpp ${KERNEL}/*.cpp)
 if(NOT door IN_LIST files)
   message(FATAL_ERROR "there is no ${door}")
@@ -14,8 +14,19 @@ if(NOT asked)
 endif()
 list(REMOVE_ITEM files ${door})
 foreach(file IN LISTS files)
-  file(STRINGS ${file} lines REGEX direct_memory)
+  file(STRINGS ${file} lines REGEX "direct_memory")
   foreach(line IN LISTS lines)
-    message(SEND_ERROR "${file}: ask for a capability of direct/door.hpp in place of: ${line}")
+    message(SEND_ERROR "${file}: name what a Strategy has in place of: ${line}")
+  endforeach()
+endforeach()
+
+# Nor does a body choose between two of its own: a strategy has both.
+foreach(room program accel shading)
+  file(GLOB files ${KERNEL}/${room}/*.hpp)
+  foreach(file IN LISTS files)
+    file(STRINGS ${file} lines REGEX "if constexpr \\(!?k[A-Z][A-Za-z]*<Spu")
+    foreach(line IN LISTS lines)
+      message(SEND_ERROR "${file}: ask a Strategy in place of: ${line}")
+    endforeach()
   endforeach()
 endforeach()

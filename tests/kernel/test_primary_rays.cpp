@@ -1,6 +1,6 @@
 // Bundles of primary rays that leave one point: what they are bounded by, and what is found by that.
 #include "compiled_once.hpp"
-#include "kernel/cameras/primary_rays.hpp"
+#include "kernel/direct/pinhole_bundle.hpp"
 #include "made_records.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -133,7 +133,7 @@ TEST_CASE("A bundle of primary rays hits what its packets hit, and nothing where
         const PinholeBundle<Simd> pinhole(frame, place.column, place.row);
         Bundle together(frame, place), alone(frame, place);
         const bool is_lost = !traversal.enter(pinhole);
-        traversal.intersect(together.queries, pinhole);
+        traversal.intersect_from_pinhole(together.queries, pinhole);
         for (RayQuery& query : alone.queries)
           if (query.lanes != 0) traversal.find_closest(*query.rays, query.lanes, *query.hits);
         lost += is_lost;

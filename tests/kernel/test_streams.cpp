@@ -1,5 +1,5 @@
 // Streams and the radix sort through local store, with counts around the borders of chunks and lines.
-#include "kernel/accel/radix_sort.hpp"
+#include "kernel/entry/strategies.hpp"
 #include "kernel/records.hpp"
 #include "scene_image/scene_image.hpp"
 #include "spe/run_on.hpp"

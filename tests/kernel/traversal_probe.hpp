@@ -1,7 +1,7 @@
 // A kernel that builds the grid and sends packets of rays through it.
 #pragma once
 
-#include "kernel/accel/traversal.hpp"
+#include "kernel/entry/strategies.hpp"
 #include "kernel/program/prepare_frame.hpp"
 
 namespace celltrace::test {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "kernel/accel/object_bounds.hpp"
+#include "kernel/accel/prepare_result.hpp"
 #include "kernel/accel/radix_sort.hpp"
 #include "kernel/accel/stream.hpp"
-#include "kernel/program/prepare_result.hpp"
 
 namespace celltrace::kernel {
 
@@ -25,14 +25,8 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
         const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
         // The normals of a smooth triangle do not matter, but what CSG leaves of it does.
         constexpr uint32_t kSmoothAndWhole = object_flag::smooth | object_flag::csg;
-        if (object.extra != kNoOffset && (object.kind_and_flags & kSmoothAndWhole) != object_flag::smooth) {
-          if constexpr (kReadsInPlace<Spu>) {
-            extra = *reinterpret_cast<const ExtraRecord*>(static_cast<uintptr_t>(frame.image + object.extra));
-          } else {
-            spu.get(&extra, frame.image + object.extra, sizeof extra, kExtraTag);
-            spu.wait_all(1u << kExtraTag);
-          }
-        }
+        if (object.extra != kNoOffset && (object.kind_and_flags & kSmoothAndWhole) != object_flag::smooth)
+          Strategy<Spu>::fetch(spu, extra, frame.image + object.extra, kExtraTag);
         for_each_voxel(spu, frame.grid, object, extra, [&](uint32_t cell) {
           spu.compute(scalar_work::kEmitPair);
           if (count++ < frame.work_entries) pairs.write({cell, offset});

@@ -7,32 +7,38 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
+#include "kernel/accel/bundle_frusta.hpp"
 #include "kernel/accel/packet_traversal.hpp"
-#include "kernel/cameras/primary_rays.hpp"
-#include "kernel/direct/bundle_leaf_tests.hpp"
-#include "kernel/direct/leaf_list.hpp"
-#include "kernel/direct/light_bundle.hpp"
-#include "kernel/direct/mixed_rays.hpp"
-#include "kernel/direct/origin_bundle.hpp"
 
 namespace celltrace::kernel {
 
-template <class Spu> class BvhTraversal {
+/// Traverses the BVH with bundles. A strategy's BundleSteps have:
+///
+///   begin_frame()                       the nodes may be others from now on
+///   intersect_mixed(query)              whether a packet has been traversed with rays of several octants
+///   end_view()                          the rays of the bundle do not pass through one point
+///   view()                              the BundleView of a bundle whose rays do, or null
+///   trusts_frusta()                     whether leaves are hit by frusta, without slab tests of rays
+///   doubted_at(child)                   packets of which rays are tested all the same
+///   set_own_frustum(packet, query, frustum)   the frustum of a packet that leaves its bundle
+///   shortening(packet)                  distances in a packet's frustum over distances along its rays
+///   LeafTests(objects, view)            tests of the bundle's packets against leaves
+///   add_leaf(tests, queries, leaf, packets)   whether a leaf is done with, or waits; `packets` become those
+///                                       whose results may have changed
+///   test_object(self, packets, queries)       otherwise, for each object of the leaf
+///   test_deferred(tests, queries, bundled)    tests leaves that wait, unless they had better go on to
+template <class Spu> class BvhTraversal : public Strategy<Spu>::template BundleSteps<BvhTraversal<Spu>, Spu> {
+  using Steps = typename Strategy<Spu>::template BundleSteps<BvhTraversal, Spu>;
+  friend Steps;
+
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
   BvhTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
-      : objects_(objects), bvh_(frame.bvh), packet_traversal_(objects, frame),
+      : Steps(frame), objects_(objects), bvh_(frame.bvh), packet_traversal_(objects, frame),
         object_count_(static_cast<float>(frame.object_count)),
-        rays_of_frame_(static_cast<float>(frame.width * frame.height)),
-        mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays),
-        mixes_always_(frame.object_count <= tuning::kMostObjectsWithoutFrusta) {}
-
-  /// The nodes may be others from now on.
-  void begin_frame() {
-    if constexpr (kMixesOctants<Spu>) leaves_.begin_frame();
-  }
+        rays_of_frame_(static_cast<float>(frame.width * frame.height)) {}
 
   /// Answers the queries, at most one for each packet of a bundle. Hits must have been reset. Occluded lanes
   /// are removed from queries for light.
@@ -40,64 +46,6 @@ public:
   /// Answers one query.
   void intersect(RayQuery& query) {
     if (query.lanes != 0) intersect_packet(query);
-  }
-  /// Finds the closest hits of the primary rays of a bundle that has just been entered; query i is that of
-  /// its packet i.
-  void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
-    for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet)
-      tfar_[packet] = queries[packet].lanes != 0 ? PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance : -1.0f;
-    bundle.shortening.store(shortening_);
-    traverse_bundle(queries, bundle);
-  }
-  /// The same of a bundle that has some of the packets of `queries`, each of which has some lanes.
-  void intersect(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
-    if (bundle.packets != 0) {
-      bundle.shortening.store(shortening_);
-      for_each_lane(bundle.packets, [&](uint32_t packet) {
-        tfar_[packet] =
-            PacketTraversal<Spu>::tfar_of(queries[packet], queries[packet].lanes) * shortening_[packet];
-      });
-      traverse_bundle(queries, bundle);
-    }
-    intersect(queries, count, bundle.packets);
-  }
-  /// Answers queries for the light from the point `light`. Each of them has some lanes.
-  void intersect(RayQuery* queries, uint32_t count, const float (&light)[3]) {
-    const LightBundle<S> bundle(light, queries, count);
-    if (bundle.packets != 0) {
-      (bundle.reach * F(PacketTraversal<Spu>::kTfarSlack)).store(tfar_);
-      begin(bundle.packets);
-      traverse_bundle(queries, bundle);
-    }
-    intersect(queries, count, bundle.packets);
-  }
-
-  /// Answers a query for light whose rays come to these leaves alone.
-  void intersect_leaves(RayQuery& query, const NodeLeaves* nodes, uint32_t count) {
-    using Traversal = PacketTraversal<Spu>;
-    objects_.hit_filter().begin_packet();
-    const MixedRays<S> rays(*query.rays);
-    const F tfar = Traversal::tfar(query);
-    for (uint32_t n = 0; n < count && query.lanes != 0; ++n) {
-      const NodeRecord& node = *objects_.scene().node(nodes[n].node);
-      for (uint32_t left = nodes[n].leaves; left != 0; left &= left - 1) {
-        const auto i = static_cast<uint32_t>(__builtin_ctz(left));
-        const uint32_t hit = rays.hit_child(node.bounds, i, Traversal::tnear(query), tfar) & query.lanes;
-        if (hit != 0) packet_traversal_.test_objects({node.child[i], node.leaf[i]}, hit, query);
-      }
-    }
-  }
-
-  /// Traverses the BVH with the frustum of a bundle only, for which its rays need not exist yet, until it
-  /// hits a leaf or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything.
-  /// Otherwise intersect() continues from there. The bundle has some packets.
-  template <class Bundle> bool enter(const Bundle& bundle) {
-    bundle_frustum_.set(bundle.all, bundle.octant);
-    begin(bundle.packets);
-    FrustumVisitor visitor = {*this, SlabOrder(bundle.octant), bundle.packets};
-    NodeRef ref = {};
-    traverse_nodes(visitor, ref, false);
-    return visitor.found_leaf;
   }
 
 private:
@@ -120,8 +68,7 @@ private:
   CELLTRACE_ONE_COPY void intersect_packet(RayQuery& query) {
     objects_.hit_filter().begin_packet();
     const RayPacket& rays = *query.rays;
-    if constexpr (kMixesOctants<Spu>)
-      if (intersect_mixed(query)) return;
+    if (Steps::intersect_mixed(query)) return;
     RayGroup<S>& group = ray_groups_[0];
     uint32_t remaining = query.lanes;
     while (remaining != 0) {
@@ -148,30 +95,6 @@ private:
         packet_traversal_.traverse({&group, &query, subset, subset, root()}, SlabOrder(octant));
       }
     }
-  }
-
-  /// Traverses a packet with rays of several octants at once. False: that does not pay.
-  bool intersect_mixed(RayQuery& query) {
-    const RayPacket& rays = *query.rays;
-    if (__builtin_popcount(query.lanes) < tuning::kLeastMixedRays || !mixes_octants_) return false;
-    if (!mixes_always_) {
-      const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
-      if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
-    }
-    if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().begin_traversal(query);
-    if (mixes_always_ && leaves_.pays(objects_.scene(), root())) {
-      leaves_.intersect(packet_traversal_, query);
-    } else {
-      MixedStack<S> stack;
-      MixedVisitor<Spu> visitor = {packet_traversal_,  objects_, query,
-                                   MixedRays<S>(rays), stack,    query.lanes};
-      NodeRef ref = root();
-      const uint64_t visits = objects_.counters().visits;
-      traverse_nodes(visitor, ref);
-      leaves_.count_visits(objects_.counters().visits - visits);
-    }
-    if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().end_traversal();
-    return true;
   }
 
   /// The lanes that `lane` is grouped with: on level 0 the whole packet, on level 1 its block of 2x2 rays, on
@@ -216,29 +139,15 @@ private:
     });
     if (is_single(bundled)) return 0;
     bundle_frustum_.set(all, octant);
-    view_ = nullptr;
+    Steps::end_view();
     set_max_split_packets(rays_of_frame_);
     octant_ = octant;
-    reversed_ = false;
     begin(bundled);
     const SlabOrder order(octant);
     traverse_bundle(queries, order, order, bundled);
     return bundled;
   }
 
-  /// Traverses a bundle whose rays all pass through one point, with the frusta that it brings.
-  void traverse_bundle(RayQuery* queries, const ViewBundle<S>& bundle) {
-    for (uint32_t& misses : misses_)
-      misses = 0;
-    frusta_.set(bundle.bounds, bundle.octant);
-    bundle_frustum_.set(bundle.all, bundle.octant);
-    view_ = &bundle.view;
-    wide_ = bundle.wide;
-    set_max_split_packets(bundle.density != 0.0f ? bundle.density : rays_of_frame_);
-    octant_ = bundle.turned ? bundle.octant ^ 7 : bundle.octant;
-    reversed_ = bundle.turned;
-    traverse_bundle(queries, SlabOrder(bundle.octant), SlabOrder(octant_), bundle.packets);
-  }
   /// Traverses what is on the stack, with the frusta of the packets `bundled`. `order` is that of slab tests
   /// with frusta, `ray_order` that with rays: they differ where frusta are those of reversed rays.
   void traverse_bundle(RayQuery* queries, const SlabOrder& order, const SlabOrder& ray_order,
@@ -246,55 +155,17 @@ private:
     max_tfar_ = PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance; // until the first leaf has been tested
     loose_ = 0;
     known_rays_ = known_frusta_ = 0;
-    BundleLeafTests<Spu> leaves(objects_, view_);
+    typename Steps::LeafTests leaves(objects_, Steps::view());
     BundleVisitor visitor = {*this, leaves, queries, order, ray_order, bundled};
     NodeRef ref = {};
     traverse_nodes(visitor, ref, false);
   }
 
-  /// The traversal of a bundle's frustum, for traverse_nodes(). It ends where it comes to a leaf or has
-  /// expanded some nodes, and leaves what is next on the stack.
-  struct FrustumVisitor {
-    BvhTraversal& traversal;
-    const SlabOrder order;
-    const uint32_t packets;
-    uint32_t nodes = 0;      ///< that have been expanded
-    bool found_leaf = false; ///< or there are too many nodes
-
-    bool expand(NodeRef& ref) {
-      ++nodes;
-      ++traversal.objects_.counters().visits;
-      SceneAccess<Spu>& scene = traversal.objects_.scene();
-      Stack& stack = traversal.packet_traversal_.stack();
-      const NodeRecord& node = *scene.node(ref.child);
-      alignas(16) float distance[4];
-      const uint32_t first = stack.size();
-      for_each_lane(traversal.bundle_frustum_.intersect(node.bounds, order, kMaxHitDistance, distance),
-                    [&](uint32_t i) {
-                      const NodeRef child = {node.child[i], node.leaf[i]};
-                      scene.hint(child);
-                      stack.push(first, {child, packets, distance[i], 0});
-                    });
-      return false;
-    }
-    void test(const NodeRef&) {}
-    bool next(NodeRef& ref) {
-      Stack& stack = traversal.packet_traversal_.stack();
-      if (stack.size() == 0) return false;
-      ref = stack.top().ref;
-      found_leaf = ref.is_leaf() || nodes == tuning::kMaxEnteredNodes;
-      if (found_leaf) return false;
-      stack.pop();
-      return true;
-    }
-    static constexpr bool pauses() { return false; }
-  };
-
   /// The traversal of a bundle, for traverse_nodes(). Nodes that few packets hit are traversed by each of
   /// them separately.
   struct BundleVisitor {
     BvhTraversal& traversal;
-    BundleLeafTests<Spu>& leaves;
+    typename Steps::LeafTests& leaves;
     RayQuery* const queries;
     const SlabOrder &order, &ray_order;
     const uint32_t bundled;
@@ -310,7 +181,7 @@ private:
     [[gnu::always_inline]] bool next(NodeRef& ref) {
       Stack& stack = traversal.packet_traversal_.stack();
       for (;;) {
-        traversal.test_deferred(leaves, queries, bundled);
+        traversal.Steps::test_deferred(leaves, queries, bundled);
         if (stack.size() == 0) return false;
         const typename Stack::Entry& next = stack.pop();
         packets = next.lanes & traversal.within_tfar(next.enter);
@@ -334,7 +205,7 @@ private:
     typename PacketTraversal<Spu>::Task tasks[PacketTraversal<Spu>::kMaxInterleaved];
     tasks[0] = task_of(queries, first);
     uint32_t count = 1, packets = first.lanes;
-    if (kPrefetchesLines<Spu> && packet_traversal_.interleaves()) {
+    if (packet_traversal_.interleaves()) {
       Stack& stack = packet_traversal_.stack();
       while (count < PacketTraversal<Spu>::kMaxInterleaved && stack.size() != 0) {
         const typename Stack::Entry& next = stack.top();
@@ -358,10 +229,7 @@ private:
     const auto packet = static_cast<uint32_t>(__builtin_ctz(entry.lanes));
     RayQuery& query = queries[packet];
     if ((known_frusta_ & entry.lanes) == 0) {
-      if (kHasBundleViews<Spu> && reversed_)
-        ray_groups_[packet].frustum.set(bounds_of<S>(*query.rays, query.lanes), octant_);
-      else
-        frusta_.get(packet, ray_groups_[packet].frustum);
+      Steps::set_own_frustum(packet, query, ray_groups_[packet].frustum);
       known_frusta_ |= entry.lanes;
     }
     return {&ray_groups_[packet], &query, query.lanes, entry.rays, entry.ref};
@@ -402,11 +270,11 @@ private:
       objects_.scene().spu().compute(scalar_work::kBvhChild);
       uint32_t lanes = frusta_.intersect(node.bounds, order, i, tfar_) & packets;
       const NodeRef child = {node.child[i], node.leaf[i]};
-      const bool tests_rays = (child.is_leaf() && !trusts_frusta()) || should_split(lanes);
+      const bool tests_rays = (child.is_leaf() && !Steps::trusts_frusta()) || should_split(lanes);
       if (lanes == 0) continue;
       objects_.scene().hint(child);
       lanes &= ~packets_that_miss(node.bounds, ray_order, i, queries,
-                                  tests_rays ? lanes : lanes & doubted_at(child));
+                                  tests_rays ? lanes : lanes & (loose_ | Steps::doubted_at(child)));
       if (tests_rays && !child.is_leaf())
         for_each_lane(lanes, [&](uint32_t packet) {
           stack.push(first, {child, 1u << packet, enter[i], hit_rays_[packet]});
@@ -417,15 +285,6 @@ private:
     return false;
   }
 
-  /// Whether leaves are hit by frusta only, without slab tests of rays. Frusta of rays through one point are
-  /// tight. On an SPE the rays are tested all the same, because fetching an object by DMA costs more.
-  bool trusts_frusta() const { return kHasBundleViews<Spu> && view_ != nullptr; }
-  /// The packets whose rays are tested for a child although those of others are not.
-  uint32_t doubted_at(const NodeRef& child) const {
-    if constexpr (kHasBundleViews<Spu>)
-      if (child.is_leaf()) return loose_ | wide_;
-    return loose_;
-  }
   /// Packets split early where triangles are assumed to be smaller than what is between `rays`, so many in a
   /// picture.
   void set_max_split_packets(float rays) {
@@ -457,46 +316,14 @@ private:
     return missing;
   }
 
-  void intersect_leaf(BundleLeafTests<Spu>& leaves, const NodeRef& leaf, uint32_t packets,
+  void intersect_leaf(typename Steps::LeafTests& leaves, const NodeRef& leaf, uint32_t packets,
                       RayQuery* queries) {
-    if constexpr (kHasBundleViews<Spu>)
-      if (view_ != nullptr) return update_tfar(leaves.add(queries, packets, leaf), queries);
-    objects_.scene().for_each_object(leaf, [&](uint32_t self) {
-      test_object(self, packets, queries);
-      return false;
-    });
+    if (!Steps::add_leaf(leaves, queries, leaf, packets))
+      objects_.scene().for_each_object(leaf, [&](uint32_t self) {
+        Steps::test_object(self, packets, queries);
+        return false;
+      });
     update_tfar(packets, queries);
-  }
-  /// Tests deferred triangles, unless they can wait for those of the next leaf. If the next entry is a node
-  /// they cannot: their hits should shorten tfar before it is expanded.
-  [[gnu::always_inline]] void test_deferred([[maybe_unused]] BundleLeafTests<Spu>& leaves,
-                                            [[maybe_unused]] RayQuery* queries,
-                                            [[maybe_unused]] uint32_t bundled) {
-    if constexpr (kHasBundleViews<Spu>) {
-      if (!leaves.has_deferred()) return;
-      const Stack& stack = packet_traversal_.stack();
-      if (stack.size() != 0 && stack.top().ref.is_leaf() && leaves.has_room_for(stack.top().ref)) return;
-      update_tfar(leaves.test(queries), queries);
-      max_tfar_ = Lanes::greatest_of(bundled, tfar_);
-    }
-  }
-  void test_object(uint32_t self, uint32_t packets, RayQuery* queries) {
-    if constexpr (kTestsWholeLeaves<Spu>) {
-      if (queries[__builtin_ctz(packets)].hits != nullptr)
-        objects_.test_closest_of_all(queries, packets, self);
-      else
-        objects_.test_occlusion_of_all(queries, packets, self);
-      return;
-    }
-    for_each_lane(packets, [&](uint32_t packet) {
-      RayQuery& query = queries[packet];
-      if (query.hits != nullptr) {
-        objects_.test_closest(*query.rays, self, *query.hits);
-      } else if (query.lanes != 0) {
-        objects_.hit_filter().begin_packet();
-        query.lanes &= ~objects_.occluded(*query.rays, self, query.lanes, *query.distance, *query.light);
-      }
-    });
   }
 
   void update_tfar(uint32_t packets, const RayQuery* queries) {
@@ -505,15 +332,9 @@ private:
   /// A packet that is wholly occluded has a negative tfar: it hits no further node.
   void update_tfar(const RayQuery& query, uint32_t packet) {
     if (query.hits != nullptr)
-      tfar_[packet] = PacketTraversal<Spu>::tfar_of(query, query.lanes) * shortening(packet);
+      tfar_[packet] = PacketTraversal<Spu>::tfar_of(query, query.lanes) * Steps::shortening(packet);
     else if (query.lanes == 0)
       tfar_[packet] = -1.0f;
-  }
-  /// The factor from distances along a packet's rays, of unit directions, to distances in its frustum, whose
-  /// directions have length 1 on the major axis.
-  float shortening([[maybe_unused]] uint32_t packet) const {
-    if constexpr (kHasBundleViews<Spu>) return view_ != nullptr ? shortening_[packet] : 1.0f;
-    return 1.0f;
   }
   uint32_t within_tfar(float distance) const {
     return Lanes::at_most(Lanes::splat(distance), Lanes::Type::load(tfar_));
@@ -523,25 +344,18 @@ private:
   const BvhRecord& bvh_;
   PacketTraversal<Spu> packet_traversal_;
   const float object_count_, rays_of_frame_;
-  uint32_t max_split_packets_ = 1; ///< of the bundle
-  const bool mixes_octants_, mixes_always_;
-  [[no_unique_address]] Present<LeafList<Spu>, kMixesOctants<Spu>> leaves_;
+  uint32_t max_split_packets_ = 1;              ///< of the bundle
   RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< by packet; intersect_packet() uses the first
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;
   Frustum<S> bundle_frustum_;                  ///< contains all of frusta_
   uint32_t hit_rays_[kBundlePackets<Spu>];     ///< by packet, of the child that was tested last
   uint32_t misses_[kBundlePackets<Spu>];       ///< by packet: nodes that its frustum hit, but no ray
   uint32_t loose_ = 0;                         ///< packets whose frusta are loose
-  uint32_t wide_ = 0;                          ///< ViewBundle::wide; undefined without a view
   float max_tfar_ = 0.0f;                      ///< the greatest of tfar_
-  const BundleView<S>* view_ = nullptr;        ///< of the bundle, if its rays pass through one point
   uint32_t octant_ = 0;                        ///< of all rays of the bundle
-  bool reversed_ = false;                      ///< the frusta are those of reversed rays
   uint32_t known_rays_ = 0, known_frusta_ = 0; ///< packets whose part of ray_groups_ is set
   /// By packet, in distances of its frustum. Negative: the packet hits nothing.
   alignas(64) float tfar_[kBundlePackets<Spu>] = {};
-  /// By packet; see shortening(). Undefined for rays that do not pass through one point.
-  alignas(64) float shortening_[kHasBundleViews<Spu> ? kBundlePackets<Spu> : 1] = {};
 };
 
 } // namespace celltrace::kernel

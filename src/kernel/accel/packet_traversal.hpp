@@ -8,9 +8,8 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/frustum.hpp"
+#include "kernel/accel/object_tests.hpp"
 #include "kernel/accel/traversal_loop.hpp"
-#include "kernel/direct/deferred_leaves.hpp"
-#include "kernel/direct/leaf_tests.hpp"
 
 namespace celltrace::kernel {
 
@@ -20,7 +19,22 @@ template <class S> struct RayGroup {
   Frustum<S> frustum;
 };
 
-template <class Spu> class PacketTraversal {
+/// Traverses the BVH with packets. A strategy's PacketSteps have:
+///
+///   kMaxInterleaved                     traversals at a time, at most
+///   interleaves()                       whether traverse_interleaved() is faster than one after the other
+///   tnear(query)                        the distance before which rays leave nodes whose hits are too near
+///   test_leaf(leaf, group, query)       whether the objects of a leaf have been tested together
+///   Deferred                            leaves that wait until there `are_enough()`
+///   defer(slot, state, leaf, query)     whether a leaf waits
+///   test_deferred(slot, state, query)   tests those that wait
+///   push_hit(slot, state, rays, order, query, node, hit, enter)   pushes children that rays hit, of those in
+///                                       `hit`
+template <class Spu>
+class PacketTraversal : public Strategy<Spu>::template PacketSteps<PacketTraversal<Spu>, Spu> {
+  using Steps = typename Strategy<Spu>::template PacketSteps<PacketTraversal, Spu>;
+  friend Steps;
+
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -41,16 +55,11 @@ public:
     uint32_t lanes, hit;
     NodeRef ref;
   };
-  static constexpr uint32_t kMaxInterleaved = kPrefetchesLines<Spu> ? tuning::kMaxInterleaved : 1;
+  using Steps::kMaxInterleaved, Steps::tnear;
 
-  PacketTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
-      : objects_(objects),
-        defers_leaves_(kPrefetchesLines<Spu> && frame.object_count > tuning::kObjectsInCoreCache),
-        interleaves_(kPrefetchesLines<Spu> && frame.far_nodes != 0) {}
+  PacketTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame) : Steps(frame), objects_(objects) {}
 
   Stack& stack() { return slots_[0].stack; }
-  /// Whether traverse_interleaved() is faster than one traversal after the other.
-  bool interleaves() const { return interleaves_; }
 
   /// Traverses the subtree below a task's node.
   void traverse(const Task& task, const SlabOrder& order) {
@@ -59,10 +68,10 @@ public:
     PacketVisitor<false> visitor = {
         *this, slot, order, *task.group, *task.query, begin(slot, task, floor), task.lanes, floor};
     NodeRef ref = task.ref;
-    if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().begin_traversal(*task.query);
+    objects_.begin_traversal(*task.query);
     traverse_nodes(visitor, ref);
     visitor.end();
-    if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().end_traversal();
+    objects_.end_traversal();
   }
 
   /// The same for several tasks, each of a different packet, interleaved: while the node that one traversal
@@ -95,12 +104,6 @@ public:
       }
   }
 
-  /// The distance from which on hits count for certain not to be too near: nodes that rays leave before are
-  /// missed. Where surfaces lie on each other, those are many.
-  static float tnear(const RayQuery& query) {
-    if constexpr (!kHasRoomForCode<Spu>) return 0.0f;
-    return 0.5f * (query.hits != nullptr ? kMinHitDistance : kShadowEpsilon);
-  }
   /// The tfar of each ray: the distance of its closest hit so far, or of the light.
   static F tfar(const RayQuery& query) {
     return F::load(query.hits != nullptr ? query.hits->distance.lane : query.distance->lane);
@@ -117,13 +120,7 @@ public:
 
   /// Tests the objects of a leaf, which the rays in `group` hit.
   void test_objects(const NodeRef& leaf, uint32_t group, RayQuery& query) {
-    if constexpr (kTestsWholeLeaves<Spu>) {
-      if (leaf_word::count(leaf.leaf) >= tuning::kLeastTrianglesByLeaf) {
-        if (__builtin_popcount(group) <= tuning::kMostRaysByLeaf)
-          return LeafTests<Spu>(objects_).test(query, group, leaf);
-        if (query.hits == nullptr) return objects_.test_occlusion_by_leaf(leaf, group, query);
-      }
-    }
+    if (Steps::test_leaf(leaf, group, query)) return;
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       if (query.hits != nullptr) {
         if (objects_.hit_filter().first_test(self)) objects_.test_closest(*query.rays, self, *query.hits);
@@ -146,7 +143,7 @@ private:
   /// The storage of one of several interleaved traversals.
   struct Slot {
     Stack stack;
-    typename LeavesToDefer<Spu>::Type deferred;
+    [[no_unique_address]] typename Steps::Deferred deferred;
     Frustum<S> single; ///< of the ray that has been split off
   };
 
@@ -176,7 +173,7 @@ private:
         if (descends) traversal.objects_.scene().hint(ref);
         hinted = descends || slot.stack.size() > size;
       }
-      if (!descends && slot.deferred.are_enough()) traversal.test_deferred(slot, state, query);
+      if (!descends && slot.deferred.are_enough()) traversal.Steps::test_deferred(slot, state, query);
       return descends;
     }
     [[gnu::always_inline]] void test(const NodeRef& leaf) {
@@ -188,7 +185,7 @@ private:
     }
     bool pauses() const { return kInterleaved && hinted; }
     [[gnu::always_inline]] void end() {
-      traversal.test_deferred(slot, state, query);
+      traversal.Steps::test_deferred(slot, state, query);
       slot.stack.shrink(floor);
     }
   };
@@ -237,26 +234,9 @@ private:
   /// Tests the objects of a leaf, or defers it with a few others until after a node is expanded. Meanwhile
   /// its objects are prefetched; and while they are tested, the children of that node are.
   void intersect_leaf(Slot& slot, TraversalState& state, const NodeRef& leaf, RayQuery& query) {
-    if constexpr (kPrefetchesLines<Spu>) {
-      if (defers_leaves_) {
-        if (slot.deferred.is_full()) test_deferred(slot, state, query);
-        objects_.scene().hint(leaf);
-        slot.deferred.add(leaf, state.group);
-        return;
-      }
-    }
+    if (Steps::defer(slot, state, leaf, query)) return;
     test_objects(leaf, state.group, query);
     update_state(slot, state, query);
-  }
-  void test_deferred([[maybe_unused]] Slot& slot, [[maybe_unused]] TraversalState& state,
-                     [[maybe_unused]] RayQuery& query) {
-    if constexpr (kPrefetchesLines<Spu>) {
-      if (slot.deferred.count() == 0) return;
-      for (uint32_t i = 0; i < slot.deferred.count(); ++i)
-        test_objects(slot.deferred[i].ref, slot.deferred[i].group, query);
-      slot.deferred.clear();
-      update_state(slot, state, query);
-    }
   }
   /// Shortens tfar after hits, or ends the traversal of a group that is wholly occluded.
   void update_state(Slot& slot, TraversalState& state, const RayQuery& query) {
@@ -281,49 +261,11 @@ private:
       ref = {node.child[i], node.leaf[i]};
       return true;
     }
-    const uint32_t group = state.group;
-    if constexpr (kHasRoomForCode<Spu>) {
-      push_children(slot, node,
-                    is_single(group) ? Lanes4{group, group, group, group}
-                                     : rays.intersect_all(node.bounds, order, tfar(query), tnear(query)),
-                    group, hit, enter);
-      return false;
-    }
-    const F each_tfar = tfar(query);
-    const uint32_t first = slot.stack.size();
-    do {
-      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(hit));
-      hit &= hit - 1;
-      objects_.scene().spu().compute(scalar_work::kBvhChild);
-      // For a single ray, the frustum is the ray.
-      const uint32_t lanes =
-          is_single(group) ? group : rays.intersect(node.bounds, order, i, each_tfar) & group;
-      if (lanes == 0) continue;
-      const NodeRef child = {node.child[i], node.leaf[i]};
-      objects_.scene().hint(child);
-      slot.stack.push(first, {child, lanes, enter[i], 0});
-    } while (hit != 0);
+    Steps::push_hit(slot, state, rays, order, query, node, hit, enter);
     return false;
   }
 
-  /// Pushes those of the children in `hit` that some of the rays `group` hit, without a branch: which ones
-  /// they are and in what order can hardly be predicted.
-  [[gnu::always_inline]] void push_children(Slot& slot, const NodeRecord& node, const Lanes4& hit_by,
-                                            uint32_t group, uint32_t hit, const float (&enter)[4]) {
-    uint32_t lanes[4];
-    float key[4];
-    for (uint32_t i = 0; i < 4; ++i) {
-      lanes[i] = hit_by.lanes[i] & group & (0u - (hit >> i & 1));
-      key[i] = lanes[i] != 0 ? enter[i] : -1.0f;
-    }
-    slot.stack.push_all(key, lanes, node.child, node.leaf);
-    for (uint32_t i = 0; i < 4; ++i)
-      if (lanes[i] != 0) objects_.scene().hint({node.child[i], node.leaf[i]});
-  }
-
   ObjectTests<Spu>& objects_;
-  const bool defers_leaves_;
-  const bool interleaves_;
   Slot slots_[kMaxInterleaved]; ///< traverse() uses the first
 };
 

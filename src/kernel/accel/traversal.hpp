@@ -5,7 +5,6 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/bvh_traversal.hpp"
 #include "kernel/accel/grid_traversal.hpp"
-#include "kernel/direct/area_occluders.hpp"
 
 namespace celltrace::kernel {
 
@@ -14,8 +13,14 @@ constexpr uint32_t kGridOnly = 1u << static_cast<uint32_t>(AcceleratorKind::grid
 constexpr uint32_t kBvhOnly = 1u << static_cast<uint32_t>(AcceleratorKind::bvh);
 constexpr uint32_t kAnyAccelerator = kGridOnly | kBvhOnly;
 
-/// Answers ray queries with the uniform grid or the BVH.
-template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class Traversal {
+/// Answers ray queries with the uniform grid or the BVH. A strategy's BundleQueries have:
+///
+///   intersect_toward(queries, count, light)   whether the queries toward a light have been answered together
+template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
+class Traversal : public Strategy<Spu>::template BundleQueries<Traversal<Spu, kAccelerators>, Spu> {
+  using Bundles = typename Strategy<Spu>::template BundleQueries<Traversal, Spu>;
+  friend Bundles;
+
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -41,16 +46,6 @@ public:
     intersect_packet(query);
   }
 
-  /// As transmittance(), for a query whose light is that of KeptCrossings, which keep what is crossed or, if
-  /// it `lists` that, only where. The light of lanes for which they had no room becomes 0.
-  void keep_crossings(RayQuery& query, bool lists) {
-    keep(lists, [&] { intersect_packet(query); });
-  }
-  /// The same for several queries toward one light. May change their order.
-  void keep_crossings(RayQuery* queries, uint32_t count, const LightRecord& light, bool lists) {
-    keep(lists, [&] { intersect(queries, count, light); });
-  }
-
   /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
   /// do, before the light; the light of the others becomes 0.
   CELLTRACE_ONE_COPY uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
@@ -63,38 +58,6 @@ public:
     query = {&rays, nullptr, &distance, &colour, (at < end).bits() & lanes};
     S::min(at, end).store(distance.lane);
     clear_occluded(&query, 1);
-    return query.lanes;
-  }
-
-  /// Gathers what may be between a packet's surfaces and a light with an area.
-  typename AreaOccluders<Spu>::Known gather_occluders(const RayPacket& rays, uint32_t lanes,
-                                                      const LightRecord& light,
-                                                      AreaOccluders<Spu>& occluders) {
-    using Known = typename AreaOccluders<Spu>::Known;
-    if (!uses_bvh()) return Known::nothing;
-    const Known known = occluders.gather(objects_, frame_, rays, lanes, light);
-    return known == Known::nodes && lists_all() ? Known::nothing : known;
-  }
-  /// As transmittance(), where it is known in which nodes rays may hit something.
-  void transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
-                     const AreaOccluders<Spu>& occluders) {
-    RayQuery query = {&rays, nullptr, &distance, &light, lanes};
-    intersect_listed(&query, 1);
-    bvh_.intersect_leaves(query, occluders.nodes(), occluders.node_count());
-    clear_occluded(&query, 1);
-  }
-  /// Removes lanes from queries for light that cross one of the occluders, all of which are opaque.
-  void test_occluders(RayQuery* queries, uint32_t count, const AreaOccluders<Spu>& occluders) {
-    occluders.test(objects_, queries, count);
-  }
-
-  /// Whether opaque objects are remembered from now on that occlude rays.
-  void remember_occluders(bool remembers) { objects_.remember_occluders(remembers); }
-  /// Those of `lanes` that cross none of the opaque objects that are remembered: `light` stays what it is.
-  uint32_t unoccluded_by_recent(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
-                                VectorLanes& light) {
-    RayQuery query = {&rays, nullptr, &distance, &light, lanes};
-    objects_.test_recent(query);
     return query.lanes;
   }
 
@@ -124,55 +87,7 @@ public:
 
   /// The same for shadow rays toward one light. May change the order of the queries.
   void intersect(RayQuery* queries, uint32_t count, const LightRecord& light) {
-    if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (asks_bvh() && !is_parallel(light)) {
-        intersect_listed(queries, count);
-        // Planes may leave packets without rays, which a bundle cannot have.
-        const uint32_t with_rays = frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
-        if (with_rays != 0) bvh_.intersect(queries, with_rays, light.location);
-        return clear_occluded(queries, count);
-      }
-    }
-    intersect(queries, count);
-  }
-
-  /// Finds the closest hits of packets of an application, by the BVH: those before the distances that are in
-  /// `hits`, where no object is yet. Each query has some lanes. `bundle`: of these packets, and entered last.
-  void find_closest_within(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
-    intersect_listed(queries, count);
-    if (!lists_all()) bvh_.intersect(queries, count, bundle);
-  }
-
-  /// As intersect(), of rays that may all start at one point. May change the order of the queries.
-  void intersect_from_origin(RayQuery* queries, uint32_t count) {
-    if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (asks_bvh()) {
-        reset_hits(queries, count);
-        intersect_listed(queries, count);
-        const uint32_t with_rays = queries_with_rays(queries, count);
-        if (with_rays == 0) return;
-        const OriginBundle<S> bundle(queries, with_rays);
-        if (bundle.packets != 0) bvh_.enter(bundle);
-        return bvh_.intersect(queries, with_rays, bundle);
-      }
-    }
-    intersect(queries, count);
-  }
-
-  /// Starts the traversal for a bundle of rays from one point. False: certainly none of them hits anything.
-  template <class Bundle> bool enter(const Bundle& bundle) {
-    if constexpr (kHasBvh)
-      return !uses_bvh() || bundle.packets == 0 || (lists_all() && frame_.unbounded_count != 0) ||
-             bvh_.enter(bundle) || frame_.unbounded_count != 0;
-    else
-      return true;
-  }
-  /// Finds the closest hits of the bundle that was entered last; query i is that of its packet i.
-  void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
-    if (!asks_bvh() || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
-    reset_hits(queries, kBundlePackets<Spu>);
-    intersect_listed(queries, kBundlePackets<Spu>);
-    if constexpr (kHasBvh) bvh_.intersect(queries, bundle);
+    if (!Bundles::intersect_toward(queries, count, light)) intersect(queries, count);
   }
 
   ObjectTests<Spu>& objects() { return objects_; }
@@ -183,15 +98,8 @@ public:
   }
 
 private:
-  using Translucency = typename ObjectTests<Spu>::Translucency;
   static constexpr bool kHasGrid = (kAccelerators & kGridOnly) != 0,
                         kHasBvh = (kAccelerators & kBvhOnly) != 0;
-
-  template <class Run> void keep(bool lists, Run run) {
-    objects_.set_translucency(lists ? Translucency::is_listed : Translucency::is_kept);
-    run();
-    objects_.set_translucency(Translucency::attenuates);
-  }
 
   void intersect_grid(RayQuery* queries, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
@@ -203,25 +111,14 @@ private:
     }
   }
 
-  /// Moves queries that have rays in front of those that have none; returns how many they are.
-  static uint32_t queries_with_rays(RayQuery* queries, uint32_t count) {
-    uint32_t with_rays = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-      if (queries[i].lanes == 0) continue;
-      const RayQuery query = queries[i];
-      queries[i] = queries[with_rays];
-      queries[with_rays++] = query;
-    }
-    return with_rays;
-  }
-
   CELLTRACE_ONE_COPY static void reset_hits(const RayQuery* queries, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
       HitPacket* const hits = queries[i].hits;
       if (hits == nullptr) continue;
       // Where there is room for it, other rays hit nothing: instances take long to find out what.
       const F farthest(kMaxHitDistance);
-      (kHasRoomForCode<Spu> ? S::select(S::M::from_bits(queries[i].lanes), farthest, F(-1.0f)) : farthest)
+      (Strategy<Spu>::kHasShortcuts ? S::select(S::M::from_bits(queries[i].lanes), farthest, F(-1.0f))
+                                    : farthest)
           .store(hits->distance.lane);
       store_words<S>(hits->object, S::I::splat(-1));
     }
@@ -247,7 +144,7 @@ private:
     }
   }
   /// Whether no accelerator is asked. Where there is no room for more code, one always is.
-  bool lists_all() const { return kHasRoomForCode<Spu> && lists_all_; }
+  bool lists_all() const { return Strategy<Spu>::kHasShortcuts && lists_all_; }
   bool asks_bvh() const { return uses_bvh() && !lists_all(); }
   bool uses_bvh() const {
     if constexpr (kAccelerators != kAnyAccelerator) return kHasBvh;

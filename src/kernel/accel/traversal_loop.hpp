@@ -2,7 +2,7 @@
 // dialect.
 #pragma once
 
-#include "kernel/accel/traversal_stack.hpp"
+#include "kernel/traversal_stack.hpp"
 
 namespace celltrace::kernel {
 

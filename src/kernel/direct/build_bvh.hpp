@@ -4,7 +4,7 @@
 #include "kernel/accel/object_bounds.hpp"
 #include "kernel/direct/build_bvh_leaves.hpp"
 #include "kernel/direct/build_bvh_memory.hpp"
-#include "kernel/direct/door.hpp"
+#include "kernel/strategy.hpp"
 
 namespace celltrace::kernel {
 
@@ -285,7 +285,7 @@ private:
 /// All SPEs of a team call this at the same time. `team` provides its size(), the index() of this SPE, and a
 /// barrier wait(), which also makes the writes of all of them visible.
 template <class Spu, class Team> uint32_t build_bvh(Spu& spu, const FrameBlock& frame, Team&& team) {
-  static_assert(kBuildsBvh<Spu>, "the builder follows pointers to main memory");
+  static_assert(std::is_same_v<Strategy<Spu>, DirectStrategy>, "the builder follows pointers to main memory");
   using Builder = bvh::Builder<Spu>;
   const uint32_t builders = team.size() < bvh::kMaxBuilders ? team.size() : bvh::kMaxBuilders;
   uint8_t* const marked = spu.mark();

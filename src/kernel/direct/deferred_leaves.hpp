@@ -1,8 +1,8 @@
 // Leaves whose objects are prefetched before they are tested. Kernel dialect.
 #pragma once
 
-#include "kernel/accel/traversal_stack.hpp"
-#include "kernel/direct/door.hpp"
+#include "kernel/traversal_stack.hpp"
+#include "kernel/tuning.hpp"
 
 namespace celltrace::kernel {
 
@@ -26,16 +26,5 @@ private:
   Leaf leaves_[tuning::kMaxDeferredLeaves];
   uint32_t count_ = 0;
 };
-
-/// In place of DeferredLeaves where every leaf is tested at once.
-class NoDeferredLeaves {
-public:
-  static constexpr bool are_enough() { return false; }
-};
-
-template <class Spu, bool kPrefetches = kPrefetchesLines<Spu>> struct LeavesToDefer {
-  using Type = DeferredLeaves;
-};
-template <class Spu> struct LeavesToDefer<Spu, false> { using Type = NoDeferredLeaves; };
 
 } // namespace celltrace::kernel

@@ -6,7 +6,6 @@
 // apart, see neighbours_of_lanes.hpp.
 #pragma once
 
-#include "kernel/direct/door.hpp"
 #include "kernel/records.hpp"
 
 #include <stdint.h>

@@ -4,26 +4,11 @@
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
-#include "kernel/accel/traversal_stack.hpp"
 #include "kernel/direct/record_lanes.hpp"
-#include "kernel/primitives/triangle.hpp"
+#include "kernel/primitives/instances_module.hpp"
+#include "kernel/traversal_stack.hpp"
 
 namespace celltrace::kernel {
-
-/// A triangle's distance is rounded: boxes around it are a little longer than they are.
-constexpr float kLongerBox = 1.00001f;
-
-/// What of an instance's test is the same for all of its rays.
-struct InstanceTest {
-  uint32_t first_number, first_triangle; ///< of the mesh's first triangle: its number, and its offset
-  float nearest;                         ///< hits are farther
-  bool any;                              ///< any hit will do: rays end with their first
-};
-
-/// What it took.
-struct InstanceWork {
-  uint32_t nodes, triangles;
-};
 
 template <class Spu> class InstanceRays {
 public:
@@ -49,11 +34,11 @@ public:
     octant_rays_.set(local_, octant_);
   }
 
-  /// Whether they are several, and of one octant.
-  bool has_frustum() const { return has_frustum_; }
-  /// In that case: pushes the children of a node that some of `lanes` enter before `reach`.
-  [[gnu::always_inline]] void expand(const NodeRecord& node, uint32_t lanes, const F& reach,
+  /// If they are several, and of one octant: pushes the children of a node that some of `lanes` enter before
+  /// `reach`. Otherwise false.
+  [[gnu::always_inline]] bool expand(const NodeRecord& node, uint32_t lanes, const F& reach,
                                      Stack& stack) const {
+    if (!has_frustum_) return false;
     const SlabOrder order(octant_);
     alignas(16) float enter[4];
     const uint32_t siblings = stack.size();
@@ -63,11 +48,24 @@ public:
       const uint32_t hit = octant_rays_.intersect(node.bounds, order, i, reach) & lanes;
       if (hit != 0) stack.push(siblings, {child, hit, enter[i], 0});
     });
+    return true;
   }
 
-  /// Traverses the subtree below `ref` with one of them.
-  void traverse(SceneAccess<Spu>& scene, uint32_t lane, NodeRef ref, const InstanceTest& test, Stack& stack,
-                HitPacket& hits, InstanceWork& work) const {
+  /// Traverses the subtree below `ref` with those of `lanes`, one after the other, if they are few. Otherwise
+  /// false.
+  [[gnu::always_inline]] bool traverse(SceneAccess<Spu>& scene, uint32_t lanes, const NodeRef& ref,
+                                       const InstanceTest& test, Stack& stack, HitPacket& hits,
+                                       InstanceWork& work) const {
+    if (lanes == 0 || __builtin_popcount(lanes) > tuning::kMostRaysAlone) return false;
+    const NodeRef below = ref;
+    for_each_lane(lanes, [&](uint32_t lane) { traverse_alone(scene, lane, below, test, stack, hits, work); });
+    return true;
+  }
+
+private:
+  /// Traverses it with one of them.
+  void traverse_alone(SceneAccess<Spu>& scene, uint32_t lane, NodeRef ref, const InstanceTest& test,
+                      Stack& stack, HitPacket& hits, InstanceWork& work) const {
     const uint32_t floor = stack.size();
     const Slabs slabs(*this, lane);
     for (;;) {
@@ -89,7 +87,6 @@ public:
     }
   }
 
-private:
   /// The ray in every lane, and which rows of bounds are near it.
   struct Slabs {
     F4 origin[3], inverse[3];

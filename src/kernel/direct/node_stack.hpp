@@ -6,18 +6,19 @@
 namespace celltrace::kernel {
 
 /// Nodes are made where they lie on the stack: pushing one copies nothing.
-template <class Spu, uint32_t kResident> class RayStack<Spu, kResident, true> {
+class NodeStack {
 public:
   /// `nodes` of them lie at `memory`, one of which is always next().
-  RayStack(Spu&, ea_t memory, uint32_t nodes, uint32_t, RayNode&)
+  template <class Spu>
+  NodeStack(Spu&, ea_t memory, uint32_t nodes, uint32_t, RayNode&)
       : nodes_(reinterpret_cast<RayNode*>(static_cast<uintptr_t>(memory))), capacity_(nodes - 1) {}
 
   bool empty() const { return size_ == 0; }
   void clear() { size_ = 0; }
 
-  /// Where the node is made that is pushed next.
   RayNode& next() { return nodes_[size_]; }
-  /// Pushes next(), which is another one then. False if the stack is full.
+  RayNode& next_like(const RayNode& pushed) { return next() = pushed; }
+
   bool push() {
     if (size_ == capacity_) return false;
     ++size_;
@@ -26,7 +27,6 @@ public:
   void pop(RayNode& node) { node = nodes_[--size_]; }
 
   void reset_counters() {}
-  /// None is anywhere else than the others.
   uint32_t spilled() const { return 0; }
 
 private:

@@ -117,11 +117,8 @@ private:
   uint32_t filling_rays_ = 0; ///< all of them
 };
 
-/// What a tracer has to do with a pool: nothing, where rays stay in the packets of their trees.
-template <class Spu, bool kPools = kPoolsRays<Spu>> struct RayPooling {
-  bool takes(const RayNode&) { return false; }
-};
-template <class Spu> struct RayPooling<Spu, true> {
+/// The way of a tracer's rays into a pool.
+template <class Spu> struct RayPooling {
   RayPool<Spu>* pool = nullptr;
   WordLanes pixels; ///< of the bundle, that the lanes of the rays are which are being traced
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "celltrace/ray.hpp"
-#include "kernel/accel/traversal.hpp"
 #include "kernel/direct/single_ray.hpp"
+#include "kernel/direct/strategy.hpp"
 #include "kernel/shading/hit_points.hpp"
 
 #include <stddef.h>

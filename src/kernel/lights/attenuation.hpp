@@ -1,9 +1,9 @@
 // Less light off the axis of a beam and far away. The formulas are POV-Ray's. Kernel dialect.
 #pragma once
 
-#include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
 #include "kernel/records.hpp"
+#include "kernel/strategy.hpp"
 
 namespace celltrace::kernel {
 
@@ -27,8 +27,7 @@ typename Spu::simd::F fade_share(const LightRecord& light, const typename Spu::s
   using S = typename Spu::simd;
   using F = typename S::F;
   const F ratio = distance * F(light.inverse_fade_distance), one(1.0f);
-  if constexpr (kHasRoomForCode<Spu>)
-    if (light.fade_power == 2.0f) return F(2.0f) / (one + ratio * ratio);
+  if (Strategy<Spu>::kHasShortcuts && light.fade_power == 2.0f) return F(2.0f) / (one + ratio * ratio);
   const F behind = S::select(ratio < F(0.0f), F(light.fade_behind), one);
   return F(2.0f) / (one + pow<S>(S::abs(ratio), F(light.fade_power)) * behind);
 }

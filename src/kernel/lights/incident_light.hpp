@@ -1,7 +1,7 @@
 // What a light source sends to surfaces. Kernel dialect.
 #pragma once
 
-#include "kernel/shading/surfaces.hpp"
+#include "kernel/lights/surfaces.hpp"
 
 namespace celltrace::kernel {
 
@@ -36,18 +36,17 @@ template <class S> struct IncidentLight {
 /// A part of what comes to them.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const IncidentLight<typename Spu::simd>& light,
-                                                     [[maybe_unused]] uint32_t first) {
-  if constexpr (kOnePart<Spu>) {
-    return (light);
-  } else {
-    IncidentLight<typename Spu::rare_simd> part;
-    part.direction = part_of<Spu>(light.direction, first);
-    part.distance = part_of<Spu>(light.distance, first);
-    part.cosine = part_of<Spu>(light.cosine, first);
-    part.colour = part_of<Spu>(light.colour, first);
-    part.facing = part_of<Spu>(light.facing, first);
-    return part;
-  }
+                                                     uint32_t first) {
+  return whole_or<Spu>(
+      light, [&]() __attribute__((always_inline)) {
+        IncidentLight<typename Spu::rare_simd> part;
+        part.direction = part_of<Spu>(light.direction, first);
+        part.distance = part_of<Spu>(light.distance, first);
+        part.cosine = part_of<Spu>(light.cosine, first);
+        part.colour = part_of<Spu>(light.colour, first);
+        part.facing = part_of<Spu>(light.facing, first);
+        return part;
+      });
 }
 
 /// Rays against a light, and how far each goes.

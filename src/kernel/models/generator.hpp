@@ -1,6 +1,7 @@
 // The program of an SPE that does nothing but make primary rays. Kernel dialect.
 #pragma once
 
+#include "kernel/entry/strategies.hpp"
 #include "kernel/models/primary_feed.hpp"
 #include "kernel/models/stage.hpp"
 

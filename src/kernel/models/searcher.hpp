@@ -2,6 +2,7 @@
 // one under way, and passes them on. Kernel dialect.
 #pragma once
 
+#include "kernel/entry/strategies.hpp"
 #include "kernel/models/doorbell.hpp"
 #include "kernel/models/search_stages.hpp"
 #include "kernel/models/stage.hpp"

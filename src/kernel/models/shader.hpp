@@ -3,6 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
+#include "kernel/entry/strategies.hpp"
 #include "kernel/models/arrived_light.hpp"
 #include "kernel/models/primary_feed.hpp"
 #include "kernel/models/search_writer.hpp"

@@ -6,13 +6,12 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
-#include "kernel/accel/traversal_stack.hpp"
-#include "kernel/direct/instance_rays.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/primitives/local_shape.hpp"
 #include "kernel/primitives/triangle.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
+#include "kernel/traversal_stack.hpp"
 
 #include <stddef.h>
 #include <string.h>
@@ -30,6 +29,21 @@ inline uint32_t instance_of(const ExtraRecord& extra) {
 struct InstancedTriangle {
   ObjectRecord object;
   ExtraRecord extra; ///< of a smooth one
+};
+
+/// A triangle's distance is rounded: boxes around it are a little longer than they are.
+constexpr float kLongerBox = 1.00001f;
+
+/// The part of an instance's test that is the same for all of its rays.
+struct InstanceTest {
+  uint32_t first_number, first_triangle; ///< of the mesh's first triangle: its number, and its offset
+  float nearest;                         ///< hits are farther
+  bool any;                              ///< any hit will do: rays end with their first
+};
+
+/// The work that it took.
+struct InstanceWork {
+  uint32_t nodes, triangles;
 };
 
 /// The offset of the InstanceRecord that a triangle's number belongs to.
@@ -108,10 +122,10 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
   const uint32_t first_triangle = instance.first_triangle, first = kInstancedBit + instance.first_number;
   NodeRef ref = {instance.root, 0};
   uint32_t lanes = (F::load(hits.distance.lane) > F(0.0f)).bits();
-  [[maybe_unused]] const InstanceTest test = {first, first_triangle, nearest, any};
+  const InstanceTest test = {first, first_triangle, nearest, any};
   // Where any hit will do, most rays end before a frustum pays.
-  [[maybe_unused]] const Present<InstanceRays<Spu>, kTestsWholeLeaves<Spu>> in_lanes(
-      rays, local.origin, local.direction, local.inverse, any ? 0u : lanes);
+  const typename Strategy<Spu>::template InstanceRays<Spu> few(rays, local.origin, local.direction,
+                                                               local.inverse, any ? 0u : lanes);
   TraversalStack<1, kMaxMeshLevels> stack;
   InstanceWork work = {0, 0};
   for (;;) {
@@ -137,12 +151,7 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
       ++work.nodes;
       const F reach = F::load(hits.distance.lane);
       const NodeRecord& node = *scene.node(ref.child);
-      bool is_done = false;
-      if constexpr (kTestsWholeLeaves<Spu>) {
-        is_done = in_lanes.has_frustum();
-        if (is_done) in_lanes.expand(node, lanes, reach, stack);
-      }
-      if (!is_done) local.expand(node, reach, any, stack);
+      if (!few.expand(node, lanes, reach, stack)) local.expand(node, reach, any, stack);
     }
     for (;;) {
       if (stack.size() == 0) return work;
@@ -150,14 +159,7 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
       ref = next.ref;
       // What has been hit since then may be nearer.
       lanes = next.lanes & (F(next.enter) <= F::load(hits.distance.lane) * F(kLongerBox)).bits();
-      if constexpr (kTestsWholeLeaves<Spu>) {
-        if (lanes != 0 && __builtin_popcount(lanes) <= tuning::kMostRaysAlone) {
-          const NodeRef below = ref;
-          for_each_lane(
-              lanes, [&](uint32_t lane) { in_lanes.traverse(scene, lane, below, test, stack, hits, work); });
-          continue;
-        }
-      }
+      if (few.traverse(scene, lanes, ref, test, stack, hits, work)) continue;
       if (lanes != 0) break;
     }
   }

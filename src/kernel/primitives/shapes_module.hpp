@@ -21,23 +21,22 @@ template <class S> struct ObjectLanes {
 /// The objects of a part of the rays.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const ObjectLanes<typename Spu::simd>& o,
-                                                     [[maybe_unused]] uint32_t first) {
-  if constexpr (kOnePart<Spu>) {
-    return (o);
-  } else {
-    ObjectLanes<typename Spu::rare_simd> part;
-    for (uint32_t i = 0; i < 4; ++i)
-      part.geometry[i] = part_of<Spu>(o.geometry[i], first);
-    for (uint32_t i = 0; i < 3; ++i)
-      part.normals[i] = part_of<Spu>(o.normals[i], first);
-    part.parameters.ratio = part_of<Spu>(o.parameters.ratio, first);
-    part.parameters.second = part_of<Spu>(o.parameters.second, first);
-    part.parameters.open = Spu::rare_simd::M::from_bits(part_of<Spu>(o.parameters.open.bits(), first));
-    for (uint32_t kind = 0; kind < kPrimitives; ++kind)
-      part.of_kind[kind] = part_of<Spu>(o.of_kind[kind], first);
-    part.smooth = part_of<Spu>(o.smooth, first);
-    return part;
-  }
+                                                     uint32_t first) {
+  return whole_or<Spu>(
+      o, [&]() __attribute__((always_inline)) {
+        ObjectLanes<typename Spu::rare_simd> part;
+        for (uint32_t i = 0; i < 4; ++i)
+          part.geometry[i] = part_of<Spu>(o.geometry[i], first);
+        for (uint32_t i = 0; i < 3; ++i)
+          part.normals[i] = part_of<Spu>(o.normals[i], first);
+        part.parameters.ratio = part_of<Spu>(o.parameters.ratio, first);
+        part.parameters.second = part_of<Spu>(o.parameters.second, first);
+        part.parameters.open = Spu::rare_simd::M::from_bits(part_of<Spu>(o.parameters.open.bits(), first));
+        for (uint32_t kind = 0; kind < kPrimitives; ++kind)
+          part.of_kind[kind] = part_of<Spu>(o.of_kind[kind], first);
+        part.smooth = part_of<Spu>(o.smooth, first);
+        return part;
+      });
 }
 
 /// Whether a kind's geometry is a map to a space of its own.
@@ -188,14 +187,8 @@ template <class Spu, class Shape>
                                                    const LocalParameters<typename Spu::simd>& parameters,
                                                    Crossings<typename Spu::simd>* crossings) {
   using S = typename Spu::simd;
-  if constexpr (kHasRoomForCode<Spu> && Shape::kHasFaces) {
-    // As in POV-Ray, a ray in the plane of a face is inside of it; rounding moves it off.
-    LocalRays<S> inside = rays;
-    inside.origin = Shape::template off_parallel_faces<S>(rays.origin, rays.direction, 1e-6f);
-    Shape::template intersect_local<S>(inside, parameters, crossings);
-  } else {
-    Shape::template intersect_local<S>(rays, parameters, crossings);
-  }
+  Shape::template intersect_local<S>(Strategy<Spu>::template off_faces<S, Shape>(rays), parameters,
+                                     crossings);
 }
 
 /// The crossings of a packet with an object; returns how many pairs. Rays are transformed in one place for

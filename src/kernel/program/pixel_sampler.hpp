@@ -86,7 +86,17 @@ constexpr bool wants_alpha(const FrameBlock& frame) {
 /// pixels out. A sampler is all but tracing, by one method: code of a module, which works on lanes part by
 /// part. Colours have three channels or, with light_way::alpha, four: the last one is how clear they are,
 /// which is compared as it is.
-template <class Spu, SamplingMethod kMethod, uint32_t kChannels> class PixelSampler {
+template <class Spu, SamplingMethod kMethod, uint32_t kChannels>
+class PixelSampler : public Strategy<Spu>::template Transfers<Spu, PixelSampler<Spu, kMethod, kChannels>> {
+  /// Moves data between main memory and local store:
+  ///
+  ///   fetch(ls, ea, bytes)
+  ///   send(ls, ea, bytes)               what is sent may be changed after arrive()
+  ///   send_object(object, ea)
+  ///   found_at(ea, room, bytes)         an object in main memory, there or in `room`
+  ///   arrive()                          waits for what has been sent
+  using Transfers = typename Strategy<Spu>::template Transfers<Spu, PixelSampler>;
+
 public:
   using S = typename Spu::simd;
   using R = typename Spu::rare_simd;
@@ -111,7 +121,7 @@ protected:
   static constexpr bool kHasAlpha = kChannels == 4;
   static constexpr uint32_t kEdge = kBundleEdge<Spu>;
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
-  static constexpr uint32_t kTag = 7;
+  using Transfers::arrive, Transfers::fetch, Transfers::found_at, Transfers::send, Transfers::send_object;
 
   using Colour = ColourRecord;
   using Points = PointRow<kChannels>;
@@ -135,7 +145,7 @@ protected:
   };
 
   PixelSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, Scratch& scratch)
-      : spu_(spu), frame_(frame), samples_(samples), scratch_(scratch) {}
+      : Transfers(spu), spu_(spu), frame_(frame), samples_(samples), scratch_(scratch) {}
 
   /// Whether a frame traces the grid, whose points at the bundle's (column, row) are stored then.
   [[gnu::always_inline]] bool takes_points(uint32_t column, uint32_t row) {
@@ -153,45 +163,6 @@ protected:
   }
   /// Bits of the pixels of a row that are in the picture.
   uint32_t row_mask() const { return width_ == kSampledEdge ? ~0u : (1u << width_) - 1; }
-
-  // Most of what moves is small: where memory is direct, a transfer would take longer than the copy.
-
-  CELLTRACE_ONE_COPY void fetch(void* ls, ea_t ea, uint32_t bytes) {
-    if constexpr (kReadsInPlace<Spu>) {
-      __builtin_memcpy(ls, reinterpret_cast<const void*>(static_cast<uintptr_t>(ea)), bytes);
-    } else {
-      spu_.get(ls, ea, bytes, kTag);
-      spu_.wait_all(1u << kTag);
-    }
-  }
-  /// What is sent may be changed after arrive().
-  CELLTRACE_ONE_COPY void send(const void* ls, ea_t ea, uint32_t bytes) {
-    if constexpr (kReadsInPlace<Spu>)
-      __builtin_memcpy(reinterpret_cast<void*>(static_cast<uintptr_t>(ea)), ls, bytes);
-    else
-      spu_.put(ls, ea, bytes, kTag);
-  }
-  /// An object that stays as it is until arrive(). Where memory is direct that is a copy without a call.
-  template <class Object> [[gnu::always_inline]] void send_object(const Object& object, ea_t ea) {
-    if constexpr (kReadsInPlace<Spu>)
-      *reinterpret_cast<Object*>(static_cast<uintptr_t>(ea)) = object;
-    else
-      send(&object, ea, sizeof(Object));
-  }
-  /// Objects in main memory: there if memory is direct, otherwise fetched to `room`.
-  template <class Object>
-  [[gnu::always_inline]] const Object* found_at(ea_t ea, [[maybe_unused]] Object* room,
-                                                [[maybe_unused]] uint32_t bytes = sizeof(Object)) {
-    if constexpr (kReadsInPlace<Spu>) {
-      return reinterpret_cast<const Object*>(static_cast<uintptr_t>(ea));
-    } else {
-      fetch(room, ea, bytes);
-      return room;
-    }
-  }
-  void arrive() {
-    if constexpr (!kReadsInPlace<Spu>) spu_.wait_all(1u << kTag);
-  }
 
   /// Returns the block's first line, counted from that of the surface.
   uint32_t first_line() const { return row_ * kSampledEdge - frame_.surface_row * kPacketEdge; }

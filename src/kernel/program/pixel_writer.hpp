@@ -39,12 +39,6 @@ template <class S>
   const F linear = frame.assumed_gamma == 1.0f ? clipped : pow<S>(clipped, F(frame.assumed_gamma));
   return round_up(encode_srgb<S>(linear));
 }
-/// One copy for all channels: local store is short.
-template <class S>
-CELLTRACE_ONE_COPY typename S::I quantise_elsewhere(const FrameBlock& frame, const typename S::F& value) {
-  return quantise<S>(frame, value);
-}
-
 /// Bytes R, G, B, A in the order of memory.
 template <class S>
 typename S::I pack(const typename S::I& r, const typename S::I& g, const typename S::I& b) {
@@ -66,10 +60,7 @@ template <class Spu>
                                                                   const V3<typename Spu::simd>& colour) {
   using S = typename Spu::simd;
   const auto channel = [&](const typename S::F& value) {
-    if constexpr (kHasRoomForCode<Spu>)
-      return detail::quantise<S>(frame, value);
-    else
-      return detail::quantise_elsewhere<S>(frame, value);
+    return Strategy<Spu>::template quantise<S>(frame, value);
   };
   return detail::pack<S>(channel(colour.x), channel(colour.y), channel(colour.z));
 }
@@ -152,8 +143,8 @@ private:
       spu_.wait_all(1u << (kFirstTag + current_));
       column_ = column;
       row_ = row;
-      if constexpr (kPrefetchesLines<Spu>)
-        if (!has_blocks()) claim_run();
+      if (!has_blocks())
+        Strategy<Spu>::claim_lines(corner_of_run(), kRows * kPacketEdge, frame_.surface_pitch);
     }
     return runs_[current_];
   }
@@ -161,15 +152,6 @@ private:
   ea_t corner_of_run() const {
     return frame_.surface + (row_ - frame_.surface_row) * kPacketEdge * frame_.surface_pitch +
            column_ * kPacketRowBytes;
-  }
-
-  /// Asks for the lines that a run will be written to: another processor may have read the last picture.
-  void claim_run() const {
-    const auto* row = reinterpret_cast<const uint8_t*>(static_cast<uintptr_t>(corner_of_run()));
-    for (uint32_t y = 0; y < kRows * kPacketEdge; ++y, row += frame_.surface_pitch) {
-      __builtin_prefetch(row, 1);
-      __builtin_prefetch(row + kLineBytes / 2, 1); // a PC's lines have half the size
-    }
   }
 
   // One copy: local store is short.

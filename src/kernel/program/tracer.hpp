@@ -148,7 +148,7 @@ private:
   void render() {
     spu_.enter_module(modules::kStart);
     begin_frame();
-    [[maybe_unused]] const ScopedCache<Spu, typename SceneAccess<Spu>::Fractals> fractals(phase_->scene);
+    [[maybe_unused]] const typename Strategy<Spu>::template KeptFractals<Spu> fractals(phase_->scene);
     const uint32_t start = spu_.read_decrementer();
     uint32_t idle = 0;
     exchange_.begin_frame(frame_, UnitRange{strip_.begin, strip_.end - strip_.begin});
@@ -298,16 +298,5 @@ private:
   Phase* phase_ = nullptr;
   uint8_t* free_; ///< local store from here on belongs to PREPARE FRAME or to the rendering phase
 };
-
-// The programs as the PPE starts them; `argument` is the ea of the FrameBlock.
-
-/// Finds objects by a BVH; where memory is direct and code takes no local store, by what the frame asks for.
-template <class Spu> void tracer(Spu& spu, ea_t argument) {
-  Tracer<Spu, kHasRoomForCode<Spu> ? kAnyAccelerator : kBvhOnly>(spu, argument).run();
-}
-/// By a uniform grid, which it also builds.
-template <class Spu> void grid_tracer(Spu& spu, ea_t argument) {
-  Tracer<Spu, kGridOnly>(spu, argument).run();
-}
 
 } // namespace celltrace::kernel

@@ -8,25 +8,6 @@
 
 namespace celltrace::kernel {
 
-/// Those of `lanes` in which a ray is inside of an interior.
-template <class Spu> uint32_t lanes_inside(const RayNode& ray, uint32_t lanes, uint32_t interior) {
-  using S = typename Spu::simd;
-  using I = typename S::I;
-  if constexpr (kHasRoomForCode<Spu>) {
-    const I depth = load_words<S>(ray.interior_depth), wanted = I::splat(static_cast<int32_t>(interior));
-    auto inside = S::M::none();
-    for (int32_t d = 0; d < static_cast<int32_t>(kMaxInteriorDepth); ++d)
-      inside = inside | ((load_words<S>(ray.interiors[d]) == wanted) & (I::splat(d) < depth));
-    return inside.bits() & lanes;
-  }
-  uint32_t inside = 0;
-  for_each_lane(lanes, [&](uint32_t lane) {
-    for (uint32_t d = 0; d < ray.interior_depth.lane[lane]; ++d)
-      if (ray.interiors[d].lane[lane] == interior) inside |= 1u << lane;
-  });
-  return inside;
-}
-
 /// What is left of the light of `lanes` that goes on from what it hits, after `distance` before. As in
 /// POV-Ray only rays fade that hit the surface of an interior that they are in, whatever else they are in,
 /// and shadow rays only where the power is not 0. The interior's refraction counts on both sides of its
@@ -42,7 +23,7 @@ template <class Spu>
     Kept<Spu, InteriorRecord> r = *scene.interior(offset);
     uint32_t inside = 0;
     if (r.inverse_fade_distance != 0.0f && !(is_shadow && r.fade_power == 0.0f))
-      inside = lanes_inside<Spu>(ray, same, offset);
+      inside = Strategy<Spu>::template lanes_inside<typename Spu::simd>(ray, same, offset);
     const float passed = is_shadow ? 1.0f : r.refraction();
     if (inside == 0 && passed == 1.0f) return;
     for_each_part<Spu>([&](uint32_t first) {
@@ -56,7 +37,7 @@ template <class Spu>
         left = {of(r.fade_colour[0]), of(r.fade_colour[1]), of(r.fade_colour[2])};
       } else {
         const F power =
-            kHasRoomForCode<Spu> && r.fade_power == 2.0f ? way * way : pow<S>(way, F(r.fade_power));
+            Strategy<Spu>::kHasShortcuts && r.fade_power == 2.0f ? way * way : pow<S>(way, F(r.fade_power));
         const F share = one / (one + power);
         const V3<S> colour = splat3<S>(r.fade_colour);
         left = colour + (V3<S>{one, one, one} - colour) * share;

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
-#include "kernel/direct/record_lanes.hpp"
+#include "kernel/lights/surfaces.hpp"
 #include "kernel/primitives/instances_module.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
-#include "kernel/shading/surfaces.hpp"
 
 namespace celltrace::kernel {
 
@@ -17,7 +16,7 @@ template <class S> struct HitPoints {
   WordLanes material; ///< offset of a MaterialRecord, or of a BlendRecord in lanes of `blended`
   WordLanes interior;
   uint32_t blended = 0;
-  uint32_t spawning = 0;  ///< lanes from which rays may go on, as object_flag's; where there is room for code
+  uint32_t spawning = 0;  ///< lanes from which rays may go on, as object_flag's
   uint32_t textured = 0;  ///< lanes some of whose materials are not the constants of their records alone
   uint32_t disturbed = 0; ///< of them, those some of whose materials disturb normals
   uint32_t lit_behind = 0, lit_through = 0; ///< as object_flag's
@@ -70,8 +69,7 @@ template <class Spu>
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
-  // Where there is room for the code, all at once what hits triangles alone.
-  const bool only_triangles = kHasRoomForCode<Spu> && triangles == 0xFFFF;
+  const bool only_triangles = Strategy<Spu>::kHasShortcuts && triangles == 0xFFFF;
   uint32_t others = 0, heavy = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
     if (!only_triangles && kind > kPrimitiveKind<PlanePrimitive>)
@@ -84,27 +82,10 @@ template <class Spu>
   };
   V3<S> p, n;
   if ((others | heavy) != 0) {
-    using R = typename Spu::rare_simd;
     if (heavy != 0) spu.enter_module(modules::kHeavyPoints);
-    for_each_part<Spu>([&](uint32_t first) {
-      const auto& part = part_of<Spu>(o, first);
-      const V3<R> at = part_of<Spu>(along_ray, first);
-      V3<R> of_part = at;
-      if constexpr (kOnePart<Spu>) {
-        p = at;
-        if (others != 0) of_part = local_normal<R>(part, way, p);
-      } else {
-        if (others != 0) of_part = local_normal<R>(part, at);
-      }
-      if (heavy != 0)
-        of_part = select<R>(R::M::from_bits(part_of<Spu>(heavy, first)),
-                            module_heavy_points::normal(spu, part, at), of_part);
-      set_part<Spu>(n, first, of_part);
-    });
-    if constexpr (kOnePart<Spu>)
-      add(others | heavy, p, n);
-    else
-      add(others | heavy, along_ray, n);
+    p = along_ray;
+    Strategy<Spu>::template find_normals<Spu>(spu, o, way, others, heavy, p, n);
+    add(others | heavy, p, n);
   }
   if (planes != 0) {
     // On the plane to the precision of the point: a pattern may have a step there.
@@ -124,24 +105,17 @@ template <class Spu>
 }
 
 /// Of surfaces that are seen from inside; of several materials that one has, the first says what that is.
-/// Without a store by lane, where there is room for code: whoever loads them next would wait for all.
 template <class Spu>
 CELLTRACE_ONE_COPY void take_inside_materials(SceneAccess<Spu>& scene, uint32_t lanes,
                                               HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
-  using I = typename S::I;
   scene.spu().run_in_module(modules::kFinishes);
-  WordLanes& materials = points.material;
-  [[maybe_unused]] I all = load_words<S>(materials);
-  for_each_value<S>(materials, lanes, [&](uint32_t outside, uint32_t same) {
+  typename Strategy<Spu>::template WordChanges<S> materials(points.material);
+  for_each_value<S>(points.material, lanes, [&](uint32_t outside, uint32_t same) {
     if ((same & points.blended) != 0) outside = scene.blend(outside)->material[0];
-    const uint32_t inside = scene.material(outside)->inside;
-    if constexpr (kHasRoomForCode<Spu>)
-      all = S::select(S::M::from_bits(same), I::splat(static_cast<int32_t>(inside)), all);
-    else
-      for_each_lane(same, [&](uint32_t lane) { materials.lane[lane] = inside; });
+    materials.set(same, scene.material(outside)->inside);
   });
-  if constexpr (kHasRoomForCode<Spu>) store_words<S>(materials, all);
+  materials.finish();
   points.blended &= ~lanes;
 }
 
@@ -217,7 +191,7 @@ template <class Spu>
         o.interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), o.interior);
         objects.of_kind[kind] |= same;
         if ((flags & object_flag::blended) != 0) points.blended |= same;
-        if (kHasRoomForCode<Spu> && (flags & object_flag::spawns) != 0) points.spawning |= same;
+        if ((flags & object_flag::spawns) != 0) points.spawning |= same;
         if ((flags & object_flag::textured) != 0) points.textured |= same;
         if ((flags & object_flag::disturbed) != 0) points.disturbed |= same;
         if ((flags & object_flag::smooth) != 0) {
@@ -247,38 +221,6 @@ template <class Spu>
   if ((first_flags & object_flag::open) != 0) o.open |= rest;
 }
 
-/// The same of several objects at once. False: there is only one, or some are triangles of instances.
-template <class Spu>
-[[gnu::always_inline]] inline bool load_several_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                                        uint32_t lanes, HitObjects<typename Spu::simd>& o,
-                                                        HitPoints<typename Spu::simd>& points) {
-  using S = typename Spu::simd;
-  using I = typename S::I;
-  const I all = load_words<S>(offsets);
-  const I first = I::splat(static_cast<int32_t>(offsets.lane[__builtin_ctz(lanes)]));
-  if ((lanes & ~(all == first).bits()) == 0) return false;
-  const I in_all = S::select(S::M::from_bits(lanes), all, first);
-  if ((in_all < I::splat(0)).bits() != 0) return false;
-  WordLanes filled;
-  store_words<S>(filled, in_all);
-  ObjectWords<S> words;
-  load_objects(scene, filled, o.objects, words);
-  o.material = words.material;
-  o.interior = words.interior;
-  o.open = words.lanes_with(object_flag::open);
-  points.blended = lanes & words.lanes_with(object_flag::blended);
-  points.spawning = lanes & words.lanes_with(object_flag::spawns);
-  points.textured = lanes & words.lanes_with(object_flag::textured);
-  points.disturbed = lanes & words.lanes_with(object_flag::disturbed);
-  if ((lanes & words.lanes_with(kOfSides)) != 0) {
-    o.two_sided = lanes & words.lanes_with(object_flag::two_sided);
-    o.inverse = lanes & words.lanes_with(object_flag::inverse);
-    points.lit_behind = lanes & words.lanes_with(object_flag::lit_behind);
-    points.lit_through = lanes & words.lanes_with(object_flag::lit_through);
-  }
-  return true;
-}
-
 } // namespace detail
 
 /// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the
@@ -293,10 +235,7 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   points.blended = points.spawning = points.textured = points.disturbed = 0;
   points.lit_behind = points.lit_through = 0;
   detail::HitObjects<S> o;
-  bool is_done = false;
-  if constexpr (kReadsInPlace<Spu>)
-    is_done = detail::load_several_objects(scene, hits.object, lanes, o, points);
-  if (!is_done) detail::gather_objects(scene, hits.object, lanes, o, points);
+  Strategy<Spu>::gather_objects(scene, hits.object, lanes, o, points);
   scene.spu().compute(scalar_work::kHitSurfaces);
   store_words<S>(points.material, o.material);
   store_words<S>(points.interior, o.interior);

@@ -71,11 +71,7 @@ bent_cosine(const MaterialLanes<typename Spu::simd>& m, const IncidentLight<type
   using RF = typename R::F;
   typename S::F bent = light.cosine;
   if (m.has(material_flag::bends_diffuse)) {
-    if constexpr (kHasRoomForCode<Spu>) {
-      const typename S::I power = whole_power<S>(m.brilliance);
-      if ((light.facing & ~(S::to_float(power) == m.brilliance).bits()) == 0)
-        return whole_pow<S>(light.cosine, power);
-    }
+    if (Strategy<Spu>::template bend_by_whole_power<S>(m.brilliance, light.facing, bent)) return bent;
     by_parts<Spu>(
         bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
         m.brilliance);
@@ -138,7 +134,7 @@ struct LightRound {
   VectorLanes* gathered;          ///< by light of the round; nothing of lights that are not asked for
   bool only_gathers = false;      ///< nothing else comes of it: surfaces are shaded for another time
   bool is_fresh = false;          ///< nothing has been gathered, and `gathered` is undefined
-  ShadowRays* to_first = nullptr; ///< where there is room for code: becomes the rays toward the first light
+  ShadowRays* to_first = nullptr; ///< if not null: becomes the rays toward the first light
 
   /// The round of a frame that begins with a light.
   static LightRound from(const FrameBlock& frame, uint32_t first, VectorLanes* gathered) {
@@ -180,23 +176,9 @@ CELLTRACE_ONE_COPY uint32_t lanes_above(const VectorLanes& light, uint32_t lanes
   return (most > typename S::F(least)).bits() & lanes;
 }
 
-/// Those of `lanes` whose surfaces may send on light of lights: not what is black, or diffuses nothing, and
-/// has no highlights.
-template <class Spu>
-uint32_t lit_lanes(const Surfaces<typename Spu::simd>& s, const MaterialLanes<typename Spu::simd>& m,
-                   uint32_t lanes) {
-  using S = typename Spu::simd;
-  using F = typename S::F;
-  const F zero(0.0f);
-  auto lit = !(((m.pigment.x == zero) & (m.pigment.y == zero) & (m.pigment.z == zero)) |
-               (m.diffuse * m.opacity == zero));
-  if (m.has(material_flag::highlights)) lit = lit | !((m.phong == zero) & (m.specular == zero));
-  return lanes & (lit.bits() | s.any_side | m.special);
-}
-
 /// Gathers what the surfaces of `lanes` send on of the lights of a round that are asked for, times `weight`.
-/// Returns the rest, without it: ambient light and that of other lights. Where there is room for code the
-/// round is fresh no more, unless no surface sends on any.
+/// Returns the rest, without it: ambient light and that of other lights. The round is fresh no
+/// more, unless no surface sends on any.
 template <class Spu>
 V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& frame, LightRound& round,
                                    const Surfaces<typename Spu::simd>& s,
@@ -206,24 +188,20 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
   using F = typename S::F;
   const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
   V3<S> sum = round.is_first() ? m.pigment * m.ambient * m.opacity : dark;
-  if constexpr (kHasRoomForCode<Spu>) {
-    lanes = lit_lanes<Spu>(s, m, lanes);
-    if (lanes == 0) return sum;
-  }
+  if (Strategy<Spu>::template are_dark<Spu>(s, m, lanes)) return sum;
   for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
     IncidentLight<S> incident(light.colour);
     illuminate(scene, light, s, lanes, incident);
     const uint32_t facing = incident.facing;
     VectorLanes& gathered = round.gathered[number - round.first];
-    const bool is_fresh = kHasRoomForCode<Spu> && round.is_fresh;
+    const bool is_fresh = Strategy<Spu>::is_fresh(round);
     if (facing == 0) {
       if (is_fresh) gathered.template store<S>(dark);
       return;
     }
     const bool is_asked = is_asked_for(light);
-    if constexpr (kHasRoomForCode<Spu>)
-      if (round.to_first != nullptr && number == round.first && is_asked)
-        make_shadow_rays(s.point, *s.objects, incident, round.to_first->rays, round.to_first->distance);
+    if (is_asked && Strategy<Spu>::wants_rays(round, number))
+      make_shadow_rays(s.point, *s.objects, incident, round.to_first->rays, round.to_first->distance);
     scene.spu().compute(scalar_work::kLight);
     V3<S> sent;
     if (s.any_side != 0) {
@@ -246,7 +224,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
     const V3<S> more = sent * weight;
     gathered.template store<S>(is_fresh ? more : gathered.template load<S>() + more);
   });
-  if constexpr (kHasRoomForCode<Spu>) round.is_fresh = false;
+  Strategy<Spu>::end_fresh(round);
   return sum;
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
+#include "kernel/lights/surfaces.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
-#include "kernel/shading/surfaces.hpp"
 #include "kernel/textures/normals.hpp"
 #include "kernel/textures/pigments.hpp"
 
@@ -28,38 +28,37 @@ template <class S> struct MaterialLanes {
 /// The materials of a part of a packet's lanes.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const MaterialLanes<typename Spu::simd>& m,
-                                                     [[maybe_unused]] uint32_t first) {
-  if constexpr (kOnePart<Spu>) {
-    return (m);
-  } else {
-    const auto part = [first](const auto& field) { return part_of<Spu>(field, first); };
-    MaterialLanes<typename Spu::rare_simd> o;
-    o.offsets = m.offsets;
-    o.pigment = part(m.pigment);
-    o.ambient = part(m.ambient);
-    o.reflection_min = part(m.reflection_min);
-    o.reflection_max = part(m.reflection_max);
-    o.filter = part(m.filter);
-    o.transmit = part(m.transmit);
-    o.opacity = part(m.opacity);
-    o.diffuse = part(m.diffuse);
-    o.brilliance = part(m.brilliance);
-    o.phong = part(m.phong);
-    o.phong_size = part(m.phong_size);
-    o.specular = part(m.specular);
-    o.inverse_roughness = part(m.inverse_roughness);
-    o.metallic = part(m.metallic);
-    o.reflection_falloff = part(m.reflection_falloff);
-    o.reflection_metallic = part(m.reflection_metallic);
-    o.inverse_reflection_exponent = part(m.inverse_reflection_exponent);
-    o.fresnel = part(m.fresnel);
-    o.conserve_energy = part(m.conserve_energy);
-    o.patterned = part(m.patterned);
-    o.disturbed = part(m.disturbed);
-    o.layered = part(m.layered);
-    o.flags = m.flags;
-    return o;
-  }
+                                                     uint32_t first) {
+  return whole_or<Spu>(
+      m, [&]() __attribute__((always_inline)) {
+        const auto part = [first](const auto& field) { return part_of<Spu>(field, first); };
+        MaterialLanes<typename Spu::rare_simd> o;
+        o.offsets = m.offsets;
+        o.pigment = part(m.pigment);
+        o.ambient = part(m.ambient);
+        o.reflection_min = part(m.reflection_min);
+        o.reflection_max = part(m.reflection_max);
+        o.filter = part(m.filter);
+        o.transmit = part(m.transmit);
+        o.opacity = part(m.opacity);
+        o.diffuse = part(m.diffuse);
+        o.brilliance = part(m.brilliance);
+        o.phong = part(m.phong);
+        o.phong_size = part(m.phong_size);
+        o.specular = part(m.specular);
+        o.inverse_roughness = part(m.inverse_roughness);
+        o.metallic = part(m.metallic);
+        o.reflection_falloff = part(m.reflection_falloff);
+        o.reflection_metallic = part(m.reflection_metallic);
+        o.inverse_reflection_exponent = part(m.inverse_reflection_exponent);
+        o.fresnel = part(m.fresnel);
+        o.conserve_energy = part(m.conserve_energy);
+        o.patterned = part(m.patterned);
+        o.disturbed = part(m.disturbed);
+        o.layered = part(m.layered);
+        o.flags = m.flags;
+        return o;
+      });
 }
 
 namespace detail {
@@ -129,10 +128,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
     const MaterialRecord& r = *scene.material(offset);
     // Where all lanes have one material, what it does not ask for need not be set.
     const uint32_t wanted = same == lanes ? r.flags : ~0u;
-    if (kHasRoomForCode<Spu> && first)
-      detail::gather_material<Spu, kHasRoomForCode<Spu>>(r, 0xFFFF, same, wanted, m);
-    else
-      detail::gather_material<Spu>(r, first ? 0xFFFF : same, same, wanted, m);
+    Strategy<Spu>::template gather_material<Spu>(r, first, same, wanted, m);
     first = false;
   });
   return m;

@@ -1,9 +1,8 @@
 // The ray tree without recursion: a stack of ray packets that are still to be traced. Kernel dialect.
 #pragma once
 
-#include "kernel/direct/door.hpp"
 #include "kernel/packet.hpp"
-#include "kernel/scalar_work.hpp"
+#include "kernel/strategy.hpp"
 
 namespace celltrace::kernel {
 
@@ -48,70 +47,20 @@ static_assert(kRayNodeBytes % 128 == 0 && kRayNodeBytes <= kMaxDmaBytes, "spille
 /// Nodes of a stack that stay in local store, unless its owner has many stacks.
 constexpr uint32_t kResidentNodes = 3;
 
-/// A stack whose first nodes, at most `kResident`, are in local store; deeper ones are spilled to main
-/// memory, at most `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.
-/// Where memory is direct, it is another one (direct/node_stack.hpp).
-template <class Spu, uint32_t kResident = kResidentNodes, bool kInPlace = kReadsInPlace<Spu>> class RayStack {
-public:
-  /// `resident`: how many, where local store has no room for kResident nodes. `next`: the place for the node
-  /// that is pushed next.
-  RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes, uint32_t resident, RayNode& next)
-      : spu_(spu), resident_nodes_(resident),
-        resident_(resident != 0 ? spu.template allocate<RayNode>(resident) : nullptr), spill_(spill),
-        capacity_(resident_nodes_ + spill_nodes), next_(next) {}
-
-  bool empty() const { return size_ == 0; }
-  void clear() { size_ = 0; }
-
-  /// Where the node is made that is pushed next.
-  RayNode& next() { return next_; }
-
-  /// Pushes next(), which stays as it is. False if the stack is full.
-  bool push() {
-    if (size_ == capacity_) return false;
-    if (size_ < resident_nodes_) {
-      spu_.compute(scalar_work::kNodeCopy);
-      resident_[size_] = next_;
-    } else {
-      spu_.put(&next_, place(size_), kRayNodeBytes, kTag);
-      spu_.wait_all(1u << kTag);
-      ++spilled_;
-    }
-    ++size_;
-    return true;
-  }
-
-  /// `node` lies in local store.
-  void pop(RayNode& node) {
-    --size_;
-    if (size_ < resident_nodes_) {
-      spu_.compute(scalar_work::kNodeCopy);
-      node = resident_[size_];
-      return;
-    }
-    spu_.get(&node, place(size_), kRayNodeBytes, kTag);
-    spu_.wait_all(1u << kTag);
-  }
-
-  void reset_counters() { spilled_ = 0; }
-  /// Nodes that went to main memory since the counters were reset.
-  uint32_t spilled() const { return spilled_; }
-
-private:
-  static constexpr uint32_t kTag = 6;
-
-  ea_t place(uint32_t index) const { return spill_ + (index - resident_nodes_) * kRayNodeBytes; }
-
-  Spu& spu_;
-  uint32_t resident_nodes_;
-  RayNode* resident_;
-  ea_t spill_;
-  uint32_t capacity_;
-  RayNode& next_;
-  uint32_t size_ = 0;
-  uint32_t spilled_ = 0;
-};
+/// A stack of nodes, of which at most `kResident` are in local store. Depth-first order makes a tree of level
+/// n need n + 1 nodes at most.
+///
+///   RayStack(spu, memory, nodes, resident, next)   there is room for `nodes` at `memory`; `resident`: nodes
+///   in
+///                                       local store, where it has no room for kResident; `next`: a place for
+///                                       next()
+///   empty(), clear()
+///   next()                              where the node is made that is pushed next
+///   push()                              pushes next(); false: the stack is full
+///   next_like(pushed)                   makes next() the same as the node that has just been pushed
+///   pop(node)
+///   spilled()                           nodes that did not fit in local store since reset_counters()
+template <class Spu, uint32_t kResident = kResidentNodes>
+using RayStack = typename Strategy<Spu>::template RayStack<Spu, kResident>;
 
 } // namespace celltrace::kernel
-
-#include "kernel/direct/node_stack.hpp"

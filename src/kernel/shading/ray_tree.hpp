@@ -4,7 +4,6 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
-#include "kernel/direct/ray_pool.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/shading/fading.hpp"
 #include "kernel/shading/lighting.hpp"
@@ -38,7 +37,7 @@ public:
     start(rays, lanes);
   }
   /// Starts with rays of a pool, each of which goes on in its own tree.
-  void begin(const PooledPacket& packet) {
+  template <class PooledPacket> void begin(const PooledPacket& packet) {
     clear(0);
     accumulators_in_use_ = 1;
     stack_.clear();
@@ -69,7 +68,7 @@ public:
   void add_clear_to(FloatLanes& clear) { clear_ = &clear; }
 
   /// Which rays go to a pool, and which pixels those are of that are traced.
-  RayPooling<Spu>& pooling() { return pooling_; }
+  auto& pooling() { return pooling_; }
 
   void reset_counters() {
     counters_ = RayCounters();
@@ -133,8 +132,7 @@ private:
   /// What few frames need lies where nodes would.
   static uint32_t resident_nodes(const FrameBlock& frame) {
     static_assert(sizeof(SurfaceLanes) <= sizeof(RayNode));
-    if (has_areas(frame) || (kKeepsCrossings<Spu> ? walks_translucent(frame) : walks_shadows(frame)))
-      return 0;
+    if (has_areas(frame) || walks_shadows(frame)) return 0;
     return has_surface_lanes(frame) ? kResident - 1 : kResident;
   }
 
@@ -252,8 +250,7 @@ private:
     gathering.gathers = accumulators_in_use_;
     power.store(gathering.power.lane);
     if (!push()) return;
-    RayNode& child = stack_.next();
-    if constexpr (kReadsInPlace<Spu>) child = gathering;
+    RayNode& child = stack_.next_like(gathering);
     child.target = accumulators_in_use_++;
     child.gathers = 0;
     child.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
@@ -308,7 +305,7 @@ protected:
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
   RayStack<Spu, kResident> stack_;
-  [[no_unique_address]] RayPooling<Spu> pooling_;
+  [[no_unique_address]] typename Strategy<Spu>::template RayPooling<Spu> pooling_;
   RayNode& node_; ///< being traced
   HitPacket hits_;
   /// Deeper nesting of bent reflections than this leaves the innermost ones unbent.

@@ -43,32 +43,6 @@ struct Refraction {
   uint32_t straight = 0;
 };
 
-/// As cross_surfaces(), all at once for the `lanes` that have nothing to do with any other interior. Returns
-/// the rest.
-template <class Spu>
-uint32_t cross_single_interiors(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes,
-                                RayNode& ray, Refraction& result) {
-  using S = typename Spu::simd;
-  using F = typename S::F;
-  using I = typename S::I;
-  using M = typename S::M;
-  const I depth = load_words<S>(ray.interior_depth), own = load_words<S>(interior);
-  const I outermost = load_words<S>(ray.interiors[0]);
-  const M outside = (depth == I::splat(0)) & M::from_bits(lanes);
-  const M inside = (depth == I::splat(1)) & (outermost == own) & M::from_bits(lanes);
-  const uint32_t crossing = (outside | inside).bits();
-  F ratio(1.0f);
-  for_each_value<S>(interior, crossing, [&](uint32_t offset, uint32_t same) {
-    const float ior = scene.interior(offset)->ior;
-    ratio = S::select(M::from_bits(same), S::select(inside, F(ior), F(1.0f / ior)), ratio);
-  });
-  ratio.store(result.ratio.lane);
-  result.straight = ((ratio > F(1.0f - kLeastBend)) & (ratio < F(1.0f + kLeastBend))).bits() & crossing;
-  store_words<S>(ray.interiors[0], S::select(outside, own, outermost));
-  store_words<S>(ray.interior_depth, S::select(outside, I::splat(1), S::select(inside, I::splat(0), depth)));
-  return lanes & ~crossing;
-}
-
 /// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `ray` is
 /// inside of and says how it bends. Counts rays that are inside more interiors than a node holds; these lose
 /// the outermost.
@@ -76,10 +50,7 @@ template <class Spu>
 Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes, RayNode& ray,
                           uint64_t& overflows) {
   Refraction result;
-  if constexpr (kHasRoomForCode<Spu>)
-    lanes = cross_single_interiors(scene, interior, lanes, ray, result);
-  else
-    typename Spu::simd::F(1.0f).store(result.ratio.lane);
+  lanes = Strategy<Spu>::cross_single_interiors(scene, interior, lanes, ray, result);
   for_each_lane(lanes, [&](uint32_t lane) {
     const SolidCrossing change = solid_crossing(scene, ray, lane, interior.lane[lane]);
     const float ratio = change.from / change.to;
@@ -309,18 +280,7 @@ CELLTRACE_ONE_COPY void
 find_secondary_rays(const MaterialLanes<typename Spu::simd>& m, const typename Spu::simd::F& cosine,
                     const typename Spu::simd::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
                     const typename Spu::simd::F& share, SecondaryRays<typename Spu::simd>& all) {
-  using S = typename Spu::simd;
-  if constexpr (kOnePart<Spu>) {
-    detail::secondary_rays_of<S>(m, cosine, fresnel_ratio, adc_bailout, lanes, share, all);
-  } else {
-    for_each_part<Spu>([&](uint32_t first) {
-      const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
-      auto some = SecondaryRays<typename Spu::rare_simd>::nothing();
-      detail::secondary_rays_of<typename Spu::rare_simd>(part(m), part(cosine), part(fresnel_ratio),
-                                                         adc_bailout, part(lanes), part(share), some);
-      all.template set_part<Spu>(first, some);
-    });
-  }
+  Strategy<Spu>::template find_secondary_rays<Spu>(m, cosine, fresnel_ratio, adc_bailout, lanes, share, all);
 }
 
 } // namespace celltrace::kernel

@@ -5,14 +5,23 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/list.hpp"
-#include "kernel/direct/area_pairs.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/shading/ray_tree.hpp"
 #include "kernel/shading/shadow_walk.hpp"
 
 namespace celltrace::kernel {
 
-template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class ShadowTracer {
+/// Traces rays to lights. A strategy's ShadowSearch has:
+///
+///   walks(light)                        whether rays toward a light are walked, in scenes where some have to
+///   be trace_crossings(light, queries, count)   whether a bundle has been taken through what it crosses
+///   trace_crossings(light, rays, lanes, distance, colour)   the same of a packet that is not walked
+///   sample_area(light, lanes, colour)   whether what comes of an area is known
+template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
+class ShadowTracer : public Strategy<Spu>::template ShadowSearch<ShadowTracer<Spu, kAccelerators>, Spu> {
+  using Search = typename Strategy<Spu>::template ShadowSearch<ShadowTracer, Spu>;
+  friend Search;
+
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -40,10 +49,9 @@ public:
     return (light.kind_and_flags & (light_flag::area | light_flag::projected)) != 0 || walks_all(light);
   }
 
-  /// Whether a light is where primary rays begin, and so nothing is between it and what they have hit. Not
-  /// asked where there is no room for code.
+  /// Whether a light is where primary rays begin, and so nothing is between it and what they have hit.
   bool is_at_pinhole(const LightRecord& light) const {
-    if constexpr (!kHasRoomForCode<Spu>) return false;
+    if (!Strategy<Spu>::kHasShortcuts) return false;
     constexpr uint32_t kOtherWays =
         light_flag::area | light_flag::parallel | light_flag::projected | light_flag::dimmed;
     if ((light.kind_and_flags & kOtherWays) != 0 || !is_pinhole(frame_.camera) ||
@@ -80,14 +88,11 @@ public:
   /// Answers the queries of a bundle toward a light, of which asks_by_packet() is false. May change their
   /// order.
   void trace(const LightRecord& light, RayQuery* queries, uint32_t count) {
-    if constexpr (kKeepsCrossings<Spu>)
-      if (walk_ != nullptr) return look_at_crossings(light, queries, count);
-    traversal_.intersect(queries, count, light);
+    if (walk_ == nullptr || !Search::trace_crossings(light, queries, count))
+      traversal_.intersect(queries, count, light);
   }
 
 private:
-  static constexpr uint32_t kPackets = kBundlePackets<Spu>;
-
   /// Not inlined: its surfaces are not on the stack while rays are traced.
   CELLTRACE_ONE_COPY void make_rays_to(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
                                        const WordLanes& objects, uint32_t lanes) {
@@ -118,99 +123,10 @@ private:
     }
     if (walk_ == nullptr) return traversal_.transmittance(rays, lanes, distance, colour);
     if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
-    if constexpr (kKeepsCrossings<Spu>) look_at_crossings(light, rays, lanes, distance, colour);
+    Search::trace_crossings(light, rays, lanes, distance, colour);
   }
   /// Whether all shadow rays toward a light are walked; otherwise those are that have to be, or none.
-  bool walks_all(const LightRecord& light) const {
-    return walk_ != nullptr && (!kKeepsCrossings<Spu> || is_dimmed(light) || restarts_shadows(frame_));
-  }
-  /// Whether what surfaces let through depends on where rays come from: it is found surface by surface.
-  bool lists_crossings() const { return walks_translucent(frame_) && !walks_for_fading(frame_); }
-  /// Answers the queries of a bundle where order matters: what they cross is kept. Only rays are walked that
-  /// cross more than there is room for.
-  CELLTRACE_ONE_COPY void look_at_crossings(const LightRecord& light, RayQuery* queries, uint32_t count) {
-    CrossingPool pool;
-    KeptCrossings<S> crossings[kPackets];
-    VectorLanes* colours[kPackets];
-    for (uint32_t i = 0; i < count; ++i) {
-      colours[i] = queries[i].light;
-      crossings[i].begin(*colours[i], pool);
-      queries[i].light = &crossings[i];
-    }
-    traversal_.keep_crossings(queries, count, light, lists_crossings());
-    for (uint32_t i = 0; i < count; ++i) {
-      auto& crossed = static_cast<KeptCrossings<S>&>(*queries[i].light);
-      finish(light, queries[i], crossed, *colours[&crossed - crossings]);
-    }
-  }
-  /// The same for one packet.
-  CELLTRACE_ONE_COPY void look_at_crossings(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                            const FloatLanes& distance, VectorLanes& colour) {
-    CrossingPool pool;
-    KeptCrossings<S> crossings;
-    crossings.begin(colour, pool);
-    RayQuery query = {&rays, nullptr, &distance, &crossings, lanes};
-    traversal_.keep_crossings(query, lists_crossings());
-    finish(light, query, crossings, colour);
-  }
-  void finish(const LightRecord& light, const RayQuery& query, KeptCrossings<S>& crossings,
-              VectorLanes& colour) {
-    if (walks_translucent(frame_))
-      pass_crossings(query, crossings);
-    else
-      crossings.finish();
-    walk_some(light, query, crossings, crossings.overflowed, colour);
-  }
-  /// Takes rays through the surfaces that they cross, one after the other.
-  void pass_crossings(const RayQuery& query, KeptCrossings<S>& crossings) {
-    if (query.lanes == 0 || crossings.empty()) return;
-    ShadowWalk<S>& walk = *walk_;
-    VectorLanes light = crossings, transmittance;
-    begin_shadow_walk(scene_.spu(), frame_, interiors_, *query.rays, query.lanes, *query.distance, light,
-                      walk);
-    F last(0.0f);
-    while (walk.ray->lanes != 0) {
-      const uint32_t hit = crossings.take(walk.ray->lanes, walk.hits, transmittance);
-      if (hit == 0) break;
-      const F distance = F::load(walk.hits.distance.lane);
-      (distance - last).store(walk.hits.distance.lane);
-      last = S::select(S::M::from_bits(hit), distance, last);
-      if (lists_crossings()) {
-        find_hit_points(scene_, walk.ray->rays, walk.hits, hit, walk.points);
-        step_shadow_walk(scene_, walk, counters_.dropped);
-      } else {
-        pass_surfaces(hit, transmittance, walk);
-      }
-    }
-    static_cast<VectorLanes&>(crossings) = light;
-  }
-  /// As step_shadow_walk(), where what surfaces let through is known.
-  void pass_surfaces(uint32_t hit, const VectorLanes& transmittance, ShadowWalk<S>& walk) {
-    using I = typename S::I;
-    I interiors = I::splat(0);
-    for_each_value<S>(walk.hits.object, hit, [&](uint32_t object, uint32_t same) {
-      const I of_object = I::splat(static_cast<int32_t>(scene_.object(object)->interior));
-      interiors = S::select(S::M::from_bits(same), of_object, interiors);
-    });
-    WordLanes interior;
-    store_words<S>(interior, interiors);
-    const uint32_t counts = hit & (F::load(walk.hits.distance.lane) > F(kShadowEpsilon)).bits();
-    fade(scene_, *walk.ray, interior, walk.hits.distance, counts, *walk.light, true);
-    const V3<S> before = walk.light->template load<S>();
-    walk.light->template store<S>(
-        select<S>(S::M::from_bits(counts), before * transmittance.template load<S>(), before));
-    cross_surfaces(scene_, interior, counts, *walk.ray, counters_.dropped);
-    walk.ray->lanes = hit;
-  }
-  /// The light of a query: `answered` in lanes that are left; `walked` lanes are still to be walked.
-  void walk_some(const LightRecord& light, const RayQuery& query, const VectorLanes& answered,
-                 uint32_t walked, VectorLanes& colour) {
-    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
-    const V3<S> direct = select<S>(S::M::from_bits(query.lanes), answered.template load<S>(), dark);
-    if (walked == 0) return colour.template store<S>(direct);
-    walk_shadows(light, *query.rays, walked, *query.distance, colour);
-    colour.template store<S>(colour.template load<S>() + direct);
-  }
+  bool walks_all(const LightRecord& light) const { return walk_ != nullptr && Search::walks(light); }
   /// Walks `lanes` of shadow rays. The light of the others becomes 0.
   CELLTRACE_ONE_COPY void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                        const FloatLanes& distance, VectorLanes& colour) {
@@ -234,110 +150,14 @@ private:
   }
 
   /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
-  CELLTRACE_ONE_COPY void look_at_area(const LightRecord& light, [[maybe_unused]] uint32_t lanes,
-                                       VectorLanes& colour) {
+  CELLTRACE_ONE_COPY void look_at_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
-    if constexpr (kGathersOccluders<Spu>) {
-      using Known = typename AreaOccluders<Spu>::Known;
-      AreaOccluders<Spu> occluders;
-      Known known = Known::nothing;
-      if (!walks_all(light) && !is_projected(light))
-        known = traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders);
-      if (known == Known::objects) {
-        if (occluders.are_none())
-          return colour.template store<S>(
-              select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
-        const auto test = [&](RayQuery* queries, uint32_t count) {
-          traversal_.test_occluders(queries, count, occluders);
-        };
-        if (AreaPairs<Spu, false>::can_sample(light)) {
-          AreaPairs<Spu, false>(light, grid_, area).sample(test);
-        } else {
-          while (next_place(scene_.spu(), light, area)) {
-            RayQuery query = {&area.to_place->rays, nullptr, &area.to_place->distance, &area.light(),
-                              area.lanes};
-            test(&query, 1);
-            answer(area, query.lanes);
-          }
-        }
-        return take_area_light(colour);
-      }
-      if (!is_projected(light) && !walks_all(light)) {
-        if (walk_ != nullptr) return look_at_crossed_area(light, colour);
-        return look_at_occluded_area(light, known == Known::nodes ? &occluders : nullptr, colour);
-      }
-    }
+    if (Search::sample_area(light, lanes, colour)) return;
     while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
       trace_shadows(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light());
     }
     take_area_light(colour);
-  }
-  /// The same where what occludes one place may occlude the next one, too. `occluders`: what is known of the
-  /// nodes that are in the way; null: nothing.
-  CELLTRACE_ONE_COPY void look_at_occluded_area(const LightRecord& light, const AreaOccluders<Spu>* occluders,
-                                                VectorLanes& colour) {
-    AreaShadow<S>& area = *area_;
-    traversal_.remember_occluders(true);
-    // False: the light is that of before, and none of it comes.
-    const auto trace = [&](const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
-                           VectorLanes& of_place) {
-      lanes = traversal_.unoccluded_by_recent(rays, lanes, distance, of_place);
-      if (lanes == 0) return false;
-      if (occluders != nullptr)
-        traversal_.transmittance(rays, lanes, distance, of_place, *occluders);
-      else
-        traversal_.transmittance(rays, lanes, distance, of_place);
-      return true;
-    };
-    if (!sample_pairs(light, [&](const RayQuery& query, const int32_t*, VectorLanes& of_place) {
-          return trace(*query.rays, query.lanes, *query.distance, of_place);
-        }))
-      while (next_place(scene_.spu(), light, area))
-        if (!trace(area.to_place->rays, area.lanes, area.to_place->distance, area.light())) answer(area, 0);
-    traversal_.remember_occluders(false);
-    take_area_light(colour);
-  }
-  /// The same where what rays cross is kept.
-  CELLTRACE_ONE_COPY void look_at_crossed_area(const LightRecord& light, VectorLanes& colour) {
-    AreaShadow<S>& area = *area_;
-    traversal_.remember_occluders(true);
-    const RayInteriors* const of_surfaces = interiors_;
-    const auto trace = [&](const RayQuery& query, const int32_t* surfaces, VectorLanes& of_place) {
-      const uint32_t lanes =
-          traversal_.unoccluded_by_recent(*query.rays, query.lanes, *query.distance, of_place);
-      if (lanes == 0) return false;
-      RayInteriors of_pairs;
-      if (of_surfaces != nullptr) {
-        for_each_lane(lanes, [&](uint32_t lane) {
-          copy_lane(*of_surfaces, static_cast<uint32_t>(surfaces[lane]), of_pairs, lane);
-        });
-        interiors_ = &of_pairs;
-      }
-      look_at_crossings(light, *query.rays, lanes, *query.distance, of_place);
-      interiors_ = of_surfaces;
-      return true;
-    };
-    if (!sample_pairs(light, trace))
-      while (next_place(scene_.spu(), light, area))
-        look_at_crossings(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light());
-    traversal_.remember_occluders(false);
-    take_area_light(colour);
-  }
-  /// Samples an area in pairs of a surface and a place, if there is room for them. `trace(query, the surface
-  /// of each lane, light)` takes white light to what comes; false: none does.
-  template <class Trace> bool sample_pairs(const LightRecord& light, const Trace& trace) {
-    AreaShadow<S>& area = *area_;
-    if (!AreaPairs<Spu, true>::can_sample(light)) return false;
-    const uint32_t asked = area.rays_asked;
-    AreaPairs<Spu, true> pairs(light, grid_, area);
-    const auto test = [&](RayQuery* queries, uint32_t count) {
-      for (uint32_t i = 0; i < count; ++i)
-        if (!trace(queries[i], pairs.surface_lanes(i), *queries[i].light)) queries[i].lanes = 0;
-    };
-    if (pairs.sample(test)) return true;
-    area.rays_asked = asked;
-    return false;
   }
   void take_area_light(VectorLanes& colour) {
     counters_.shadow += area_->rays_asked;
@@ -351,7 +171,6 @@ private:
   RayCounters& counters_;
   AreaShadow<S>* area_; ///< null if no light has an area
   ShadowWalk<S>* walk_; ///< null if shadow rays need none
-  [[no_unique_address]] Present<LightGrid, kGathersOccluders<Spu>> grid_;
   const RayInteriors* interiors_ = nullptr;
 };
 

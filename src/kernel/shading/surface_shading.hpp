@@ -29,16 +29,15 @@ public:
   /// from there.
   [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
     round_ = round;
-    if constexpr (kHasRoomForCode<Spu>)
-      if (ends(points, hit)) return shade_last(points, hit);
+    if (Strategy<Spu>::kHasShortcuts && ends(points, hit)) return shade_last(points, hit);
     const uint32_t plain = points.plain(hit);
     if (plain != 0) shade_plain(points, plain);
     if (plain == hit) return;
     scene_.spu().enter_module(modules::kComposed);
     shade_composed(points, hit & ~plain);
   }
-  /// Whether the round has gathered anything; always, where there is no room for code.
-  bool has_gathered() const { return !kHasRoomForCode<Spu> || !round_.is_fresh; }
+  /// Whether the round has gathered anything.
+  bool has_gathered() const { return !Strategy<Spu>::is_fresh(round_); }
   /// Adds what has come of the light that a round has gathered.
   void add_gathered(const LightRound& round, uint32_t lanes) { round.add_to<S>(light_[node_.target], lanes); }
 

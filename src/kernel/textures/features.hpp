@@ -68,15 +68,7 @@ public:
     return reinterpret_cast<const int32_t*>(scene_.template pattern_table<FeatureRecord>(table_));
   }
 
-  /// Whether the points around cells are kept for points beside these.
-  bool are_cached() const { return scene_.neighbours() != nullptr; }
-  /// The points in and around a cell, until the next call: in `room`, unless they are cached. Where memory is
-  /// direct.
-  template <class Neighbours> const Neighbours& neighbours_of(const uint32_t (&cell)[3], Neighbours& room) {
-    if (auto* const cache = scene_.neighbours()) return cache->around(*this, cell);
-    room.gather(*this, cell);
-    return room;
-  }
+  SceneAccess<Spu>& scene() { return scene_; }
 
 private:
   SceneAccess<Spu>& scene_;

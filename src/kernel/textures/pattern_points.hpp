@@ -22,11 +22,11 @@ template <class S> struct PatternPoints {
 
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const PatternPoints<typename Spu::simd>& points,
-                                                     [[maybe_unused]] uint32_t first) {
-  if constexpr (kOnePart<Spu>)
-    return (points);
-  else
-    return PatternPoints<typename Spu::rare_simd>{part_of<Spu>(points.at, first), points.surface, first};
+                                                     uint32_t first) {
+  return whole_or<Spu>(
+      points, [&]() __attribute__((always_inline)) {
+        return PatternPoints<typename Spu::rare_simd>{part_of<Spu>(points.at, first), points.surface, first};
+      });
 }
 
 /// The coordinates of surfaces as points.

@@ -16,15 +16,14 @@ template <class S> struct Surfaces {
 
 /// A part of them.
 template <class Spu>
-[[gnu::always_inline]] inline decltype(auto) part_of(const Surfaces<typename Spu::simd>& s,
-                                                     [[maybe_unused]] uint32_t first) {
-  if constexpr (kOnePart<Spu>)
-    return (s);
-  else
-    return Surfaces<typename Spu::rare_simd>{
-        part_of<Spu>(s.point, first),     part_of<Spu>(s.normal, first),
-        part_of<Spu>(s.direction, first), s.objects,
-        part_of<Spu>(s.any_side, first),  part_of<Spu>(s.lit_through, first)};
+[[gnu::always_inline]] inline decltype(auto) part_of(const Surfaces<typename Spu::simd>& s, uint32_t first) {
+  return whole_or<Spu>(
+      s, [&]() __attribute__((always_inline)) {
+        return Surfaces<typename Spu::rare_simd>{
+            part_of<Spu>(s.point, first),     part_of<Spu>(s.normal, first),
+            part_of<Spu>(s.direction, first), s.objects,
+            part_of<Spu>(s.any_side, first),  part_of<Spu>(s.lit_through, first)};
+      });
 }
 
 } // namespace celltrace::kernel

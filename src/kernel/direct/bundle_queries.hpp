@@ -1,0 +1,140 @@
+// Ray queries where memory is direct: of bundles that pass through one point, and about lights that have an
+// area. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/traversal.hpp"
+#include "kernel/direct/area_occluders.hpp"
+#include "kernel/direct/bundle_steps.hpp"
+
+namespace celltrace::kernel {
+
+/// Extends Traversal, which is `Traversal`.
+template <class Traversal, class Spu> class DirectBundleQueries {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+
+  /// As transmittance(), for a query whose light is that of KeptCrossings, which keep what is crossed or, if
+  /// it `lists` that, only where. The light of lanes for which they had no room becomes 0.
+  void keep_crossings(RayQuery& query, bool lists) {
+    keep(lists, [&] { traversal().intersect_packet(query); });
+  }
+  /// Keeps the crossings of several queries toward one light. May change their order.
+  void keep_crossings(RayQuery* queries, uint32_t count, const LightRecord& light, bool lists) {
+    keep(lists, [&] { traversal().intersect(queries, count, light); });
+  }
+
+  /// Gathers what may be between a packet's surfaces and a light with an area.
+  typename AreaOccluders<Spu>::Known gather_occluders(const RayPacket& rays, uint32_t lanes,
+                                                      const LightRecord& light,
+                                                      AreaOccluders<Spu>& occluders) {
+    using Known = typename AreaOccluders<Spu>::Known;
+    if (!traversal().uses_bvh()) return Known::nothing;
+    const Known known = occluders.gather(traversal().objects_, traversal().frame_, rays, lanes, light);
+    return known == Known::nodes && traversal().lists_all() ? Known::nothing : known;
+  }
+  /// As transmittance(), where it is known in which nodes rays may hit something.
+  void transmittance_of(const AreaOccluders<Spu>& occluders, const RayPacket& rays, uint32_t lanes,
+                        const FloatLanes& distance, VectorLanes& light) {
+    RayQuery query = {&rays, nullptr, &distance, &light, lanes};
+    traversal().intersect_listed(&query, 1);
+    traversal().bvh_.intersect_leaves(query, occluders.nodes(), occluders.node_count());
+    traversal().clear_occluded(&query, 1);
+  }
+  /// Removes lanes from queries for light that cross one of the occluders, all of which are opaque.
+  void test_occluders(RayQuery* queries, uint32_t count, const AreaOccluders<Spu>& occluders) {
+    occluders.test(traversal().objects_, queries, count);
+  }
+
+  /// Whether opaque objects are remembered from now on that occlude rays.
+  void remember_occluders(bool remembers) { traversal().objects_.remember_occluders(remembers); }
+  /// Returns the `lanes` that cross none of the opaque objects that are remembered; `light` stays as it is.
+  uint32_t unoccluded_by_recent(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                                VectorLanes& light) {
+    RayQuery query = {&rays, nullptr, &distance, &light, lanes};
+    traversal().objects_.test_recent(query);
+    return query.lanes;
+  }
+
+  /// Finds the closest hits of packets of an application, by the BVH: those before the distances that are in
+  /// `hits`, where no object is yet. Each query has some lanes. `bundle`: of these packets, and entered last.
+  void find_closest_within(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
+    traversal().intersect_listed(queries, count);
+    if (!traversal().lists_all()) traversal().bvh_.intersect_from_origin(queries, count, bundle);
+  }
+
+  /// As intersect(), of rays that may all start at one point. May change the order of the queries.
+  void intersect_from_origin(RayQuery* queries, uint32_t count) {
+    if constexpr (Traversal::kHasBvh) {
+      if (traversal().asks_bvh()) {
+        traversal().reset_hits(queries, count);
+        traversal().intersect_listed(queries, count);
+        const uint32_t with_rays = queries_with_rays(queries, count);
+        if (with_rays == 0) return;
+        const OriginBundle<S> bundle(queries, with_rays);
+        if (bundle.packets != 0) traversal().bvh_.enter(bundle);
+        return traversal().bvh_.intersect_from_origin(queries, with_rays, bundle);
+      }
+    }
+    traversal().intersect(queries, count);
+  }
+
+  /// Starts the traversal for a bundle of rays from one point. False: certainly none of them hits anything.
+  template <class Bundle> bool enter(const Bundle& bundle) {
+    if constexpr (Traversal::kHasBvh)
+      return !traversal().uses_bvh() || bundle.packets == 0 ||
+             (traversal().lists_all() && traversal().frame_.unbounded_count != 0) ||
+             traversal().bvh_.enter(bundle) || traversal().frame_.unbounded_count != 0;
+    else
+      return true;
+  }
+  /// Finds the closest hits of the bundle that was entered last; query i is that of its packet i.
+  void intersect_from_pinhole(RayQuery* queries, const PinholeBundle<S>& bundle) {
+    if (!traversal().asks_bvh() || bundle.packets == 0)
+      return traversal().intersect(queries, kBundlePackets<Spu>);
+    traversal().reset_hits(queries, kBundlePackets<Spu>);
+    traversal().intersect_listed(queries, kBundlePackets<Spu>);
+    if constexpr (Traversal::kHasBvh) traversal().bvh_.intersect_from_pinhole(queries, bundle);
+  }
+
+protected:
+  bool intersect_toward(RayQuery* queries, uint32_t count, const LightRecord& light) {
+    if constexpr (Traversal::kHasBvh) {
+      if (traversal().asks_bvh() && !is_parallel(light)) {
+        traversal().intersect_listed(queries, count);
+        // Planes may leave packets without rays, which a bundle cannot have.
+        const uint32_t with_rays =
+            traversal().frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
+        if (with_rays != 0) traversal().bvh_.intersect_toward(queries, with_rays, light.location);
+        traversal().clear_occluded(queries, count);
+        return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  using Translucency = typename ObjectTests<Spu>::Translucency;
+
+  Traversal& traversal() { return static_cast<Traversal&>(*this); }
+
+  template <class Run> void keep(bool lists, Run run) {
+    traversal().objects_.set_translucency(lists ? Translucency::is_listed : Translucency::is_kept);
+    run();
+    traversal().objects_.set_translucency(Translucency::attenuates);
+  }
+
+  /// Moves queries that have rays in front of those that have none; returns how many they are.
+  static uint32_t queries_with_rays(RayQuery* queries, uint32_t count) {
+    uint32_t with_rays = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (queries[i].lanes == 0) continue;
+      const RayQuery query = queries[i];
+      queries[i] = queries[with_rays];
+      queries[with_rays++] = query;
+    }
+    return with_rays;
+  }
+};
+
+} // namespace celltrace::kernel

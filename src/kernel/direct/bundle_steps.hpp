@@ -1,0 +1,217 @@
+// Steps of a bundle's traversal where memory is direct: with a view of the scene from the point that all of
+// its rays pass through. Packets whose rays are of several octants are traversed at once. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/bvh_traversal.hpp"
+#include "kernel/direct/bundle_leaf_tests.hpp"
+#include "kernel/direct/leaf_list.hpp"
+#include "kernel/direct/light_bundle.hpp"
+#include "kernel/direct/mixed_rays.hpp"
+#include "kernel/direct/origin_bundle.hpp"
+#include "kernel/direct/pinhole_bundle.hpp"
+
+namespace celltrace::kernel {
+
+/// Extends BvhTraversal, which is `Search`.
+template <class Search, class Spu> class DirectBundleSteps {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+
+  /// The nodes may be others from now on.
+  void begin_frame() { leaves_.begin_frame(); }
+
+  /// Finds the closest hits of the primary rays of a bundle that has just been entered; query i is that of
+  /// its packet i.
+  void intersect_from_pinhole(RayQuery* queries, const PinholeBundle<S>& bundle) {
+    for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet)
+      search().tfar_[packet] = queries[packet].lanes != 0 ? Packets::kTfarSlack * kMaxHitDistance : -1.0f;
+    bundle.shortening.store(shortening_);
+    traverse_view(queries, bundle);
+  }
+  /// Finds those of a bundle that has some of the packets of `queries`, each of which has some lanes.
+  void intersect_from_origin(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
+    if (bundle.packets != 0) {
+      bundle.shortening.store(shortening_);
+      for_each_lane(bundle.packets, [&](uint32_t packet) {
+        search().tfar_[packet] =
+            Packets::tfar_of(queries[packet], queries[packet].lanes) * shortening_[packet];
+      });
+      traverse_view(queries, bundle);
+    }
+    search().intersect(queries, count, bundle.packets);
+  }
+  /// Answers queries for the light from the point `light`. Each of them has some lanes.
+  void intersect_toward(RayQuery* queries, uint32_t count, const float (&light)[3]) {
+    const LightBundle<S> bundle(light, queries, count);
+    if (bundle.packets != 0) {
+      (bundle.reach * F(Packets::kTfarSlack)).store(search().tfar_);
+      search().begin(bundle.packets);
+      traverse_view(queries, bundle);
+    }
+    search().intersect(queries, count, bundle.packets);
+  }
+
+  /// Answers a query for light whose rays come to these leaves alone.
+  void intersect_leaves(RayQuery& query, const NodeLeaves* nodes, uint32_t count) {
+    search().objects_.hit_filter().begin_packet();
+    const MixedRays<S> rays(*query.rays);
+    const F tfar = Packets::tfar(query);
+    for (uint32_t n = 0; n < count && query.lanes != 0; ++n) {
+      const NodeRecord& node = *search().objects_.scene().node(nodes[n].node);
+      for (uint32_t left = nodes[n].leaves; left != 0; left &= left - 1) {
+        const auto i = static_cast<uint32_t>(__builtin_ctz(left));
+        const uint32_t hit = rays.hit_child(node.bounds, i, Packets::tnear(query), tfar) & query.lanes;
+        if (hit != 0) search().packet_traversal_.test_objects({node.child[i], node.leaf[i]}, hit, query);
+      }
+    }
+  }
+
+  /// Traverses the BVH with the frustum of a bundle only, for which its rays need not exist yet, until it
+  /// hits a leaf or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything.
+  /// Otherwise intersect_from_pinhole() or
+  /// intersect_from_origin() continues from there. The bundle has some packets.
+  template <class Bundle> bool enter(const Bundle& bundle) {
+    search().bundle_frustum_.set(bundle.all, bundle.octant);
+    search().begin(bundle.packets);
+    FrustumVisitor visitor = {search(), SlabOrder(bundle.octant), bundle.packets};
+    NodeRef ref = {};
+    traverse_nodes(visitor, ref, false);
+    return visitor.found_leaf;
+  }
+
+protected:
+  using LeafTests = BundleLeafTests<Spu>;
+
+  explicit DirectBundleSteps(const FrameBlock& frame)
+      : mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays),
+        mixes_always_(frame.object_count <= tuning::kMostObjectsWithoutFrusta) {}
+
+  /// Traverses a packet with rays of several octants at once. False: that does not pay.
+  bool intersect_mixed(RayQuery& query) {
+    const RayPacket& rays = *query.rays;
+    if (__builtin_popcount(query.lanes) < tuning::kLeastMixedRays || !mixes_octants_) return false;
+    if (!mixes_always_) {
+      const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
+      if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
+    }
+    search().objects_.begin_traversal(query);
+    if (mixes_always_ && leaves_.pays(search().objects_.scene(), search().root())) {
+      leaves_.intersect(search().packet_traversal_, query);
+    } else {
+      MixedStack<S> stack;
+      MixedVisitor<Spu> visitor = {
+          search().packet_traversal_, search().objects_, query, MixedRays<S>(rays), stack, query.lanes};
+      NodeRef ref = search().root();
+      const uint64_t visits = search().objects_.counters().visits;
+      traverse_nodes(visitor, ref);
+      leaves_.count_visits(search().objects_.counters().visits - visits);
+    }
+    search().objects_.end_traversal();
+    return true;
+  }
+
+  void end_view() {
+    view_ = nullptr;
+    reversed_ = false;
+  }
+  const BundleView<S>* view() const { return view_; }
+  /// Frusta of rays through one point are tight.
+  bool trusts_frusta() const { return view_ != nullptr; }
+  uint32_t doubted_at(const NodeRef& child) const { return child.is_leaf() ? wide_ : 0; }
+  void set_own_frustum(uint32_t packet, const RayQuery& query, Frustum<S>& frustum) {
+    if (reversed_)
+      frustum.set(bounds_of<S>(*query.rays, query.lanes), search().octant_);
+    else
+      search().frusta_.get(packet, frustum);
+  }
+  float shortening(uint32_t packet) const { return view_ != nullptr ? shortening_[packet] : 1.0f; }
+
+  bool add_leaf(LeafTests& leaves, RayQuery* queries, const NodeRef& leaf, uint32_t& packets) {
+    if (view_ == nullptr) return false;
+    packets = leaves.add(queries, packets, leaf);
+    return true;
+  }
+  void test_object(uint32_t self, uint32_t packets, RayQuery* queries) {
+    if (queries[__builtin_ctz(packets)].hits != nullptr)
+      search().objects_.test_closest_of_all(queries, packets, self);
+    else
+      search().objects_.test_occlusion_of_all(queries, packets, self);
+  }
+  /// Tests deferred triangles, unless they can wait for those of the next leaf. If the next entry is a node
+  /// they cannot: their hits should shorten tfar before it is expanded.
+  [[gnu::always_inline]] void test_deferred(LeafTests& leaves, RayQuery* queries, uint32_t bundled) {
+    if (!leaves.has_deferred()) return;
+    const auto& stack = search().packet_traversal_.stack();
+    if (stack.size() != 0 && stack.top().ref.is_leaf() && leaves.has_room_for(stack.top().ref)) return;
+    search().update_tfar(leaves.test(queries), queries);
+    search().max_tfar_ = Search::Lanes::greatest_of(bundled, search().tfar_);
+  }
+
+private:
+  using Packets = PacketTraversal<Spu>;
+
+  Search& search() { return static_cast<Search&>(*this); }
+
+  /// Traverses a bundle whose rays all pass through one point, with the frusta that it brings.
+  void traverse_view(RayQuery* queries, const ViewBundle<S>& bundle) {
+    for (uint32_t& misses : search().misses_)
+      misses = 0;
+    search().frusta_.set(bundle.bounds, bundle.octant);
+    search().bundle_frustum_.set(bundle.all, bundle.octant);
+    view_ = &bundle.view;
+    wide_ = bundle.wide;
+    search().set_max_split_packets(bundle.density != 0.0f ? bundle.density : search().rays_of_frame_);
+    search().octant_ = bundle.turned ? bundle.octant ^ 7 : bundle.octant;
+    reversed_ = bundle.turned;
+    search().traverse_bundle(queries, SlabOrder(bundle.octant), SlabOrder(search().octant_), bundle.packets);
+  }
+
+  /// The traversal of a bundle's frustum, for traverse_nodes(). It ends where it comes to a leaf or has
+  /// expanded some nodes, and leaves what is next on the stack.
+  struct FrustumVisitor {
+    Search& traversal;
+    const SlabOrder order;
+    const uint32_t packets;
+    uint32_t nodes = 0;      ///< that have been expanded
+    bool found_leaf = false; ///< or there are too many nodes
+
+    bool expand(NodeRef& ref) {
+      ++nodes;
+      ++traversal.objects_.counters().visits;
+      SceneAccess<Spu>& scene = traversal.objects_.scene();
+      auto& stack = traversal.packet_traversal_.stack();
+      const NodeRecord& node = *scene.node(ref.child);
+      alignas(16) float distance[4];
+      const uint32_t first = stack.size();
+      for_each_lane(traversal.bundle_frustum_.intersect(node.bounds, order, kMaxHitDistance, distance),
+                    [&](uint32_t i) {
+                      const NodeRef child = {node.child[i], node.leaf[i]};
+                      scene.hint(child);
+                      stack.push(first, {child, packets, distance[i], 0});
+                    });
+      return false;
+    }
+    void test(const NodeRef&) {}
+    bool next(NodeRef& ref) {
+      auto& stack = traversal.packet_traversal_.stack();
+      if (stack.size() == 0) return false;
+      ref = stack.top().ref;
+      found_leaf = ref.is_leaf() || nodes == tuning::kMaxEnteredNodes;
+      if (found_leaf) return false;
+      stack.pop();
+      return true;
+    }
+    static constexpr bool pauses() { return false; }
+  };
+
+  const bool mixes_octants_, mixes_always_;
+  LeafList<Spu> leaves_;
+  const BundleView<S>* view_ = nullptr; ///< of the bundle, if its rays pass through one point
+  uint32_t wide_ = 0;                   ///< ViewBundle::wide; undefined without a view
+  bool reversed_ = false;               ///< the frusta are those of reversed rays
+  /// By packet; see shortening(). Undefined for rays that do not pass through one point.
+  alignas(64) float shortening_[kBundlePackets<Spu>] = {};
+};
+
+} // namespace celltrace::kernel

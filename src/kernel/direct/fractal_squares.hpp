@@ -1,0 +1,67 @@
+// Fractals of numbers that are squared, which are most. Kernel dialect, where memory is direct.
+#pragma once
+
+#include "kernel/direct/fractal_ahead.hpp"
+#include "kernel/scene_access.hpp"
+
+namespace celltrace::kernel {
+
+struct FractalSquares {
+  /// Values at points. They may have been found before.
+  template <class Spu>
+  [[gnu::always_inline]] static typename Spu::rare_simd::F
+  value_of_squares(SceneAccess<Spu>& scene, const Complex<typename Spu::rare_simd>& at,
+                   const SquareIteration& iteration) {
+    using S = typename Spu::rare_simd;
+    using F = typename S::F;
+    using M = typename S::M;
+    const Complex<S> c = iteration.constant<S>(at);
+    uint32_t rounds = 0;
+    if (iteration.wants_least()) return counted_squares<S, true>(at, c, M::none(), iteration, rounds);
+    auto* const ahead = scene.known_patterns().fractals;
+    F value(iteration.inner());
+    M known = iteration.is_julia() ? M::none() : surely_stays<S>(c);
+    if (ahead != nullptr) known = known | ahead->find(iteration.record, at, value);
+    if (known.bits() == (1u << S::kLanes) - 1) return value;
+    value = S::select(known, value, counted_squares<S, false>(at, c, known, iteration, rounds));
+    if (ahead != nullptr) ahead->count(rounds);
+    return value;
+  }
+
+  /// Iterates numbers that are squared, but for those of `known`, whose values are undefined. A number that
+  /// comes back after some rounds would do so for ever, as those do that converge: it is not followed further
+  /// (Brent 1980). Whatever is still to come has been there, so that the least size is known. It is looked
+  /// for after several rounds at a time only. Not inlined: the loop has the registers for itself.
+  template <class S, bool kWantsLeast>
+  [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
+                                                         const typename S::M& known,
+                                                         const SquareIteration& iteration, uint32_t& rounds) {
+    using F = typename S::F;
+    using M = typename S::M;
+    constexpr uint32_t kRoundsAtATime = 4;
+    const uint32_t most = iteration.most();
+    IteratedSquares<S, kWantsLeast> squares(first);
+    M goes_on = !known;
+    Complex<S> kept = first;
+    uint32_t keeps_next = 4 * kRoundsAtATime;
+    uint32_t i = 0;
+    for (; most - i >= kRoundsAtATime && goes_on.bits() != 0; i += kRoundsAtATime) {
+      if (i == keeps_next) {
+        kept = squares.z;
+        keeps_next *= 2;
+      }
+      for (uint32_t round = 0; round < kRoundsAtATime; ++round)
+        squares.go_on(c);
+      goes_on = goes_on & squares.stays & !squares.is_at(kept);
+    }
+    if (goes_on.bits() != 0)
+      for (; i < most; ++i)
+        squares.go_on(c);
+    rounds = i;
+    const F inner(iteration.inner());
+    return S::select(squares.stays, kWantsLeast ? S::sqrt(squares.least) * inner : inner,
+                     iteration.outer<S>(squares.rounds));
+  }
+};
+
+} // namespace celltrace::kernel

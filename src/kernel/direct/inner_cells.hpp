@@ -1,0 +1,168 @@
+// The cells around the points that crackle is asked at, all of whose random points are known at once. Kernel
+// dialect, where memory is direct.
+#pragma once
+
+#include "celltrace/spe/one_copy.hpp"
+#include "kernel/direct/feature_neighbours.hpp"
+#include "kernel/direct/neighbours_of_lanes.hpp"
+#include "kernel/textures/crackle.hpp"
+
+namespace celltrace::kernel {
+
+/// Inner cells come first: most of the others are then too far away.
+template <class S> class InnerCells {
+  using Crackle = CracklePattern;
+  using Nearest = Crackle::Nearest<S>;
+  using Wanted = Crackle::Wanted;
+
+public:
+  /// How many steps away the cells are that are taken here.
+  static constexpr int32_t kTaken = 1;
+
+  /// Whether the nearest points of all lanes are in their inner cells. Otherwise what it takes of these may
+  /// be kept.
+  template <class Spu>
+  [[gnu::always_inline]] static bool suffice(Features<Spu>& features, const V3<S>& p, float metric,
+                                             const Wanted& wanted, Nearest& nearest) {
+    return take_inner_of_lanes(features, p, metric, wanted, nearest) &&
+           reaches_no_further(nearest.power[wanted.last], S::M::all());
+  }
+  /// Asks that of `lanes`, all of which are in one cell.
+  template <class Spu>
+  [[gnu::always_inline]] static bool suffice_in(const uint32_t (&cell)[3], Features<Spu>& features,
+                                                const V3<S>& from, const V3<S>& p, uint32_t lanes,
+                                                float metric, const Wanted& wanted, Nearest& nearest) {
+    take_inner(features, cell, from, p, lanes, metric, wanted, nearest);
+    return reaches_no_further(nearest.power[wanted.last], S::M::from_bits(lanes));
+  }
+
+  /// Returns the least that a way along an axis adds to the sum that distances are a root of.
+  [[gnu::always_inline]] static typename S::F least_along(const typename S::F& way, float metric) {
+    return Crackle::along<S>(way, metric);
+  }
+
+private:
+  /// The points of the inner cells, for lanes that are all in one cell, unless they have been taken before.
+  template <class Spu>
+  CELLTRACE_ONE_COPY static void take_inner(Features<Spu>& features, const uint32_t (&cell)[3],
+                                            const V3<S>& from, const V3<S>& p, uint32_t lanes, float metric,
+                                            const Wanted& wanted, Nearest& nearest) {
+    using F = typename S::F;
+    if ((S::M::from_bits(lanes) & (nearest.power[0] < F(Crackle::kFar))).bits() != 0) return;
+    FeatureNeighbours<S> room;
+    const FeatureNeighbours<S>& neighbours = neighbours_of(cell, features, room);
+    if (__builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
+      const auto here = S::M::from_bits(lanes);
+      const auto take_all = [&](float of_metric) __attribute__((always_inline)) {
+        Nearest found = nearest;
+        for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
+          const V3<S> d = neighbours.way_to(i, from);
+          Crackle::take<S>(S::select(here, Crackle::power<S>(d, of_metric), F(Crackle::kFar)), d, p, found);
+        }
+        return found;
+      };
+      if (metric == 2.0f && wanted.last <= 1 && !wanted.point) {
+        // What is not taken over, compilers do not compute.
+        const Nearest found = take_all(2.0f);
+        nearest.power[0] = found.power[0];
+        nearest.power[1] = found.power[1];
+      } else {
+        nearest = take_all(metric);
+      }
+      return;
+    }
+    VectorLanes of_lane;
+    of_lane.template store<S>(from);
+    for_each_lane(lanes, [&](uint32_t lane) {
+      const float at[3] = {of_lane.x.lane[lane], of_lane.y.lane[lane], of_lane.z.lane[lane]};
+      const auto found = neighbours.nearest_to(at, wanted.last,
+                                               [&](const V3<S>& d) { return Crackle::power<S>(d, metric); });
+      const auto here = S::M::from_bits(1u << lane);
+      for (uint32_t i = 0; i <= wanted.last; ++i)
+        nearest.power[i] = S::select(here, F(found.power[i]), nearest.power[i]);
+      nearest.point = select<S>(here, p + splat3<S>(found.way), nearest.point);
+    });
+  }
+
+  /// Takes the points of all lanes at once; false: they are in few cells.
+  template <class Spu>
+  [[gnu::always_inline]] static bool take_inner_of_lanes(Features<Spu>& features, const V3<S>& p,
+                                                         float metric, const Wanted& wanted,
+                                                         Nearest& nearest) {
+    const NeighboursOfLanes<S> neighbours(features, p);
+    const uint32_t most = features.scene().known_patterns().neighbours != nullptr
+                              ? tuning::kMostCellsInCache
+                              : tuning::kMostCellsOfFeatures;
+    if (!neighbours.are_of_more_cells_than(most)) return false;
+    take_neighbours(neighbours, p, metric, wanted, nearest);
+    return true;
+  }
+  CELLTRACE_ONE_COPY static void take_neighbours(const NeighboursOfLanes<S>& neighbours, const V3<S>& p,
+                                                 float metric, const Wanted& wanted, Nearest& nearest) {
+    if (metric == 2.0f && wanted.last == 0 && wanted.point) {
+      Nearest found = nearest;
+      neighbours.for_each_near([&](const V3<S>& d) __attribute__((always_inline)) {
+        Crackle::take<S>(Crackle::power<S>(d, 2.0f), d, p, found);
+      });
+      nearest.power[0] = found.power[0];
+      nearest.point = found.point;
+    } else {
+      neighbours.for_each_near([&](const V3<S>& d) __attribute__((always_inline)) {
+        Crackle::take<S>(Crackle::power<S>(d, metric), d, p, nearest);
+      });
+    }
+    const typename S::F reach = nearest.power[wanted.last];
+    FloatLanes least[3];
+    for (uint32_t i = 0; i <= wanted.last; ++i)
+      nearest.power[i].store(least[i].lane);
+    VectorLanes way = {};
+    uint32_t nearer = 0;
+    const auto take_pairs = [&](const V3<S>& ways, const int32_t* lanes, uint32_t count) {
+      FloatLanes found;
+      VectorLanes to;
+      Crackle::power<S>(ways, metric).store(found.lane);
+      to.template store<S>(ways);
+      for (uint32_t i = 0; i < count; ++i) {
+        const auto lane = static_cast<uint32_t>(lanes[i]);
+        float next = found.lane[i];
+        if (next < least[0].lane[lane]) {
+          nearer |= 1u << lane;
+          way.x.lane[lane] = to.x.lane[i];
+          way.y.lane[lane] = to.y.lane[i];
+          way.z.lane[lane] = to.z.lane[i];
+        }
+        for (uint32_t rank = 0; rank <= wanted.last; ++rank) {
+          float& known = least[rank].lane[lane];
+          const float lower = next < known ? next : known;
+          next = next < known ? known : next;
+          known = lower;
+        }
+      }
+    };
+    neighbours.for_each_far([&](const typename S::F& gap) { return Crackle::along<S>(gap, metric); },
+                            [&](const typename S::F& sum)
+                                __attribute__((always_inline)) { return (sum < reach).bits(); },
+                            take_pairs);
+    for (uint32_t i = 0; i <= wanted.last; ++i)
+      nearest.power[i] = S::F::load(least[i].lane);
+    if (wanted.point && nearer != 0)
+      nearest.point = select<S>(S::M::from_bits(nearer), p + way.template load<S>(), nearest.point);
+  }
+
+  /// Whether no point beyond the inner cells, which are 1 away or more along an axis, is nearer.
+  [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power,
+                                                        const typename S::M& here) {
+    return (here & (power > typename S::F(1.0f))).bits() == 0;
+  }
+  /// The points in and around a cell, until the next call: in `room`, unless they are cached.
+  template <class Spu>
+  static const FeatureNeighbours<S>& neighbours_of(const uint32_t (&cell)[3], Features<Spu>& features,
+                                                   FeatureNeighbours<S>& room) {
+    if (auto* const cache = features.scene().known_patterns().neighbours)
+      return cache->around(features, cell);
+    room.gather(features, cell);
+    return room;
+  }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,284 @@
+// Tests of single objects where code takes no local store: several packets at once, and shortcuts for what is
+// frequent or takes long. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/object_tests.hpp"
+#include "kernel/direct/clipping.hpp"
+#include "kernel/direct/kept_crossings.hpp"
+#include "kernel/direct/recent_occluders.hpp"
+#include "kernel/direct/torus_pairs.hpp"
+#include "kernel/direct/torus_shadows.hpp"
+
+namespace celltrace::kernel {
+
+/// Extends ObjectTests, which is `Tests`.
+template <class Tests, class Spu> class DirectObjectShortcuts {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using M = typename S::M;
+
+  DirectObjectShortcuts() : torus_pairs_(recent_) {}
+
+  /// Tests several packets as test_closest().
+  void test_closest_of_all(RayQuery* queries, uint32_t packets, uint32_t self) {
+    const ObjectRecord& object = *scene().object(self);
+    const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+    if (!kPlainTriangle.are_in(object.kind_and_flags)) {
+      if (test_plain(queries, packets, object, self)) return;
+      for_each_lane(packets,
+                    [&](uint32_t i) { tests().test_closest(*queries[i].rays, self, *queries[i].hits); });
+      return;
+    }
+    counters().tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
+    const auto sides = TriangleSides<S>::of(object);
+    // A loop without a callback: the triangle's edges stay in registers.
+    for (uint32_t left = packets; left != 0; left &= left - 1) {
+      const RayQuery& query = queries[__builtin_ctz(left)];
+      const SeenTriangle<S> triangle(query.rays->origin.template load<S>(), sides);
+      keep_closest<S>(triangle.crossed(*query.rays, self), self, *query.hits);
+    }
+  }
+
+  /// Whether opaque objects are remembered that occlude rays.
+  void remember_occluders(bool remembers) { recent_.remembers = remembers; }
+  /// Removes the lanes that those occlude from a query.
+  void test_recent(RayQuery& query) {
+    tests().hit_filter().begin_packet();
+    recent_.test([&](uint32_t self) {
+      if (query.lanes == 0) return true;
+      const uint32_t dark =
+          tests().occluded(*query.rays, self, query.lanes, *query.distance, *query.light) & query.lanes;
+      query.lanes &= ~dark;
+      return dark != 0;
+    });
+  }
+
+  /// Tests the whole rays of several packets as occluded(): removes occluded lanes from their queries. The
+  /// object must not have been tested against them before.
+  void test_occlusion_of_all(RayQuery* queries, uint32_t packets, uint32_t self) {
+    const ObjectRecord& object = *scene().object(self);
+    const uint32_t flags = object.kind_and_flags;
+    if ((flags & object_flag::no_shadow) != 0) return;
+    if (!kPlainTriangle.are_in(flags) || (flags & object_flag::opaque) == 0) {
+      if ((flags & object_flag::opaque) != 0 && test_plain(queries, packets, object, self)) return;
+      for_each_lane(packets, [&](uint32_t i) {
+        RayQuery& query = queries[i];
+        tests().hit_filter().begin_packet();
+        query.lanes &= ~tests().occluded(*query.rays, self, query.lanes, *query.distance, *query.light);
+      });
+      return;
+    }
+    counters().tests[flags & object_flag::kind_mask] += static_cast<uint32_t>(__builtin_popcount(packets));
+    const auto sides = TriangleSides<S>::of(object);
+    for (uint32_t left = packets; left != 0; left &= left - 1) {
+      RayQuery& query = queries[__builtin_ctz(left)];
+      const RayPacket& rays = *query.rays;
+      const SeenTriangle<S> triangle(rays.origin.template load<S>(), sides);
+      query.lanes &= ~Tests::shadow_hits(triangle.crossed(rays, self), *query.distance).near;
+    }
+  }
+
+  /// Tests an opaque object that takes long against those `lanes`, by packet, that may hit it.
+  void test_occlusion_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes, uint32_t self) {
+    const ObjectRecord& object = *scene().object(self);
+    if ((object.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<TorusPrimitive> &&
+        occlude_by_torus(queries, packets, lanes, object, self))
+      return;
+    for_each_lane(packets, [&](uint32_t i) {
+      RayQuery& query = queries[i];
+      FloatLanes distance;
+      S::select(M::from_bits(lanes[i]), F::load(query.distance->lane), F(-kMaxHitDistance))
+          .store(distance.lane);
+      tests().hit_filter().begin_packet();
+      query.lanes &= ~tests().occluded(*query.rays, self, query.lanes, distance, *query.light);
+    });
+  }
+
+  /// Removes rays from a query for light that the objects of a leaf occlude, until none of `lanes` is left.
+  void test_occlusion_by_leaf(const NodeRef& leaf, uint32_t lanes, RayQuery& query) {
+    const RayPacket& rays = *query.rays;
+    const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
+    const F first(kShadowEpsilon), last = F::load(query.distance->lane) - first;
+    uint32_t triangles = 0;
+    scene().for_each_object(leaf, [&](uint32_t self) {
+      const ObjectRecord& object = *scene().object(self);
+      if (kOpaqueTriangle.are_in(object.kind_and_flags)) {
+        ++triangles;
+        const SeenTriangle<S> triangle(origin, TriangleSides<S>::of(object));
+        const uint32_t dark =
+            triangle.crossed_between(direction, lanes_that_start_on<S>(rays, self), first, last).bits() &
+            query.lanes;
+        query.lanes &= ~dark;
+        if (recent_.remembers && dark != 0) recent_.add(self);
+      } else {
+        query.lanes &= ~tests().occluded(rays, self, lanes, *query.distance, *query.light);
+      }
+      return (query.lanes & lanes) == 0;
+    });
+    counters().tests[static_cast<uint32_t>(ObjectKind::triangle)] += triangles;
+  }
+
+  /// The effect of translucent objects on shadow rays.
+  enum class Translucency {
+    attenuates, ///< multiplies the light
+    is_kept,    ///< for later: the light is that of KeptCrossings
+    is_listed   ///< the same, but what surfaces let through is still to be found
+  };
+  void set_translucency(Translucency translucency) { translucency_ = translucency; }
+  /// Rays of a query may wait at tori for each other until end_traversal().
+  void begin_traversal(RayQuery& query) { torus_pairs_.begin_traversal(query); }
+  void end_traversal() { torus_pairs_.end_traversal(); }
+
+protected:
+  void begin_occlusion(uint32_t self) { crossed_ = self; }
+  void end_occlusion(uint32_t self, uint32_t flags, uint32_t dark) {
+    if (recent_.remembers && (flags & object_flag::opaque) != 0 && dark != 0) recent_.add(self);
+  }
+  void forget_occluders() { recent_.forget(); }
+
+  bool dims_at_once(const F& at, const Crossings<S>& c, uint32_t lanes, VectorLanes*& light, uint32_t& dark) {
+    if (translucency_ == Translucency::attenuates) return true;
+    light = static_cast<KeptCrossings<S>*>(light)->add(at, c, lanes, crossed_);
+    if (light == nullptr) dark = lanes;
+    return light != nullptr && translucency_ != Translucency::is_listed;
+  }
+
+  [[gnu::always_inline]] bool test_closest_shortly(const RayPacket& rays, const ObjectRecord& record,
+                                                   uint32_t self, HitPacket& hits) {
+    RayQuery query = {&rays, &hits, nullptr, nullptr, 0xFFFF};
+    return test_plain(&query, 1, record, self) ||
+           (may_wait(record.kind_and_flags) && torus_waits(rays, record, self, hits.distance));
+  }
+  [[gnu::always_inline]] bool test_occlusion_shortly(const RayPacket& rays, const ObjectRecord& record,
+                                                     uint32_t self, const FloatLanes& distance,
+                                                     VectorLanes& light, uint32_t& dark) {
+    const uint32_t flags = record.kind_and_flags;
+    RayQuery query = {&rays, nullptr, &distance, &light, 0xFFFF};
+    if (test_plain(&query, 1, record, self)) {
+      dark = ~query.lanes & 0xFFFF;
+      return true;
+    }
+    if (may_wait(flags) && torus_waits(rays, record, self, distance)) return true;
+    return (flags & object_flag::kind_mask) == kPrimitiveKind<TorusPrimitive> &&
+           lanes_that_start_on<S>(rays, self).bits() == 0 &&
+           occluded_by_torus(rays, record, self, distance, dark);
+  }
+
+private:
+  Tests& tests() { return static_cast<Tests&>(*this); }
+  SceneAccess<Spu>& scene() { return tests().scene(); }
+  auto& counters() { return tests().counters(); }
+
+  /// Tests an object of a kind whose crossings are one pair, and that no further record changes, against
+  /// several packets: keeps their closest hits, or removes the lanes that it occludes from queries for light,
+  /// if it is opaque. False: it is not of such a kind.
+  bool test_plain(RayQuery* queries, uint32_t packets, const ObjectRecord& object, uint32_t self) {
+    if ((object.kind_and_flags & (object_flag::csg | object_flag::selective)) != 0) return false;
+    const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+    bool tested = false;
+    Primitives::dispatch(kind, [&](auto shape) {
+      using Shape = decltype(shape);
+      if constexpr (is_plain<Shape>()) {
+        if (queries[__builtin_ctz(packets)].hits != nullptr)
+          test_all<Shape, true>(queries, packets, object, self);
+        else
+          test_all<Shape, false>(queries, packets, object, self);
+        tested = true;
+      }
+    });
+    if (tested) counters().tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
+    return tested;
+  }
+  /// Planes and polygons have tests of their own, and triangles are tested elsewhere.
+  template <class Shape> static constexpr bool is_plain() {
+    constexpr uint32_t kKind = kPrimitiveKind<Shape>;
+    return Shape::kCrossingPairs == 1 && !Shape::kIsHeavy && kKind != kPrimitiveKind<TrianglePrimitive> &&
+           kKind != kPrimitiveKind<PlanePrimitive> && kKind != kPrimitiveKind<PolygonPrimitive>;
+  }
+  /// Flattened: otherwise the test of a shape would be inlined nowhere.
+  template <class Shape, bool kForHits>
+  [[gnu::noinline, gnu::flatten]] void test_all(RayQuery* queries, uint32_t packets,
+                                                const ObjectRecord& object, uint32_t self) {
+    const ExtraRecord extra = object.extra == kNoOffset ? ExtraRecord() : *scene().extra(object.extra);
+    // A loop without a callback: what does not change from packet to packet stays in registers.
+    for (uint32_t left = packets; left != 0; left &= left - 1) {
+      RayQuery& query = queries[__builtin_ctz(left)];
+      Crossings<S> c;
+      module_shapes::intersect_shape<Spu, Shape>(*query.rays, object, extra, self, &c);
+      if constexpr (kForHits) {
+        keep_closest<S>(c, self, *query.hits);
+      } else {
+        const auto shadow = Tests::shadow_hits(c, *query.distance);
+        query.lanes &= ~(shadow.near | shadow.far);
+      }
+    }
+  }
+
+  /// Whether an object is a torus at which rays may wait.
+  bool may_wait(uint32_t flags) const {
+    constexpr uint32_t kAsked = object_flag::kind_mask | object_flag::csg | object_flag::selective;
+    return (flags & kAsked) == kPrimitiveKind<TorusPrimitive> && torus_pairs_.may_wait();
+  }
+  /// False: it has to be tested at once.
+  bool torus_waits(const RayPacket& rays, const ObjectRecord& torus, uint32_t self, const FloatLanes& limit) {
+    const AskedCrossings asked = {kEveryCrossing, &limit};
+    if (!torus_pairs_.add(local_rays<S>(rays, torus, self, 0, asked), scene().extra(torus.extra)->value[0],
+                          self))
+      return false;
+    ++counters().tests[kPrimitiveKind<TorusPrimitive>];
+    return true;
+  }
+
+  /// Finds the lanes that an opaque torus occludes, off which none of them starts. False: its CSG's condition
+  /// is none that is known before the crossings are.
+  [[gnu::noinline]] bool occluded_by_torus(const RayPacket& rays, const ObjectRecord& torus, uint32_t self,
+                                           const FloatLanes& distance, uint32_t& dark) {
+    const ExtraRecord& extra = *scene().extra(torus.extra);
+    ClippingObject clipping;
+    if (!find_clipping(torus, extra, clipping)) return false;
+    ++counters().tests[kPrimitiveKind<TorusPrimitive>];
+    const AskedCrossings asked = {kShadowEpsilon, &distance};
+    const LocalRays<S> local = local_rays<S>(rays, torus, self, 0, asked);
+    const F ratio(extra.value[0]);
+    ClippedRays clipped;
+    if (clipping.object != nullptr) clipping.template clip<S>(rays, clipped);
+    dark = TorusPrimitive::crossed<S>(TorusPrimitive::may_hit<S>(local, ratio), local, ratio,
+                                      clipping.object != nullptr ? &clipped : nullptr)
+               .bits();
+    return true;
+  }
+  /// Removes the lanes that it occludes from several queries, out of `lanes` by packet.
+  [[gnu::noinline]] bool occlude_by_torus(RayQuery* queries, uint32_t packets, const uint32_t* lanes,
+                                          const ObjectRecord& torus, uint32_t self) {
+    const ExtraRecord& extra = *scene().extra(torus.extra);
+    ClippingObject clipping;
+    if (!find_clipping(torus, extra, clipping)) return false;
+    uint32_t starting = 0;
+    for_each_lane(packets,
+                  [&](uint32_t i) { starting |= lanes_that_start_on<S>(*queries[i].rays, self).bits(); });
+    if (starting != 0) return false;
+    counters().tests[kPrimitiveKind<TorusPrimitive>] += static_cast<uint32_t>(__builtin_popcount(packets));
+    TorusShadows<S> shadows(extra.value[0], clipping, queries);
+    for_each_lane(packets, [&](uint32_t i) {
+      const AskedCrossings asked = {kShadowEpsilon, queries[i].distance};
+      shadows.add(i, local_rays<S>(*queries[i].rays, torus, self, 0, asked), lanes[i]);
+    });
+    shadows.finish();
+    return true;
+  }
+  /// Finds the object that clips a torus, if one does. False: only its crossings can tell.
+  bool find_clipping(const ObjectRecord& torus, const ExtraRecord& extra, ClippingObject& clipping) {
+    clipping = {nullptr, false, false};
+    if ((torus.kind_and_flags & object_flag::csg) == 0 || extra.csg == kNoOffset) return true;
+    clipping = ClippingObject::of(scene(), extra.csg);
+    return clipping.object != nullptr;
+  }
+
+  Translucency translucency_ = Translucency::attenuates;
+  uint32_t crossed_ = kNoOffset; ///< the object that shadow rays are tested against
+  RecentOccluders recent_;
+  TorusPairs<Spu> torus_pairs_;
+};
+
+} // namespace celltrace::kernel

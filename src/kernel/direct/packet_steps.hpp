@@ -1,0 +1,82 @@
+// Steps of a packet's traversal where the processor fetches memory by itself, line by line: leaves wait until
+// their objects have come, and traversals of several packets are interleaved. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/packet_traversal.hpp"
+#include "kernel/direct/deferred_leaves.hpp"
+#include "kernel/direct/leaf_tests.hpp"
+
+namespace celltrace::kernel {
+
+template <class Traversal, class Spu> class DirectPacketSteps {
+public:
+  static constexpr uint32_t kMaxInterleaved = tuning::kMaxInterleaved;
+  bool interleaves() const { return interleaves_; }
+
+  /// Where surfaces lie on each other, nodes that are too near are many.
+  static float tnear(const RayQuery& query) {
+    return 0.5f * (query.hits != nullptr ? kMinHitDistance : kShadowEpsilon);
+  }
+
+protected:
+  using Deferred = DeferredLeaves;
+
+  explicit DirectPacketSteps(const FrameBlock& frame)
+      : defers_leaves_(frame.object_count > tuning::kObjectsInCoreCache), interleaves_(frame.far_nodes != 0) {
+  }
+
+  [[gnu::always_inline]] bool test_leaf(const NodeRef& leaf, uint32_t group, RayQuery& query) {
+    if (leaf_word::count(leaf.leaf) < tuning::kLeastTrianglesByLeaf) return false;
+    if (__builtin_popcount(group) <= tuning::kMostRaysByLeaf) {
+      LeafTests<Spu>(traversal().objects_).test(query, group, leaf);
+      return true;
+    }
+    if (query.hits != nullptr) return false;
+    traversal().objects_.test_occlusion_by_leaf(leaf, group, query);
+    return true;
+  }
+
+  template <class Slot, class State>
+  [[gnu::always_inline]] bool defer(Slot& slot, State& state, const NodeRef& leaf, RayQuery& query) {
+    if (!defers_leaves_) return false;
+    if (slot.deferred.is_full()) test_deferred(slot, state, query);
+    traversal().objects_.scene().hint(leaf);
+    slot.deferred.add(leaf, state.group);
+    return true;
+  }
+  template <class Slot, class State> void test_deferred(Slot& slot, State& state, RayQuery& query) {
+    if (slot.deferred.count() == 0) return;
+    for (uint32_t i = 0; i < slot.deferred.count(); ++i)
+      traversal().test_objects(slot.deferred[i].ref, slot.deferred[i].group, query);
+    slot.deferred.clear();
+    traversal().update_state(slot, state, query);
+  }
+
+  /// Without a branch: which children are hit and in what order can hardly be predicted.
+  template <class Slot, class State, class Rays, class Order>
+  [[gnu::always_inline]] void push_hit(Slot& slot, const State& state, const Rays& rays, const Order& order,
+                                       const RayQuery& query, const NodeRecord& node, uint32_t hit,
+                                       const float (&enter)[4]) {
+    const uint32_t group = state.group;
+    const Lanes4 hit_by = is_single(group)
+                              ? Lanes4{group, group, group, group}
+                              : rays.intersect_all(node.bounds, order, Traversal::tfar(query), tnear(query));
+    uint32_t lanes[4];
+    float key[4];
+    for (uint32_t i = 0; i < 4; ++i) {
+      lanes[i] = hit_by.lanes[i] & group & (0u - (hit >> i & 1));
+      key[i] = lanes[i] != 0 ? enter[i] : -1.0f;
+    }
+    slot.stack.push_all(key, lanes, node.child, node.leaf);
+    for (uint32_t i = 0; i < 4; ++i)
+      if (lanes[i] != 0) traversal().objects_.scene().hint({node.child[i], node.leaf[i]});
+  }
+
+private:
+  Traversal& traversal() { return static_cast<Traversal&>(*this); }
+
+  const bool defers_leaves_;
+  const bool interleaves_;
+};
+
+} // namespace celltrace::kernel

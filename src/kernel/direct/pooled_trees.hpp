@@ -1,0 +1,219 @@
+// The ray trees of a bundle where memory is direct: rays that leave their packets fill others with those of
+// other trees. Kernel dialect.
+#pragma once
+
+#include "kernel/direct/bundle_pool.hpp"
+#include "kernel/direct/bundle_queries.hpp"
+#include "kernel/direct/fractal_ahead.hpp"
+#include "kernel/program/bundle_tracer.hpp"
+#include "kernel/shading/material_lanes.hpp"
+
+namespace celltrace::kernel {
+
+/// Extends BundleTracer, which is `Tracer`.
+template <class Tracer, class Spu> class PooledTrees {
+protected:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+
+  struct PrimaryRays {
+    RayPacket rays;
+    template <class Member> static RayPacket& of(Member& member) { return member.rays; }
+  };
+
+  PooledTrees(Spu& spu, SampleBundle<Spu>* samples) : pool_(spu, samples) {}
+
+  // --- search ---
+
+  template <class Put, class Fill> bool search(uint32_t column, uint32_t row, Put put, Fill fill) {
+    const auto sort = [&] { pool_.sort(all().scene_, all().frame_, all().store_.members); };
+    if (all().takes_samples()) {
+      all().place(0, 0);
+      all().find_hits([&](RayQuery* queries) { traversal().intersect_from_origin(queries, kPackets); }, sort);
+      return true;
+    }
+    const FrameBlock& frame = all().frame_;
+    const PinholeBundle<S> bundle(frame, column, row);
+    const bool missed = !traversal().enter(bundle);
+    const bool asks_more = has_atmosphere(frame) || (frame.light_ways & light_way::first_hits) != 0;
+    const bool plain = frame.sky == kNoOffset && !asks_more;
+    if (missed && plain && is_whole(column, row)) {
+      fill(column * kEdge, row * kEdge, all().tracer_.background(kPackets * kSimdLanes));
+      return false;
+    }
+    all().place(column, row);
+    if (missed && !asks_more) {
+      all().for_each_member([&](auto& member) {
+        if (!plain) make_primary_rays(all().scene_.spu(), frame, member.column, member.row, member.rays);
+        put(member.column, member.row, all().tracer_.background(member.rays, member.lanes));
+      });
+      return false;
+    }
+    all().find_hits([&](RayQuery* queries) { traversal().intersect_from_pinhole(queries, bundle); }, sort);
+    return true;
+  }
+
+  // --- surfaces ---
+
+  void begin_trees() {
+    tracer().pooling().pool = BundlePool<Spu>::has_own_lanes(all().frame_) ? nullptr : &pool_.rays;
+    pool_.begin();
+    tracer().add_clear_to(pool_.clear);
+    if (auto* const fractals = all().scene_.known_patterns().fractals;
+        fractals != nullptr && fractals->begin())
+      iterate_fractals(*fractals);
+  }
+  /// Lets extra records come that member `i` will ask for.
+  void hint(uint32_t i) {
+    if (all().frame_.object_count <= tuning::kObjectsInCoreCache || i == kPackets) return;
+    const auto& member = all().store_.members[i];
+    hint_extras(all().scene_, member.hits, member.hit);
+  }
+  template <class Member> [[gnu::always_inline]] bool shade_end(Member& member) {
+    pool_.clear_lanes();
+    if (auto* const fractals = all().scene_.known_patterns().fractals) fractals->show(member.number);
+    HitPoints<S>& points = all().store_.points;
+    if (member.hit != 0) {
+      find_hit_points(all().scene_, member.rays, member.hits, member.hit, points);
+      member.point = points.point;
+    }
+    VectorLanes seen;
+    LightRound only = all().begin_round(0, member);
+    if (!tracer().ends_at_once(member.rays, member.lanes, member.hits, points, only, seen)) return false;
+    if (member.hit != 0 && only.is_fresh) only.template clear<S>();
+    pool_.put(member.number, member.lanes, seen);
+    return true;
+  }
+  template <class Member> void begin_tree(const Member& member) {
+    pool_.begin_tree(member.number, tracer().pooling().pixels);
+  }
+  /// shade_end() has found those of a root.
+  static bool knows_points(const void* root) { return root != nullptr; }
+  uint32_t take_hits() {
+    return tracer().take_hits([&](uint32_t missed) { return leave_sky(missed); });
+  }
+  /// Leaves hits from which no rays go on to shade_left(), if they are few.
+  uint32_t leave_ends(uint32_t hit) {
+    const HitPoints<S>& points = all().store_.points;
+    const uint32_t ends = hit & ~(points.spawning | points.blended);
+    if (ends == 0 || !may_wait()) return 0;
+    return pool_.hits.add(tracer().node(), tracer().pooling().pixels, tracer().hits(), ends) ? ends : 0;
+  }
+  template <class Member> void keep_tree(const Member& member) {
+    pool_.put_tree(member.number, member.lanes, tracer().light());
+  }
+  void end_tree() {
+    while (pool_.hits.full())
+      shade_left();
+  }
+  /// Traces the rays that have left their packets.
+  template <class Stopped> bool finish(Stopped stopped) {
+    while (!pool_.rays.empty() || !pool_.hits.empty()) {
+      if (stopped()) return false;
+      if (pool_.hits.full() || pool_.rays.empty()) {
+        shade_left();
+        continue;
+      }
+      tracer().begin(pool_.rays.take());
+      const uint32_t lanes = tracer().node().lanes;
+      pool_.clear_lanes();
+      all().find_closest();
+      all().shade_node(nullptr);
+      if (!all().trace_tree(stopped)) return false;
+      pool_.add_tree(tracer().pooling().pixels, lanes, tracer().light());
+    }
+    pool_.skies.finish([&](const SkyRays& rays, uint32_t lanes) { see_sky(rays, lanes); });
+    pool_.shadows.finish([&](uint32_t number, QueuedPoints& points, uint32_t lanes) {
+      for_each_light(all().scene_, all().frame_, number, 1,
+                     [&](uint32_t, const LightRecord& light) { light_left(light, points, lanes); });
+    });
+    return true;
+  }
+  void drop() { pool_.drop(); }
+
+  // --- light ---
+
+  /// Leaves light of a few lanes of the node that is being traced to light_left(). False: it has to come now,
+  /// as what it goes to is no pixel's or its rays have a packet of their own.
+  bool leave_light(uint32_t number, const LightRecord& light, uint32_t lanes, const VectorLanes& colour) {
+    if (lanes == 0 || !may_wait() || !pool_.shadows.takes(number, lanes)) return false;
+    pool_.shadows.add(number, lanes, all().store_.points.point, tracer().hits().object, colour,
+                      tracer().pooling().pixels, all().shadows_.asks_interiors() ? &tracer().node() : nullptr,
+                      [&](QueuedPoints& points) { light_left(light, points, 0xFFFF); });
+    return true;
+  }
+  template <class Member> void add_left_light(Member& member) {
+    pool_.add(member.number, member.hit, LightRound::from(all().frame_, 0, member.light));
+  }
+
+  // --- pixels ---
+
+  template <class Member> uint32_t lanes_with_ray(const Member& member) const {
+    return pool_.with_ray(member.number);
+  }
+  template <class Member> V3<S> light_of(Member& member) {
+    return pool_.light_of(member.number, member.hit, LightRound::from(all().frame_, 0, member.light));
+  }
+
+private:
+  static constexpr uint32_t kEdge = kBundleEdge<Spu>;
+  static constexpr uint32_t kPackets = kBundlePackets<Spu>;
+
+  Tracer& all() { return static_cast<Tracer&>(*this); }
+  auto& tracer() { return all().tracer_; }
+  auto& traversal() { return all().shadows_.traversal(); }
+
+  bool is_whole(uint32_t column, uint32_t row) {
+    constexpr uint32_t kPixels = kEdge * kPacketEdge;
+    return (column + 1) * kPixels <= all().frame_.width && (row + 1) * kPixels <= all().frame_.height;
+  }
+
+  /// Finds what fractals are where the primary rays have hit them.
+  template <class Fractals> [[gnu::noinline]] void iterate_fractals(Fractals& fractals) {
+    for (auto& member : all().store_.members) {
+      if (member.hit == 0) continue;
+      HitPoints<S>& points = all().store_.points;
+      find_hit_points(all().scene_, member.rays, member.hits, member.hit, points);
+      add_fractals(all().scene_, member.number, points.material, points.point,
+                   member.hit & points.textured & ~points.blended, fractals);
+    }
+    fractals.run();
+  }
+
+  /// Whether light of the node that is being traced goes to pixels, whatever packet its rays are in.
+  bool may_wait() { return tracer().pooling().pool != nullptr && tracer().node().target == 0; }
+  /// Shades hits that have waited, between trees.
+  void shade_left() {
+    const QueuedHits& queued = pool_.hits.take();
+    tracer().begin(queued.packet);
+    tracer().hits() = queued.hits;
+    const uint32_t lanes = tracer().node().lanes;
+    find_hit_points(all().scene_, tracer().node().rays, tracer().hits(), lanes, all().store_.points);
+    all().shade_points(nullptr, lanes);
+    pool_.add(tracer().pooling().pixels, lanes, tracer().light());
+  }
+  /// Leaves what a few lanes of the node see that hit nothing to see_sky(). False: it has to come now.
+  bool leave_sky(uint32_t missed) {
+    if (all().frame_.sky == kNoOffset || !may_wait() || !pool_.skies.takes(missed)) return false;
+    pool_.skies.add(tracer().node(), tracer().pooling().pixels, missed,
+                    [&](const SkyRays& rays) { see_sky(rays, 0xFFFF); });
+    return true;
+  }
+  /// Takes to their pixels what rays see that have waited.
+  void see_sky(const SkyRays& rays, uint32_t lanes) {
+    VectorLanes light;
+    light.template store<S>(tracer().behind(rays.direction, lanes) * rays.throughput.template load<S>());
+    pool_.add(rays.pixels, lanes, light);
+  }
+  /// Takes to their pixels what comes of a light to points that have waited.
+  void light_left(const LightRecord& light, QueuedPoints& points, uint32_t lanes) {
+    all().shadows_.set_interiors(&points.interiors);
+    all().shadows_.trace(light, all().store_.lit.to_light, points.point.template load<S>(), points.object,
+                         false, lanes, points.light);
+    pool_.add(points.pixels, lanes, points.light);
+  }
+
+  BundlePool<Spu> pool_;
+};
+
+} // namespace celltrace::kernel

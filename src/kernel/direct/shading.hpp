@@ -1,0 +1,172 @@
+// Shading where memory is direct and code takes no local store: records are read side by side, and there are
+// shortcuts for what is frequent. Kernel dialect.
+#pragma once
+
+#include "kernel/direct/node_stack.hpp"
+#include "kernel/direct/ray_pool.hpp"
+#include "kernel/direct/record_lanes.hpp"
+#include "kernel/shading/lighting.hpp"
+#include "kernel/shading/secondary_rays.hpp"
+
+namespace celltrace::kernel {
+
+struct DirectShading {
+  // --- the tree ---
+
+  template <class Spu, uint32_t kResident> using RayStack = NodeStack;
+  template <class Spu> using RayPooling = kernel::RayPooling<Spu>;
+
+  // --- surfaces ---
+
+  /// Several objects at once, or one by one.
+  template <class Spu>
+  [[gnu::always_inline]] static void gather_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                                    uint32_t lanes, detail::HitObjects<typename Spu::simd>& o,
+                                                    HitPoints<typename Spu::simd>& points) {
+    if (!load_several_objects(scene, offsets, lanes, o, points))
+      detail::gather_objects(scene, offsets, lanes, o, points);
+  }
+  /// The normals of objects that are no spheres, triangles or planes. Points on flat faces move there.
+  template <class Spu>
+  [[gnu::always_inline]] static void find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
+                                                  const V3<typename Spu::simd>& way, uint32_t others,
+                                                  uint32_t heavy, V3<typename Spu::simd>& point,
+                                                  V3<typename Spu::simd>& normal) {
+    using S = typename Spu::simd;
+    static_assert(kOnePart<Spu>);
+    const V3<S> along_ray = point;
+    normal = along_ray;
+    if (others != 0) normal = local_normal<S>(o, way, point);
+    if (heavy != 0)
+      normal = select<S>(S::M::from_bits(heavy), module_heavy_points::normal(spu, o, along_ray), normal);
+  }
+  /// The first material fills all lanes.
+  template <class Spu>
+  [[gnu::always_inline]] static void gather_material(const MaterialRecord& r, bool first, uint32_t lanes,
+                                                     uint32_t wanted, MaterialLanes<typename Spu::simd>& m) {
+    if (first)
+      detail::gather_material<Spu, true>(r, 0xFFFF, lanes, wanted, m);
+    else
+      detail::gather_material<Spu>(r, lanes, lanes, wanted, m);
+  }
+
+  // --- light ---
+
+  /// Rounds begin fresh, and shading leaves the rays toward their first light.
+  template <class S, class LitPoints> static void begin_round(LightRound& round, LitPoints& lit) {
+    round.is_fresh = true;
+    round.to_first = &lit.to_light;
+  }
+  static bool is_fresh(const LightRound& round) { return round.is_fresh; }
+  static bool wants_rays(const LightRound& round, uint32_t light) {
+    return round.to_first != nullptr && light == round.first;
+  }
+  static void end_fresh(LightRound& round) { round.is_fresh = false; }
+  /// Whether shading has left the rays toward a light, of a round that begins with `first`.
+  static bool is_aimed(uint32_t light, uint32_t first) { return light == first; }
+
+  /// Leaves those of `lanes` whose surfaces may send on light of lights: not what is black, or diffuses
+  /// nothing, and has no highlights. True if these are none.
+  template <class Spu>
+  static bool are_dark(const Surfaces<typename Spu::simd>& s, const MaterialLanes<typename Spu::simd>& m,
+                       uint32_t& lanes) {
+    using S = typename Spu::simd;
+    using F = typename S::F;
+    const F zero(0.0f);
+    auto lit = !(((m.pigment.x == zero) & (m.pigment.y == zero) & (m.pigment.z == zero)) |
+                 (m.diffuse * m.opacity == zero));
+    if (m.has(material_flag::highlights)) lit = lit | !((m.phong == zero) & (m.specular == zero));
+    lanes &= lit.bits() | s.any_side | m.special;
+    return lanes == 0;
+  }
+
+  /// Cosines to whole powers. False: they are not all whole.
+  template <class S>
+  [[gnu::always_inline]] static bool bend_by_whole_power(const typename S::F& power, uint32_t lanes,
+                                                         typename S::F& cosine) {
+    const typename S::I whole = whole_power<S>(power);
+    if ((lanes & ~(S::to_float(whole) == power).bits()) != 0) return false;
+    cosine = whole_pow<S>(cosine, whole);
+    return true;
+  }
+
+  // --- rays that go on ---
+
+  template <class Spu, class S = typename Spu::simd, class F = typename S::F>
+  [[gnu::always_inline]] static void
+  find_secondary_rays(const MaterialLanes<S>& m, const F& cosine, const F& fresnel_ratio, float adc_bailout,
+                      uint32_t lanes, const F& share, SecondaryRays<S>& all) {
+    detail::secondary_rays_of<S>(m, cosine, fresnel_ratio, adc_bailout, lanes, share, all);
+  }
+
+  /// Returns the `lanes` in which a ray is inside of an interior.
+  template <class S> static uint32_t lanes_inside(const RayNode& ray, uint32_t lanes, uint32_t interior) {
+    using I = typename S::I;
+    const I depth = load_words<S>(ray.interior_depth), wanted = I::splat(static_cast<int32_t>(interior));
+    auto inside = S::M::none();
+    for (int32_t d = 0; d < static_cast<int32_t>(kMaxInteriorDepth); ++d)
+      inside = inside | ((load_words<S>(ray.interiors[d]) == wanted) & (I::splat(d) < depth));
+    return inside.bits() & lanes;
+  }
+  /// As cross_surfaces(), all at once for the `lanes` that have nothing to do with any other interior.
+  /// Returns the rest.
+  template <class Spu>
+  static uint32_t cross_single_interiors(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes,
+                                         RayNode& ray, Refraction& result) {
+    using S = typename Spu::simd;
+    using F = typename S::F;
+    using I = typename S::I;
+    using M = typename S::M;
+    const I depth = load_words<S>(ray.interior_depth), own = load_words<S>(interior);
+    const I outermost = load_words<S>(ray.interiors[0]);
+    const M outside = (depth == I::splat(0)) & M::from_bits(lanes);
+    const M inside = (depth == I::splat(1)) & (outermost == own) & M::from_bits(lanes);
+    const uint32_t crossing = (outside | inside).bits();
+    F ratio(1.0f);
+    for_each_value<S>(interior, crossing, [&](uint32_t offset, uint32_t same) {
+      const float ior = scene.interior(offset)->ior;
+      ratio = S::select(M::from_bits(same), S::select(inside, F(ior), F(1.0f / ior)), ratio);
+    });
+    ratio.store(result.ratio.lane);
+    result.straight = ((ratio > F(1.0f - kLeastBend)) & (ratio < F(1.0f + kLeastBend))).bits() & crossing;
+    store_words<S>(ray.interiors[0], S::select(outside, own, outermost));
+    store_words<S>(ray.interior_depth,
+                   S::select(outside, I::splat(1), S::select(inside, I::splat(0), depth)));
+    return lanes & ~crossing;
+  }
+
+private:
+  /// Loads several objects at once. False: there is only one, or some are triangles of instances.
+  template <class Spu>
+  [[gnu::always_inline]] static bool
+  load_several_objects(SceneAccess<Spu>& scene, const WordLanes& offsets, uint32_t lanes,
+                       detail::HitObjects<typename Spu::simd>& o, HitPoints<typename Spu::simd>& points) {
+    using S = typename Spu::simd;
+    using I = typename S::I;
+    const I all = load_words<S>(offsets);
+    const I first = I::splat(static_cast<int32_t>(offsets.lane[__builtin_ctz(lanes)]));
+    if ((lanes & ~(all == first).bits()) == 0) return false;
+    const I in_all = S::select(S::M::from_bits(lanes), all, first);
+    if ((in_all < I::splat(0)).bits() != 0) return false;
+    WordLanes filled;
+    store_words<S>(filled, in_all);
+    ObjectWords<S> words;
+    load_objects(scene, filled, o.objects, words);
+    o.material = words.material;
+    o.interior = words.interior;
+    o.open = words.lanes_with(object_flag::open);
+    points.blended = lanes & words.lanes_with(object_flag::blended);
+    points.spawning = lanes & words.lanes_with(object_flag::spawns);
+    points.textured = lanes & words.lanes_with(object_flag::textured);
+    points.disturbed = lanes & words.lanes_with(object_flag::disturbed);
+    if ((lanes & words.lanes_with(detail::kOfSides)) != 0) {
+      o.two_sided = lanes & words.lanes_with(object_flag::two_sided);
+      o.inverse = lanes & words.lanes_with(object_flag::inverse);
+      points.lit_behind = lanes & words.lanes_with(object_flag::lit_behind);
+      points.lit_through = lanes & words.lanes_with(object_flag::lit_through);
+    }
+    return true;
+  }
+};
+
+} // namespace celltrace::kernel

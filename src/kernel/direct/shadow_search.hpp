@@ -1,0 +1,227 @@
+// Shadow rays where memory is direct: what they cross is found by one traversal, and objects
+// that may be between surfaces and a light with an area are gathered before its places are looked at. Kernel
+// dialect.
+#pragma once
+
+#include "kernel/direct/area_pairs.hpp"
+#include "kernel/direct/bundle_queries.hpp"
+#include "kernel/direct/kept_crossings.hpp"
+#include "kernel/shading/shadow_tracer.hpp"
+
+namespace celltrace::kernel {
+
+/// Extends ShadowTracer, which is `Tracer`.
+template <class Tracer, class Spu> class DirectShadowSearch {
+protected:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+
+  /// Where crossings are kept, rays are only walked toward lights that are dimmed on their way.
+  bool walks(const LightRecord& light) const { return is_dimmed(light) || restarts_shadows(tracer().frame_); }
+
+  /// Answers the queries of a bundle where order matters: what they cross is kept. Only rays are walked that
+  /// cross more than there is room for.
+  bool trace_crossings(const LightRecord& light, RayQuery* queries, uint32_t count) {
+    CrossingPool pool;
+    KeptCrossings<S> crossings[kPackets];
+    VectorLanes* colours[kPackets];
+    for (uint32_t i = 0; i < count; ++i) {
+      colours[i] = queries[i].light;
+      crossings[i].begin(*colours[i], pool);
+      queries[i].light = &crossings[i];
+    }
+    tracer().traversal_.keep_crossings(queries, count, light, lists_crossings());
+    for (uint32_t i = 0; i < count; ++i) {
+      auto& crossed = static_cast<KeptCrossings<S>&>(*queries[i].light);
+      finish(light, queries[i], crossed, *colours[&crossed - crossings]);
+    }
+    return true;
+  }
+  /// Takes one packet through what it crosses.
+  void trace_crossings(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                       const FloatLanes& distance, VectorLanes& colour) {
+    CrossingPool pool;
+    KeptCrossings<S> crossings;
+    crossings.begin(colour, pool);
+    RayQuery query = {&rays, nullptr, &distance, &crossings, lanes};
+    tracer().traversal_.keep_crossings(query, lists_crossings());
+    finish(light, query, crossings, colour);
+  }
+
+  /// The light of an area, of which all objects that may be in the way are known, or else the last ones that
+  /// were.
+  bool sample_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
+    using Known = typename AreaOccluders<Spu>::Known;
+    if (is_projected(light) || tracer().walks_all(light)) return false;
+    AreaShadow<S>& area = *tracer().area_;
+    AreaOccluders<Spu> occluders;
+    const Known known = tracer().traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders);
+    if (known == Known::objects)
+      test_gathered(light, lanes, occluders, colour);
+    else if (tracer().walk_ != nullptr)
+      look_at_crossed_area(light, colour);
+    else
+      look_at_occluded_area(light, known == Known::nodes ? &occluders : nullptr, colour);
+    return true;
+  }
+
+private:
+  static constexpr uint32_t kPackets = kBundlePackets<Spu>;
+
+  Tracer& tracer() { return static_cast<Tracer&>(*this); }
+  const Tracer& tracer() const { return static_cast<const Tracer&>(*this); }
+
+  /// Whether what surfaces let through depends on where rays come from: it is found surface by surface.
+  bool lists_crossings() const {
+    return walks_translucent(tracer().frame_) && !walks_for_fading(tracer().frame_);
+  }
+  void finish(const LightRecord& light, const RayQuery& query, KeptCrossings<S>& crossings,
+              VectorLanes& colour) {
+    if (walks_translucent(tracer().frame_))
+      pass_crossings(query, crossings);
+    else
+      crossings.finish();
+    walk_some(light, query, crossings, crossings.overflowed, colour);
+  }
+  /// Takes rays through the surfaces that they cross, one after the other.
+  void pass_crossings(const RayQuery& query, KeptCrossings<S>& crossings) {
+    if (query.lanes == 0 || crossings.empty()) return;
+    ShadowWalk<S>& walk = *tracer().walk_;
+    VectorLanes light = crossings, transmittance;
+    begin_shadow_walk(tracer().scene_.spu(), tracer().frame_, tracer().interiors_, *query.rays, query.lanes,
+                      *query.distance, light, walk);
+    F last(0.0f);
+    while (walk.ray->lanes != 0) {
+      const uint32_t hit = crossings.take(walk.ray->lanes, walk.hits, transmittance);
+      if (hit == 0) break;
+      const F distance = F::load(walk.hits.distance.lane);
+      (distance - last).store(walk.hits.distance.lane);
+      last = S::select(S::M::from_bits(hit), distance, last);
+      if (lists_crossings()) {
+        find_hit_points(tracer().scene_, walk.ray->rays, walk.hits, hit, walk.points);
+        step_shadow_walk(tracer().scene_, walk, tracer().counters_.dropped);
+      } else {
+        pass_surfaces(hit, transmittance, walk);
+      }
+    }
+    static_cast<VectorLanes&>(crossings) = light;
+  }
+  /// As step_shadow_walk(), where what surfaces let through is known.
+  void pass_surfaces(uint32_t hit, const VectorLanes& transmittance, ShadowWalk<S>& walk) {
+    using I = typename S::I;
+    I interiors = I::splat(0);
+    for_each_value<S>(walk.hits.object, hit, [&](uint32_t object, uint32_t same) {
+      const I of_object = I::splat(static_cast<int32_t>(tracer().scene_.object(object)->interior));
+      interiors = S::select(S::M::from_bits(same), of_object, interiors);
+    });
+    WordLanes interior;
+    store_words<S>(interior, interiors);
+    const uint32_t counts = hit & (F::load(walk.hits.distance.lane) > F(kShadowEpsilon)).bits();
+    fade(tracer().scene_, *walk.ray, interior, walk.hits.distance, counts, *walk.light, true);
+    const V3<S> before = walk.light->template load<S>();
+    walk.light->template store<S>(
+        select<S>(S::M::from_bits(counts), before * transmittance.template load<S>(), before));
+    cross_surfaces(tracer().scene_, interior, counts, *walk.ray, tracer().counters_.dropped);
+    walk.ray->lanes = hit;
+  }
+  /// The light of a query: `answered` in lanes that are left; `walked` lanes are still to be walked.
+  void walk_some(const LightRecord& light, const RayQuery& query, const VectorLanes& answered,
+                 uint32_t walked, VectorLanes& colour) {
+    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+    const V3<S> direct = select<S>(S::M::from_bits(query.lanes), answered.template load<S>(), dark);
+    if (walked == 0) return colour.template store<S>(direct);
+    tracer().walk_shadows(light, *query.rays, walked, *query.distance, colour);
+    colour.template store<S>(colour.template load<S>() + direct);
+  }
+
+  void test_gathered(const LightRecord& light, uint32_t lanes, const AreaOccluders<Spu>& occluders,
+                     VectorLanes& colour) {
+    AreaShadow<S>& area = *tracer().area_;
+    if (occluders.are_none())
+      return colour.template store<S>(
+          select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
+    const auto test = [&](RayQuery* queries, uint32_t count) {
+      tracer().traversal_.test_occluders(queries, count, occluders);
+    };
+    if (AreaPairs<Spu, false>::can_sample(light)) {
+      AreaPairs<Spu, false>(light, grid_, area).sample(test);
+    } else {
+      while (next_place(tracer().scene_.spu(), light, area)) {
+        RayQuery query = {&area.to_place->rays, nullptr, &area.to_place->distance, &area.light(), area.lanes};
+        test(&query, 1);
+        answer(area, query.lanes);
+      }
+    }
+    tracer().take_area_light(colour);
+  }
+  /// Tests what occludes one place first for the next one. `occluders`: what is known of the
+  /// nodes that are in the way; null: nothing.
+  void look_at_occluded_area(const LightRecord& light, const AreaOccluders<Spu>* occluders,
+                             VectorLanes& colour) {
+    AreaShadow<S>& area = *tracer().area_;
+    tracer().traversal_.remember_occluders(true);
+    // False: the light is that of before, and none of it comes.
+    const auto trace = [&](const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                           VectorLanes& of_place) {
+      lanes = tracer().traversal_.unoccluded_by_recent(rays, lanes, distance, of_place);
+      if (lanes == 0) return false;
+      if (occluders != nullptr)
+        tracer().traversal_.transmittance_of(*occluders, rays, lanes, distance, of_place);
+      else
+        tracer().traversal_.transmittance(rays, lanes, distance, of_place);
+      return true;
+    };
+    if (!sample_pairs(light, [&](const RayQuery& query, const int32_t*, VectorLanes& of_place) {
+          return trace(*query.rays, query.lanes, *query.distance, of_place);
+        }))
+      while (next_place(tracer().scene_.spu(), light, area))
+        if (!trace(area.to_place->rays, area.lanes, area.to_place->distance, area.light())) answer(area, 0);
+    tracer().traversal_.remember_occluders(false);
+    tracer().take_area_light(colour);
+  }
+  /// Does so where what rays cross is kept.
+  void look_at_crossed_area(const LightRecord& light, VectorLanes& colour) {
+    AreaShadow<S>& area = *tracer().area_;
+    tracer().traversal_.remember_occluders(true);
+    const RayInteriors* const of_surfaces = tracer().interiors_;
+    const auto trace = [&](const RayQuery& query, const int32_t* surfaces, VectorLanes& of_place) {
+      const uint32_t lanes =
+          tracer().traversal_.unoccluded_by_recent(*query.rays, query.lanes, *query.distance, of_place);
+      if (lanes == 0) return false;
+      RayInteriors of_pairs;
+      if (of_surfaces != nullptr) {
+        for_each_lane(lanes, [&](uint32_t lane) {
+          copy_lane(*of_surfaces, static_cast<uint32_t>(surfaces[lane]), of_pairs, lane);
+        });
+        tracer().interiors_ = &of_pairs;
+      }
+      trace_crossings(light, *query.rays, lanes, *query.distance, of_place);
+      tracer().interiors_ = of_surfaces;
+      return true;
+    };
+    if (!sample_pairs(light, trace))
+      while (next_place(tracer().scene_.spu(), light, area))
+        trace_crossings(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light());
+    tracer().traversal_.remember_occluders(false);
+    tracer().take_area_light(colour);
+  }
+  /// Samples an area in pairs of a surface and a place, if there is room for them. `trace(query, the surface
+  /// of each lane, light)` takes white light to what comes; false: none does.
+  template <class Trace> bool sample_pairs(const LightRecord& light, const Trace& trace) {
+    AreaShadow<S>& area = *tracer().area_;
+    if (!AreaPairs<Spu, true>::can_sample(light)) return false;
+    const uint32_t asked = area.rays_asked;
+    AreaPairs<Spu, true> pairs(light, grid_, area);
+    const auto test = [&](RayQuery* queries, uint32_t count) {
+      for (uint32_t i = 0; i < count; ++i)
+        if (!trace(queries[i], pairs.surface_lanes(i), *queries[i].light)) queries[i].lanes = 0;
+    };
+    if (pairs.sample(test)) return true;
+    area.rays_asked = asked;
+    return false;
+  }
+
+  LightGrid grid_;
+};
+
+} // namespace celltrace::kernel

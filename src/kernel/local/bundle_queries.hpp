@@ -1,0 +1,13 @@
+// Ray queries in local store: bundles are not more than their packets. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/traversal.hpp"
+
+namespace celltrace::kernel {
+
+template <class Traversal, class Spu> class LocalBundleQueries {
+protected:
+  static constexpr bool intersect_toward(const RayQuery*, uint32_t, const LightRecord&) { return false; }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,45 @@
+// Packets where local store is short of code: one copy of what is not shorter than a call. Kernel dialect.
+#pragma once
+
+#include "celltrace/spe/one_copy.hpp"
+#include "kernel/packet.hpp"
+
+namespace celltrace::kernel {
+
+struct LocalPackets {
+  static constexpr bool kHasShortcuts = false;
+
+  template <class S>
+  [[gnu::always_inline]] static void put_in_lanes(bool, const typename S::M& lanes, const float* values,
+                                                  V3<S>& into) {
+    put_elsewhere<S>(lanes, values, into);
+  }
+  /// By a call: inlined, each quadword would take two instructions.
+  template <class Packet> [[gnu::always_inline]] static void copy_packet(const Packet& from, Packet& to) {
+    copy_bytes(&to, &from, sizeof(Packet));
+  }
+
+  /// Changes words of some lanes, one by one.
+  template <class S> class WordChanges {
+  public:
+    explicit WordChanges(WordLanes& words) : words_(words) {}
+    [[gnu::always_inline]] void set(uint32_t lanes, uint32_t value) {
+      for_each_lane(lanes, [&](uint32_t lane) { words_.lane[lane] = value; });
+    }
+    void finish() {}
+
+  private:
+    WordLanes& words_;
+  };
+
+private:
+  template <class S>
+  CELLTRACE_ONE_COPY static void put_elsewhere(const typename S::M& lanes, const float* values, V3<S>& into) {
+    into = select<S>(lanes, splat3<S>(values), into);
+  }
+  CELLTRACE_ONE_COPY static void copy_bytes(void* to, const void* from, uint32_t bytes) {
+    __builtin_memcpy(to, from, bytes);
+  }
+};
+
+} // namespace celltrace::kernel

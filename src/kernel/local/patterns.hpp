@@ -1,0 +1,34 @@
+// Patterns where local store is short: nothing is kept from point to point. Kernel dialect.
+#pragma once
+
+#include "kernel/scene_access.hpp"
+
+namespace celltrace::kernel {
+
+struct LocalPatterns {
+  template <class Spu> struct KnownPatterns {};
+  template <class Spu> struct KeptNeighbours {
+    explicit KeptNeighbours(SceneAccess<Spu>&) {}
+  };
+  template <class Spu> struct KeptFractals {
+    explicit KeptFractals(SceneAccess<Spu>&) {}
+  };
+
+  template <class S> struct InnerCells {
+    static constexpr int32_t kTaken = 0;
+    template <class... Arguments> static constexpr bool suffice(const Arguments&...) { return false; }
+    template <class... Arguments> static constexpr bool suffice_in(const Arguments&...) { return false; }
+    /// By the usual metric alone.
+    [[gnu::always_inline]] static typename S::F least_along(const typename S::F& way, float metric) {
+      return metric == 2.0f ? way * way : typename S::F(0.0f);
+    }
+  };
+
+  template <class Spu, class S>
+  static constexpr bool find_squares(SceneAccess<Spu>&, const Complex<S>&, const PatternRecord&,
+                                     const typename S::F&) {
+    return false;
+  }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,30 @@
+// Shapes where local store is short of code. Kernel dialect.
+#pragma once
+
+#include "kernel/primitives/instances_module.hpp"
+
+namespace celltrace::kernel {
+
+struct LocalShapes {
+  template <class S, class Shape>
+  [[gnu::always_inline]] static const LocalRays<S>& off_faces(const LocalRays<S>& rays) {
+    return rays;
+  }
+
+  /// Rays of instances go packet by packet.
+  template <class Spu> struct InstanceRays {
+    using S = typename Spu::simd;
+    using Stack = TraversalStack<1, kMaxMeshLevels>;
+
+    InstanceRays(const RayPacket&, const V3<S>&, const V3<S>&, const V3<S>&, uint32_t) {}
+    static constexpr bool expand(const NodeRecord&, uint32_t, const typename S::F&, const Stack&) {
+      return false;
+    }
+    static constexpr bool traverse(const SceneAccess<Spu>&, uint32_t, const NodeRef&, const InstanceTest&,
+                                   const Stack&, const HitPacket&, const InstanceWork&) {
+      return false;
+    }
+  };
+};
+
+} // namespace celltrace::kernel
