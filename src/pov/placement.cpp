@@ -472,9 +472,12 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
   const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);
   std::shared_ptr<const Mesh> mesh;
   if (triangle) {
-    mesh = placed_triangle(**triangle, own, where);
+    made.transform = Transform();
+    const auto placed = placed_triangle(**triangle, own, where);
+    if (placed->base != Vec3(0)) made.transform = Transform::translate(placed->base);
     // In a CSG, back from the scene to its space.
-    made.transform = own.is_part ? own.transform.inverse().then(object.transform) : Transform();
+    if (own.is_part) made.transform = made.transform.then(own.transform.inverse().then(object.transform));
+    mesh = std::make_shared<const Mesh>(std::move(placed->mesh));
   } else {
     mesh =
         placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape),
@@ -491,7 +494,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     }
     made.inverse = false;
   }
-  if (!geometry::fits_single_precision(mesh, triangle ? Transform() : own.transform)) {
+  if (!geometry::fits_single_precision(mesh, triangle ? made.transform : own.transform)) {
     warn_of_size(object);
     return false;
   }
@@ -509,8 +512,8 @@ void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& objec
   diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
 }
 
-std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
-                                                          const Inherited& own, const Location& where) {
+std::shared_ptr<MeshDefinition> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
+                                                              const Inherited& own, const Location& where) {
   MeshBuilder builder;
   TriangleDefinition placed = triangle.transformed(own.transform);
   if (!triangle.is_finite())
@@ -531,7 +534,7 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
   } catch (const InputError& error) {
     diagnostics_.fail(where, error.what());
   }
-  return std::make_shared<const Mesh>(std::move(builder.finish()->mesh));
+  return builder.finish();
 }
 
 /// The object's own interior, else the inherited one. POV-Ray 3.1's ior of a finish makes one where there is
@@ -647,8 +650,10 @@ void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, co
 
 /// Meshes are shared by their instances, unless their own textures depend on where they are.
 std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
-                                                      const Transform& transform, bool uv_mapping,
+                                                      Transform transform, bool uv_mapping,
                                                       const Location& where) {
+  // Textures are where the vertices were written.
+  if (definition->base != Vec3(0)) transform = Transform::translate(-definition->base).then(transform);
   const std::vector<TexturePtr>& textures = definition->textures;
   const bool is_constant = std::all_of(textures.begin(), textures.end(),
                                        [](const TexturePtr& texture) { return texture->is_constant(); });

@@ -106,7 +106,7 @@ private:
     constexpr double kSameDirection = 1e-9, kSamePlane = 1e-11;
     constexpr double kDeepEnough = 2e-6; // of the distance: single precision is wrong by up to a tenth of it
     moves_.clear();
-    const Vec3 eye = eye_.location();
+    const Vec3 eye = eye_.start();
     for (const EndFace& cut : cut_) {
       if (pairs_ > kMostComparisons) return;
       pairs_ += kept_.size();

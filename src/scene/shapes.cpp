@@ -420,8 +420,8 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
   if (shape.is_empty || !has_boundary) return shape;
   // A point is as precise as its coordinates and those of its ray's origin are large. What is farther away
   // than this is seen too small for its boundary to matter.
-  const double far_away = 100 + 4 * glm::length(eye.location());
-  Vec3 reach = glm::abs(eye.location());
+  const double far_away = 100 + 4 * glm::length(eye.start());
+  Vec3 reach = glm::abs(eye.start());
   if (shape.is_bounded) {
     const kernel::Aabb box = shape.bounds();
     for (int i = 0; i < 3; ++i)
