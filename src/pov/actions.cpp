@@ -37,7 +37,6 @@ void warn_if_empty(Session& session, const Mesh& mesh, const Location& where) {
 
 std::shared_ptr<ObjectDefinition> make_object(std::shared_ptr<MeshDefinition> mesh) {
   auto object = std::make_shared<ObjectDefinition>();
-  if (mesh->base != Vec3(0)) object->transform = Transform::translate(mesh->base);
   object->shape = std::move(mesh);
   return object;
 }

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
@@ -31,39 +29,6 @@ Vec3f to_single(const Vec3& v) {
   return single;
 }
 
-/// Coordinates up to this are kept as they are.
-constexpr double kNear = 2048;
-
-double largest(const Vec3& v) {
-  const Vec3 size = glm::abs(v);
-  return std::max({size.x, size.y, size.z});
-}
-
-/// The box around vertices, of those that are somewhere.
-class VertexBounds {
-public:
-  void add(const Vec3& vertex) {
-    if (!is_finite(vertex)) return;
-    low_ = glm::min(low_, vertex);
-    high_ = glm::max(high_, vertex);
-  }
-  /// Returns what vertices are counted from so that single precision has digits for them: 0 if they are near
-  /// the origin, for their size.
-  Vec3 base() const {
-    constexpr double kFar = 256;
-    const Vec3 middle = (low_ + high_) * 0.5;
-    const double size = largest(high_ - low_) * 0.5;
-    const double distance = largest(middle);
-    if (!(size > 0) || !std::isfinite(distance) || distance <= std::max(kNear, kFar * size)) return Vec3(0);
-    // With few digits, so that vertices lose none of theirs.
-    const double step = std::exp2(std::floor(std::log2(size)));
-    return glm::round(middle / step) * step;
-  }
-
-private:
-  Vec3 low_ = Vec3(std::numeric_limits<double>::infinity()), high_ = -low_;
-};
-
 /// Whether a triangle has no area, or a corner that is nowhere.
 bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
   if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return true;
@@ -74,7 +39,8 @@ bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
 constexpr double kNoNormal = 1e-10; ///< no component of one is as long
 
 bool is_zero(const Vec3& normal) {
-  return largest(normal) < kNoNormal;
+  const Vec3 size = glm::abs(normal);
+  return std::max({size.x, size.y, size.z}) < kNoNormal;
 }
 
 /// POV-Ray brings vertex normals to length one before it interpolates; zero becomes that along x.
@@ -220,7 +186,7 @@ void MeshBuilder::add(const TriangleDefinition& triangle) {
   Mesh::Triangle result;
   for (std::size_t i = 0; i < 3; ++i) {
     result.vertex[i] = static_cast<Index>(mesh.vertices.size());
-    add_vertex(corners[i]);
+    mesh.vertices.push_back(to_single(corners[i]));
     if (is_smooth) {
       result.normal[i] = static_cast<Index>(mesh.normals.size());
       mesh.normals.push_back(to_single(normals[i]));
@@ -231,29 +197,6 @@ void MeshBuilder::add(const TriangleDefinition& triangle) {
   if (!triangle.is_mapped && mesh.coordinates.empty()) return;
   mesh.coordinates.resize(mesh.triangles.size()); // of those before it 0, as in POV-Ray
   std::copy(triangle.coordinates.begin(), triangle.coordinates.end(), mesh.coordinates.back().corner);
-}
-
-void MeshBuilder::add_vertex(const Vec3& vertex) {
-  std::vector<Vec3f>& vertices = mesh_->mesh.vertices;
-  vertices.push_back(to_single(vertex));
-  if (rests_.empty() && largest(vertex) <= kNear) return;
-  rests_.resize(vertices.size());
-  rests_.back() = Vec3f(vertex - Vec3(vertices.back()));
-}
-
-std::shared_ptr<MeshDefinition> MeshBuilder::finish() {
-  if (!rests_.empty()) {
-    std::vector<Vec3f>& vertices = mesh_->mesh.vertices;
-    VertexBounds bounds;
-    for (const Vec3f& vertex : vertices)
-      bounds.add(Vec3(vertex));
-    mesh_->base = bounds.base();
-    if (mesh_->base != Vec3(0))
-      for (std::size_t i = 0; i < vertices.size(); ++i)
-        vertices[i] = Vec3f(Vec3(vertices[i]) - mesh_->base + Vec3(rests_[i]));
-    rests_.clear();
-  }
-  return std::move(mesh_);
 }
 
 Index MeshBuilder::texture_index(const TexturePtr& texture) {
@@ -295,13 +238,9 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStrea
   definition.face_indices = {};
   tokens.look();
   reserve(mesh.vertices, vertices.size());
-  VertexBounds bounds;
-  for (const ListEntry& vertex : vertices)
-    bounds.add(vertex.v);
-  result->base = bounds.base();
   for (const ListEntry& vertex : vertices) {
     tokens.spend(1);
-    mesh.vertices.push_back(is_finite(vertex.v) ? to_single(vertex.v - result->base) : Vec3f(0));
+    mesh.vertices.push_back(is_finite(vertex.v) ? to_single(vertex.v) : Vec3f(0));
   }
   definition.vertex_vectors = {};
   tokens.look();

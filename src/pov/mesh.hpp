@@ -20,14 +20,12 @@ public:
   void set_inside_vector(const Vec3& direction) { mesh_->mesh.inside_vector = direction; }
   /// Whether it has been given none at all.
   bool is_unused() const { return is_unused_; }
-  std::shared_ptr<MeshDefinition> finish();
+  std::shared_ptr<MeshDefinition> finish() { return std::move(mesh_); }
 
 private:
-  void add_vertex(const Vec3& vertex);
   Index texture_index(const TexturePtr& texture);
 
   std::shared_ptr<MeshDefinition> mesh_ = std::make_shared<MeshDefinition>();
-  std::vector<Vec3f> rests_; ///< what single precision leaves of vertices; none if all are near the origin
   std::unordered_map<const TextureDefinition*, Index> texture_indices_;
   bool is_unused_ = true;
 };

@@ -48,7 +48,6 @@ void transform_limits(std::vector<Limit>& limits, const Transform& next);
 /// A mesh whose triangles refer to its own textures; it becomes the scene's when it is first placed.
 struct MeshDefinition {
   Mesh mesh;
-  Vec3 base{0, 0, 0}; ///< that its vertices are counted from: 0 unless they are far from the origin
   std::vector<TexturePtr> textures;
   std::unique_ptr<geometry::TriangleTree> tree; ///< from when the scene asks about the mesh
 };

@@ -106,6 +106,19 @@ double seen_radius(const Disc& disc, const Transform& transform) {
   return disc.radius * scale > kFarthest ? kFarthest / scale : disc.radius;
 }
 
+/// Returns a point near a triangle that is so far from the origin, for its size, that single precision is not
+/// enough for its vertices; else 0.
+Vec3 far_base_of(const TriangleDefinition& triangle) {
+  constexpr double kNear = 2048, kFar = 256;
+  const auto& [a, b, c] = triangle.vertices;
+  const auto largest = [](const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+  const double size = std::max(largest(b - a), largest(c - a)), distance = largest(a);
+  if (!triangle.is_finite() || !(size > 0) || distance <= std::max(kNear, kFar * size)) return Vec3(0);
+  // With few digits, so that vertices lose none of theirs.
+  const double step = std::exp2(std::floor(std::log2(size)));
+  return glm::round(a / step) * step;
+}
+
 /// Orders the corners so that its outside as a Mesh's is POV-Ray's: where its normals point, or else, by the
 /// axis along which it faces most, to -x, +y or -z.
 void turn_outside(TriangleDefinition& triangle) {
@@ -472,12 +485,11 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
   const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);
   std::shared_ptr<const Mesh> mesh;
   if (triangle) {
-    made.transform = Transform();
-    const auto placed = placed_triangle(**triangle, own, where);
-    if (placed->base != Vec3(0)) made.transform = Transform::translate(placed->base);
+    Vec3 base(0);
+    mesh = placed_triangle(**triangle, own, where, base);
+    made.transform = base != Vec3(0) ? Transform::translate(base) : Transform();
     // In a CSG, back from the scene to its space.
     if (own.is_part) made.transform = made.transform.then(own.transform.inverse().then(object.transform));
-    mesh = std::make_shared<const Mesh>(std::move(placed->mesh));
   } else {
     mesh =
         placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape),
@@ -512,8 +524,10 @@ void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& objec
   diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
 }
 
-std::shared_ptr<MeshDefinition> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
-                                                              const Inherited& own, const Location& where) {
+/// `base` becomes what its vertices are counted from. Those of meshes are single precision in POV-Ray, too.
+std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
+                                                          const Inherited& own, const Location& where,
+                                                          Vec3& base) {
   MeshBuilder builder;
   TriangleDefinition placed = triangle.transformed(own.transform);
   if (!triangle.is_finite())
@@ -525,6 +539,9 @@ std::shared_ptr<MeshDefinition> SceneBuilder::placed_triangle(const TriangleDefi
     for (std::size_t i = 0; i < 3; ++i)
       placed.coordinates[i] = Vec2f(placed.vertices[i]);
   }
+  base = far_base_of(placed);
+  for (Vec3& vertex : placed.vertices)
+    vertex -= base;
   try {
     if (triangle.is_shown_alone())
       builder.add(placed);
@@ -534,7 +551,7 @@ std::shared_ptr<MeshDefinition> SceneBuilder::placed_triangle(const TriangleDefi
   } catch (const InputError& error) {
     diagnostics_.fail(where, error.what());
   }
-  return builder.finish();
+  return std::make_shared<const Mesh>(std::move(builder.finish()->mesh));
 }
 
 /// The object's own interior, else the inherited one. POV-Ray 3.1's ior of a finish makes one where there is
@@ -650,10 +667,8 @@ void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, co
 
 /// Meshes are shared by their instances, unless their own textures depend on where they are.
 std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
-                                                      Transform transform, bool uv_mapping,
+                                                      const Transform& transform, bool uv_mapping,
                                                       const Location& where) {
-  // Textures are where the vertices were written.
-  if (definition->base != Vec3(0)) transform = Transform::translate(-definition->base).then(transform);
   const std::vector<TexturePtr>& textures = definition->textures;
   const bool is_constant = std::all_of(textures.begin(), textures.end(),
                                        [](const TexturePtr& texture) { return texture->is_constant(); });

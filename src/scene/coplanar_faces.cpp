@@ -425,12 +425,9 @@ private:
     if (level == std::min(of_a.size(), of_b.size())) return std::nullopt;
     return Fork{of_a[level].csg->operation, {of_a[level].part, of_b[level].part}};
   }
-  /// Whether they are slanted faces of parts of a merge. POV-Ray shows neither of two in one plane that is
-  /// along the axes, as each is in the other part; of others it shows what rounding leaves.
+  /// Whether they are faces of parts of a merge, each of which is in the other part. As rounding has it
+  /// POV-Ray shows both or neither at a point: there are specks, or a hole.
   bool are_merged(const Face& a, const Face& b) const {
-    constexpr double kNone = 1e-9;
-    const Vec3 size = glm::abs(a.normal);
-    if ((size.x > kNone) + (size.y > kNone) + (size.z > kNone) < 2) return false;
     const std::optional<Fork> fork = fork_of(a, b);
     return fork && fork->operation == Csg::Operation::merge;
   }

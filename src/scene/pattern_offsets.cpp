@@ -76,7 +76,8 @@ struct PeriodsOfKind {
   Periods operator()(const pattern::Leopard&) const { return Periods(2 * std::numbers::pi); }
   Periods operator()(const pattern::Marble&) const {
     const bool is_plain = pattern.turbulence.amount.x == 0;
-    return is_plain ? Periods(of_wave(), kAny, kAny) : Periods(kFixed, kOfNoise, kOfNoise);
+    return is_plain ? Periods(of_wave(), kAny, kAny)
+                    : Periods(pattern.frequency != 0 ? kOfNoise : kFixed, kOfNoise, kOfNoise);
   }
   Periods operator()(const pattern::Agate&) const { return {kOfNoise, kOfNoise, 10 * kOfNoise}; }
   Periods operator()(const pattern::Bozo&) const { return Periods(kOfNoise); }
@@ -105,30 +106,32 @@ struct PeriodsOfKind {
   template <class Other> Periods operator()(const Other&) const { return Periods(kFixed); }
 };
 
-/// The part of an offset that is whole periods; the rest is on the same side of 0, where patterns are not
-/// those of the other side.
-Vec3 whole_periods(const Vec3& offset, const Periods& periods) {
+/// Which part of an offset is left.
+enum class Left {
+  least,     ///< as little as there can be
+  same_side, ///< so much that what is asked is on the same side of 0, where there are others on the other one
+};
+
+/// The part of an offset that is whole periods.
+Vec3 whole_periods(const Vec3& offset, const Periods& periods, Left left = Left::least) {
+  constexpr double kSide = 512;
   Vec3 whole(0);
   for (int axis = 0; axis < 3; ++axis) {
     const double at = offset[axis], period = periods[axis];
     if (std::abs(at) <= kNear || period == kFixed) continue;
-    if (period == kAny) {
+    if (period == kAny)
       whole[axis] = at;
-      continue;
-    }
-    // So far that what is asked is on one side.
-    const double left = std::max(period, kNear / 4);
-    if (period > kNear / 4)
+    else if (left == Left::least)
       whole[axis] = std::round(at / period) * period;
     else
-      whole[axis] = at - std::copysign(left + std::fmod(std::abs(at) - left, period), at);
+      whole[axis] = std::copysign(std::floor((std::abs(at) - kSide) / period) * period, at);
   }
   return whole;
 }
 
 /// Towards the origin, by whole shells: what is farther from it than this is as good as flat.
 Vec3 whole_shells(const Vec3& offset, double period) {
-  constexpr double kFlat = 16384;
+  constexpr double kFlat = 8192;
   const double distance = glm::length(offset);
   if (distance <= 2 * kFlat || !(period > 0)) return Vec3(0);
   return offset * (std::floor((distance - kFlat) / period) * period / distance);
@@ -145,7 +148,7 @@ Vec3 shift_of(const Pattern& pattern, const Vec3& offset) {
       const double at = glm::dot(along, offset);
       if (glm::length(offset) <= kNear) return Vec3(0);
       const double period = at > 0 ? 1 : of_kind.of_wave();
-      return offset - along * at + along * whole_periods(Vec3(at, 0, 0), Periods(period)).x;
+      return offset - along * at + along * whole_periods(Vec3(at, 0, 0), Periods(period), Left::same_side).x;
     }
     const Vec3 off_axis(offset.x, offset.y, 0);
     const auto around_axis = [&](double period, double along) {
@@ -162,7 +165,9 @@ Vec3 shift_of(const Pattern& pattern, const Vec3& offset) {
   }
   Periods periods = std::visit(of_kind, pattern.kind);
   if (moves_points) periods = common(periods, of(pattern.turbulence));
-  return whole_periods(offset, periods);
+  const bool has_sides = std::holds_alternative<pattern::Gradient>(pattern.kind) ||
+                         std::holds_alternative<pattern::Marble>(pattern.kind);
+  return whole_periods(offset, periods, has_sides ? Left::same_side : Left::least);
 }
 
 /// By how much a step may be shifted.
@@ -175,7 +180,18 @@ Vec3 shift_of(const SpaceStep& step, const Vec3& offset) {
     periods[repeat->axis] = std::abs(repeat->width) * (is_flipped ? 2 : 1);
     return whole_periods(offset, periods);
   }
+  if (const auto* hole = std::get_if<warp::BlackHole>(&step); hole != nullptr && hole->repeat == Vec3(0))
+    return whole_periods(offset, Periods(kAny));
   return Vec3(0);
+}
+
+/// A step that does to shifted points what `step` does to points that are not.
+SpaceStep shifted(const SpaceStep& step, const Vec3& shift) {
+  const auto* hole = std::get_if<warp::BlackHole>(&step);
+  if (hole == nullptr) return step;
+  warp::BlackHole nearer = *hole;
+  nearer.centre -= shift;
+  return nearer;
 }
 
 /// What a shift before a step is after it.
@@ -187,7 +203,7 @@ Vec3 after(const SpaceStep& step, Vec3 shift) {
 } // namespace
 
 PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceStep>& space) {
-  PlacedPattern placed = {pattern.kind, space};
+  PlacedPattern placed = {pattern.kind, space, pattern.phase};
   std::vector<SpaceStep> steps; // those that are met first come first
   Vec3 carried(0);              // by which points are nearer than they would be
   bool is_shifted = false;
@@ -206,8 +222,9 @@ PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceSte
       map = map.then(transform->inverse());
       continue;
     }
-    carried = after(*step, end_map(*step));
-    steps.push_back(*step);
+    const Vec3 shift = end_map(*step);
+    carried = after(*step, shift);
+    steps.push_back(shifted(*step, shift));
   }
   // Far from where it is anything but a number of the place.
   if (auto* slope = std::get_if<pattern::Slope>(&placed.kind);
@@ -241,8 +258,11 @@ PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceSte
       is_shifted = true;
     }
   }
-  end_map(pattern);
-  if (!is_shifted) return {pattern.kind, space};
+  const Vec3 shift = end_map(pattern);
+  // What marble's turbulence is asked by repeats otherwise than its wave, which takes the rest.
+  if (std::holds_alternative<pattern::Marble>(pattern.kind) && pattern.turbulence.amount.x != 0)
+    placed.phase += std::fmod(shift.x * pattern.frequency, kOfWave);
+  if (!is_shifted) return {pattern.kind, space, pattern.phase};
   std::reverse(steps.begin(), steps.end());
   placed.space = std::move(steps);
   return placed;

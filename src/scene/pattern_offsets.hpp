@@ -7,10 +7,11 @@
 
 namespace celltrace {
 
-/// A pattern and what is done to space before it is asked.
+/// A pattern, what is done to space before it is asked, and what is added to its numbers.
 struct PlacedPattern {
   pattern::Kind kind;
   std::vector<SpaceStep> space;
+  double phase;
 };
 
 /// Returns a pattern that has the same values where the scene is, and is asked nearer to its origin, if

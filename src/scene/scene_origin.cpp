@@ -157,6 +157,18 @@ struct Middle {
   double size = 0;     ///< as far from there most of them reach; 0: there are none
 };
 
+/// Adds where objects without bounds have been moved to.
+void add_moved(const Scene& scene, std::vector<Vec3>& places, std::vector<double>& sizes) {
+  for (const Object& object : scene.objects) {
+    const Transform& transform = object.transform;
+    const double size =
+        std::max({largest(transform.rows[0]), largest(transform.rows[1]), largest(transform.rows[2])});
+    if (transform.rows[3] == Vec3(0) || !std::isfinite(largest(transform.rows[3]) + size)) continue;
+    places.push_back(transform.rows[3]);
+    sizes.push_back(size);
+  }
+}
+
 Middle middle_of(const Scene& scene) {
   std::vector<Vec3> places;
   std::vector<double> sizes;
@@ -170,6 +182,7 @@ Middle middle_of(const Scene& scene) {
     sizes.push_back(size);
   }
   Middle middle;
+  if (places.empty()) add_moved(scene, places, sizes);
   if (places.empty()) return middle;
   std::vector<double> values(places.size());
   for (int axis = 0; axis < 3; ++axis) {

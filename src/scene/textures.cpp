@@ -522,7 +522,7 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
                                                 std::size_t entry_count) {
   PatternRecord r{};
   PatternSpace space = space_of(pattern, outer);
-  PlacedPattern placed = {pattern.kind, {}};
+  PlacedPattern placed = {pattern.kind, {}, pattern.phase};
   if (!is_average && !space.uv_mapping) {
     placed = near_own_origin(pattern, space.steps);
     space.steps = std::move(placed.space);
@@ -571,7 +571,7 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
   const bool is_own = pattern.frequency == 0;
   if (is_own) r.kind_and_flags |= pattern_flag::never_repeats;
   r.frequency = static_cast<float>(is_own ? 1 : pattern.frequency);
-  r.phase = static_cast<float>(is_own ? 0 : pattern.phase);
+  r.phase = static_cast<float>(is_own ? 0 : placed.phase);
   r.wave_exponent = static_cast<float>(pattern.wave_exponent);
   r.turbulence = words_of(pattern.turbulence);
   if (space.uv_mapping) r.kind_and_flags |= pattern_flag::uv_mapping;
