@@ -653,6 +653,10 @@ static_assert(sizeof(ImageHeader) == 384, "three lines");
 /// in the middle. Curved ones: `origin` is their location, and `base`, `dx` and `dy` are their axes forward,
 /// right and up; pixel (x, y) is at ((x - middle_x) * step_x, (middle_y - y) * step_y) of their picture,
 /// which the kind turns into a ray.
+///
+/// Rays of a camera that is far away start just before the scene, in the plane that is `ahead` away along the
+/// unit vector `base`. Unless they are parallel they are then made as those of curved cameras are, flat ones
+/// too, and `origin` is where the middle one starts.
 struct alignas(16) CameraRecord {
   float origin[3];
   uint32_t kind; ///< its place in the list of cameras/list.hpp
@@ -663,7 +667,10 @@ struct alignas(16) CameraRecord {
   float dy[3];
   float middle_y;
   float step_x, step_y;
-  uint32_t unused[2];
+  /// 0: rays start at the camera. A ray starts ahead / dot(direction, axis) away from it, where the axis is
+  /// `base`, or `origin` of parallel rays.
+  float ahead;
+  uint32_t unused;
 };
 static_assert(sizeof(CameraRecord) == 80, "crosses DMA");
 

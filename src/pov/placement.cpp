@@ -107,6 +107,19 @@ double seen_radius(const Disc& disc, const Transform& transform) {
   return disc.radius * scale > kFarthest ? kFarthest / scale : disc.radius;
 }
 
+/// Returns a point near a triangle that is so far from the origin, for its size, that single precision is not
+/// enough for its vertices; else 0.
+Vec3 far_base_of(const TriangleDefinition& triangle) {
+  constexpr double kNear = 2048, kFar = 256;
+  const auto& [a, b, c] = triangle.vertices;
+  const auto largest = [](const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+  const double size = std::max(largest(b - a), largest(c - a)), distance = largest(a);
+  if (!triangle.is_finite() || !(size > 0) || distance <= std::max(kNear, kFar * size)) return Vec3(0);
+  // With few digits, so that vertices lose none of theirs.
+  const double step = std::exp2(std::floor(std::log2(size)));
+  return glm::round(a / step) * step;
+}
+
 /// Orders the corners so that its outside as a Mesh's is POV-Ray's: where its normals point, or else, by the
 /// axis along which it faces most, to -x, +y or -z.
 void turn_outside(TriangleDefinition& triangle) {
@@ -473,9 +486,11 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
   const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);
   std::shared_ptr<const Mesh> mesh;
   if (triangle) {
-    mesh = placed_triangle(**triangle, own, where);
+    Vec3 base(0);
+    mesh = placed_triangle(**triangle, own, where, base);
+    made.transform = base != Vec3(0) ? Transform::translate(base) : Transform();
     // In a CSG, back from the scene to its space.
-    made.transform = own.is_part ? own.transform.inverse().then(object.transform) : Transform();
+    if (own.is_part) made.transform = made.transform.then(own.transform.inverse().then(object.transform));
   } else {
     mesh =
         placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape),
@@ -492,7 +507,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     }
     made.inverse = false;
   }
-  if (!geometry::fits_single_precision(mesh, triangle ? Transform() : own.transform)) {
+  if (!geometry::fits_single_precision(mesh, triangle ? made.transform : own.transform)) {
     warn_of_size(object);
     return false;
   }
@@ -510,8 +525,10 @@ void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& objec
   diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
 }
 
+/// `base` becomes what its vertices are counted from. Those of meshes are single precision in POV-Ray, too.
 std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
-                                                          const Inherited& own, const Location& where) {
+                                                          const Inherited& own, const Location& where,
+                                                          Vec3& base) {
   MeshBuilder builder;
   TriangleDefinition placed = triangle.transformed(own.transform);
   if (!triangle.is_finite())
@@ -523,6 +540,9 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
     for (std::size_t i = 0; i < 3; ++i)
       placed.coordinates[i] = Vec2f(placed.vertices[i]);
   }
+  base = far_base_of(placed);
+  for (Vec3& vertex : placed.vertices)
+    vertex -= base;
   try {
     if (triangle.is_shown_alone())
       builder.add(placed);

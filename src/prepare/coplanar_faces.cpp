@@ -102,9 +102,10 @@ void turn(Face& face) {
 
 class CoplanarFaces {
 public:
-  /// `eye` is null for faces of which any may be seen.
-  CoplanarFaces(const Scene& scene, const std::vector<std::uint32_t>& material_flags, const Vec3* eye)
-      : scene_(scene), material_flags_(material_flags), eye_(eye) {
+  /// `eye` and `start`, which are of an Eye, are null for faces of which any may be seen.
+  CoplanarFaces(const Scene& scene, const std::vector<std::uint32_t>& material_flags, const Vec3* eye,
+                const Vec3* start)
+      : scene_(scene), material_flags_(material_flags), eye_(eye), start_(start) {
     std::size_t solids = 0;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       const Object& object = scene.objects[i];
@@ -174,7 +175,7 @@ private:
   /// How far a face is moved: farther than where rounding may put it, and much less than can be seen.
   Vec3 way(const Face& face) const {
     constexpr double kStep = 5e-7;
-    const Vec3& eye = *eye_;
+    const Vec3& eye = *start_;
     Vec3 near(0);
     if (!face.extent.is_everywhere())
       for (int axis = 0; axis < 3; ++axis)
@@ -398,6 +399,7 @@ private:
       if (!is_ground(ground) || is_opaque(other) || looks_at_eye(other)) return false;
     }
     if (a.is_round || b.is_round) return a.is_round != b.is_round && is_ground(a.is_round ? b : a);
+    if (are_merged(a, b)) return true;
     const bool are_opaque = is_opaque(a) && is_opaque(b);
     return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
   }
@@ -409,18 +411,35 @@ private:
     int steps = 1;
   };
 
-  /// Of faces of one object: none, unless they are of parts of an intersection that look the same way. There
-  /// POV-Ray shows that of the last part: the others are moved out, where they are in no other part.
-  std::optional<Order> order_of_parts(Face& a, Face& b) const {
-    if (a.path == 0 || b.path == 0 || a.looks_up != b.looks_up) return std::nullopt;
+  /// Where two faces of one object are in different parts that are joined or cut: the parts, or nothing.
+  struct Fork {
+    Csg::Operation operation;
+    std::size_t part[2];
+  };
+  std::optional<Fork> fork_of(const Face& a, const Face& b) const {
+    if (a.object != b.object || a.path == 0 || b.path == 0) return std::nullopt;
     const CsgPath &of_a = paths_[a.path - 1], &of_b = paths_[b.path - 1];
     std::size_t level = 0;
     while (level < std::min(of_a.size(), of_b.size()) && of_a[level].part == of_b[level].part)
       ++level;
-    if (level == std::min(of_a.size(), of_b.size()) ||
-        of_a[level].csg->operation != Csg::Operation::intersection)
-      return std::nullopt;
-    Face& out = of_a[level].part < of_b[level].part ? a : b;
+    if (level == std::min(of_a.size(), of_b.size())) return std::nullopt;
+    return Fork{of_a[level].csg->operation, {of_a[level].part, of_b[level].part}};
+  }
+  /// Whether they are faces of parts of a merge, each of which is in the other part. As rounding has it
+  /// POV-Ray shows both or neither at a point: there are specks, or a hole.
+  bool are_merged(const Face& a, const Face& b) const {
+    const std::optional<Fork> fork = fork_of(a, b);
+    return fork && fork->operation == Csg::Operation::merge;
+  }
+
+  /// Of faces of one object: none, unless they are of parts of an intersection or a merge that look the same
+  /// way. Of an intersection POV-Ray shows that of the last part: the others are moved out, where they are in
+  /// no other part. Of a merge one is to be seen, which the others are then behind.
+  std::optional<Order> order_of_parts(Face& a, Face& b) const {
+    const std::optional<Fork> fork = fork_of(a, b);
+    if (!fork || a.looks_up != b.looks_up) return std::nullopt;
+    if (fork->operation != Csg::Operation::intersection && !are_merged(a, b)) return std::nullopt;
+    Face& out = fork->part[0] < fork->part[1] ? a : b;
     Face& in = &out == &a ? b : a;
     if (a.looks_up == is_seen_from_above(a)) return Order{&out, &in, kStepsOut};
     return Order{&in, &out, kStepsOut};
@@ -492,6 +511,7 @@ private:
   const Scene& scene_;
   const std::vector<std::uint32_t>& material_flags_;
   const Vec3* eye_;
+  const Vec3* start_;
   std::vector<Face> faces_;
   std::vector<CsgPath> paths_; ///< of boxes in CSGs
   std::size_t solid_count_ = 0, pairs_ = 0, overlaps_ = 0;
@@ -505,8 +525,8 @@ SceneWithFacesApart::SceneWithFacesApart(const Scene& scene, const std::vector<s
                                          const Eye& eye)
     : scene_(scene) {
   if (scene.objects.size() > kMostObjects) return;
-  if (eye.may_move() && !CoplanarFaces(scene, material_flags, nullptr).any_overlap()) return;
-  CoplanarFaces faces(scene, material_flags, &eye.location());
+  if (eye.may_move() && !CoplanarFaces(scene, material_flags, nullptr, nullptr).any_overlap()) return;
+  CoplanarFaces faces(scene, material_flags, &eye.location(), &eye.start());
   if (faces.settle()) copy_ = faces.moved();
 }
 

@@ -1,5 +1,6 @@
 #include "prepare/deep_cuts.hpp"
 
+#include "geometry/shape_geometry.hpp"
 #include "prepare/csg_leaves.hpp"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ struct EndFace {
   Vec3 point;
   std::size_t leaf;
   int end;
+  bool is_of_box;
 };
 
 class DeepCuts {
@@ -35,7 +37,8 @@ public:
   /// The object with deeper cuts, if it needs any.
   std::optional<Object> changed(const Object& object) {
     if (!std::holds_alternative<std::shared_ptr<const Csg>>(object.shape)) return {};
-    if (!has_leaf(object, false, cuts)) return {};
+    const bool may_be_thin = limits_parts(object, 0) && has_leaf(object, false, is_thin);
+    if (!may_be_thin && !has_leaf(object, false, cuts)) return {};
     kept_.clear();
     cut_.clear();
     leaves_ = 0;
@@ -45,6 +48,7 @@ public:
     };
     visit_leaves(object, LeafPlace(), add);
     find_shallow();
+    if (may_be_thin) find_thin();
     if (moves_.empty()) return {};
     leaves_ = 0;
     const auto deepen = [this](const Object& leaf, const LeafPlace& place) { return deeper(leaf, place); };
@@ -66,8 +70,29 @@ private:
             std::holds_alternative<Cone>(leaf.shape));
   }
 
-  void add_face(const LeafPlace& place, int end, const Vec3& outward, const Vec3& point) {
+  /// Whether it is a plate that belongs to the object, and may be too thin for a point to be found inside.
+  static bool is_thin(const Object& leaf, bool inverse) {
+    constexpr double kThin = 1e-4;
+    const auto* const box = std::get_if<Box>(&leaf.shape);
+    if (box == nullptr || inverse) return false;
+    const Vec3 size = glm::abs(box->corner[1] - box->corner[0]);
+    return std::min({size.x, size.y, size.z}) < kThin * std::max({size.x, size.y, size.z});
+  }
+  /// Whether what is seen of some of its parts is what is inside of others.
+  static bool limits_parts(const Object& object, int depth) {
+    const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+    if (csg == nullptr || depth > kDeepestCsg) return false;
+    using Operation = Csg::Operation;
+    if ((*csg)->operation == Operation::intersection || (*csg)->operation == Operation::difference)
+      return true;
+    return std::any_of((*csg)->parts.begin(), (*csg)->parts.end(),
+                       [depth](const Object& part) { return limits_parts(part, depth + 1); });
+  }
+
+  void add_face(const LeafPlace& place, int end, const Vec3& outward, const Vec3& point,
+                bool is_of_box = false) {
     EndFace face{};
+    face.is_of_box = is_of_box;
     face.normal = glm::normalize(place.transform.normal(outward));
     face.point = place.transform.point(point);
     face.distance = glm::dot(face.normal, face.point);
@@ -87,7 +112,7 @@ private:
       for (int end = 0; end < 6; ++end) {
         Vec3 outward(0);
         outward[end / 2] = end % 2 != 0 ? 1 : -1;
-        add_face(place, end, outward, box->corner[corner_of(*box, end)]);
+        add_face(place, end, outward, box->corner[corner_of(*box, end)], true);
       }
     } else if (const auto* const cylinder = std::get_if<Cylinder>(&leaf.shape)) {
       if (!cylinder->open) add_ends(place, cylinder->base, cylinder->cap, true, true);
@@ -102,15 +127,33 @@ private:
     return (box.corner[0][axis] > box.corner[1][axis]) != (end % 2 != 0);
   }
 
+  /// A share of this, which says how precise points of a face are.
+  static constexpr double kDeepEnough = 2e-6; // single precision is wrong by up to a tenth of it
+  double size_at(const Vec3& point) const {
+    const Vec3 eye = eye_.start();
+    return glm::length(eye) + glm::length(point) + glm::length(point - eye);
+  }
+
+  /// Plates get so thick, on the side that the eye does not see, that what lies on the other side is inside.
+  void find_thin() {
+    for (std::size_t i = 0; i + 1 < kept_.size(); ++i) {
+      const EndFace &a = kept_[i], &b = kept_[i + 1];
+      if (a.leaf != b.leaf || a.end % 2 != 0 || b.end != a.end + 1 || !a.is_of_box) continue;
+      const double thick = a.distance + b.distance, wanted = kDeepEnough * size_at(a.point);
+      if (!(thick > 0 && thick < wanted)) continue;
+      const bool is_seen = glm::dot(eye_.location(), a.normal) > a.distance;
+      const EndFace& back = is_seen ? b : a;
+      moves_.push_back({back.leaf, back.end, wanted - thick, back.normal});
+    }
+  }
+
   void find_shallow() {
     constexpr double kSameDirection = 1e-9, kSamePlane = 1e-11;
-    constexpr double kDeepEnough = 2e-6; // of the distance: single precision is wrong by up to a tenth of it
     moves_.clear();
-    const Vec3 eye = eye_.location();
     for (const EndFace& cut : cut_) {
       if (pairs_ > kMostComparisons) return;
       pairs_ += kept_.size();
-      const double size = glm::length(eye) + glm::length(cut.point) + glm::length(cut.point - eye);
+      const double size = size_at(cut.point);
       double way = 0;
       for (const EndFace& kept : kept_) {
         const double beyond = cut.distance - kept.distance;

@@ -1,5 +1,7 @@
 #include "prepare/eye.hpp"
 
+#include "prepare/scene_origin.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +20,11 @@ bool is_near(const Sphere& sphere, const Vec3& location) {
 }
 
 } // namespace
+
+Eye::Eye(const Scene& scene, Moves moves) : Eye(scene.camera, moves) {
+  if (const double largest = largest_coordinate_from_afar(scene); largest > 0)
+    start_ = location_ * (2 * largest / glm::length(location_));
+}
 
 bool Eye::is_near_surface(const Sphere& sphere, const Transform& transform) const {
   if (transform.is_identity()) {

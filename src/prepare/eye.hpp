@@ -18,12 +18,20 @@ public:
   /// `moves`: whether frames from other locations may follow. If not, passes need not find out whether they
   /// depend on it.
   explicit Eye(const Camera& camera, Moves moves = Moves::no)
-      : location_(camera.location), may_move_(moves == Moves::yes) {}
+      : location_(camera.location), start_(camera.location), may_move_(moves == Moves::yes) {}
+  /// The camera of a scene.
+  explicit Eye(const Scene& scene, Moves moves);
 
   /// Returns the location; what is prepared depends on it from here on.
   const Vec3& location() const noexcept {
     is_asked_ = true;
     return location_;
+  }
+  /// Returns a place as far away as where rays start, which their precision depends on: the location, unless
+  /// it is so far away that they start before the scene. What is prepared depends on it from here on.
+  const Vec3& start() const noexcept {
+    is_asked_ = true;
+    return start_;
   }
   bool may_move() const noexcept { return may_move_; }
 
@@ -45,6 +53,7 @@ private:
   };
 
   Vec3 location_ = Vec3(0);
+  Vec3 start_ = Vec3(0);
   bool may_move_ = false;
   // Passes get the eye as one of their inputs.
   mutable bool is_asked_ = false;

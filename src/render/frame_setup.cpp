@@ -3,6 +3,7 @@
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
 #include "kernel/cameras/list.hpp"
+#include "render/far_camera.hpp"
 #include "render/quality.hpp"
 #include "scene_image/object_records.hpp"
 #include "scene_image/surface_records.hpp"
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <type_traits>
 
 #include <glm/geometric.hpp>
 
@@ -109,6 +111,41 @@ void set_curved(CameraRecord& record, const Camera& camera, const PictureOnGrid&
   record.step_x = static_cast<float>(step_x);
   record.step_y = static_cast<float>(step_y);
   record.bend = static_cast<float>(picture.bend);
+}
+
+/// Rays start that far ahead of the camera.
+CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double start) {
+  const double length = glm::length(camera.direction);
+  CameraRecord record{};
+  record.kind = static_cast<std::uint32_t>(camera.kind);
+  Cameras::dispatch(record.kind, [&](auto kind) {
+    using Kind = decltype(kind);
+    if constexpr (Kind::kShared == SharedByRays::direction) {
+      camera.location += camera.direction * start;
+      set_flat(record, camera, picture, true);
+      record.ahead = static_cast<float>(start * length * length);
+    } else if constexpr (Kind::kIsFlat) {
+      record.ahead = static_cast<float>(start * length);
+      store(camera.location + camera.direction * start, record.origin);
+      store(camera.direction / length, record.base);
+      store(camera.right / (length * picture.width), record.dx);
+      store(camera.up / (length * picture.height), record.dy);
+      record.middle_x = static_cast<float>(middle_x(picture));
+      record.middle_y = static_cast<float>(middle_y(picture));
+      record.step_x = record.step_y = 1;
+    } else {
+      if (std::is_same_v<Kind, SphericalCamera>) {
+        // As it turns, which is not always toward its axes.
+        const Vec3 forward = unit(camera.direction), right = unit(camera.right), up = unit(camera.up);
+        camera.right = glm::cross(up, forward) * glm::length(camera.right);
+        camera.up = glm::cross(forward, right) * glm::length(camera.up);
+      }
+      record.ahead = static_cast<float>(start);
+      camera.location += unit(camera.direction) * start;
+      set_curved<Kind>(record, camera, picture);
+    }
+  });
+  return record;
 }
 
 void check(const Antialiasing& antialiasing, Model model) {
@@ -369,9 +406,13 @@ Camera framed(Camera camera, double width, double height) {
 
 } // namespace
 
-CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture) {
-  const Camera camera = framed(any_picture, picture.width, picture.height);
+CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture, const SceneImage* image) {
+  Camera camera = framed(any_picture, picture.width, picture.height);
+  // Samples are up to a pixel beyond the picture.
+  const double margin = 4 / std::min(picture.width, picture.height);
+  const double start = image != nullptr ? start_of_rays(camera, margin, *image) : 0;
   CameraRecord record{};
+  if (start > 0) return far_record(camera, picture, start);
   record.kind = static_cast<std::uint32_t>(camera.kind);
   Cameras::dispatch(record.kind, [&](auto kind) {
     using Kind = decltype(kind);
@@ -385,7 +426,7 @@ CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& pictu
 
 void set_camera(FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
                 const std::vector<Medium>& media, const SceneImage& image) {
-  frame.camera = camera_record(camera, picture);
+  frame.camera = camera_record(camera, picture, &image);
   std::vector<std::pair<double, std::uint32_t>> around;
   for (const Medium& medium : media) {
     if (!medium.contains(camera.location)) continue;

@@ -31,8 +31,10 @@ RenderOptions with_picture_of(RenderOptions options, const RenderOptions& given)
 bool brings_colours(const RenderOptions& options);
 /// The part of the picture that is rendered.
 PictureRegion region_of(const RenderOptions& options);
-/// Returns the camera of rays through a picture, to which it adapts as Camera::framing says.
-kernel::CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture);
+/// Returns the camera of rays through a picture, to which it adapts as Camera::framing says. Where there is
+/// an image, rays of a camera that is far away from what it shows start just before that.
+kernel::CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture,
+                                   const SceneImage* image = nullptr);
 /// Fills the camera, and the interiors of the media of the scene that it is inside of.
 void set_camera(kernel::FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
                 const std::vector<Medium>& media, const SceneImage& image);

@@ -6,12 +6,13 @@
 #include <new>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace celltrace {
 
-RayQueryScene::RayQueryScene(const kernel::FrameBlock& frame, const SceneImage& image,
+RayQueryScene::RayQueryScene(const kernel::FrameBlock& frame, const SceneImage& image, const Vec3& origin,
                              std::string_view spu_key)
-    : frame_(frame), image_(image), bvh_(image, frame.bvh.node_offset) {
+    : frame_(frame), image_(image), origin_(origin), bvh_(image, frame.bvh.node_offset) {
   // Where the host reads it, whoever else has a copy.
   frame_.image = reinterpret_cast<std::uintptr_t>(image.base());
   const SpeProgram::Entry entry = ray_queries_program().entry(std::string(spu_key));
@@ -39,15 +40,22 @@ public:
   RayHit closest_hit(const Ray& ray) {
     scene_->check();
     RayHit hit;
-    functions_.closest_hit(state_, ray, hit);
+    functions_.closest_hit(state_, is_moved_ ? moved(ray) : ray, hit);
     return hit;
   }
   bool occluded(const Ray& ray) {
     scene_->check();
-    return functions_.occluded(state_, ray);
+    return functions_.occluded(state_, is_moved_ ? moved(ray) : ray);
   }
   void closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) {
     check_size(rays, hits.size());
+    std::vector<Ray> from_origin;
+    if (is_moved_) {
+      from_origin.resize(rays.size());
+      std::transform(rays.begin(), rays.end(), from_origin.begin(),
+                     [this](const Ray& ray) { return moved(ray); });
+      rays = from_origin;
+    }
     // So many whole bundles that 32 bits count them.
     constexpr std::size_t kMost = std::size_t{1} << 20;
     for (std::size_t first = 0; first < rays.size(); first += kMost)
@@ -65,11 +73,20 @@ public:
     if (!hit || scene_->object_at(hit.record) != hit.object)
       throw InputError("there is no surface where a ray hits nothing of this scene");
     RaySurface surface;
-    functions_.surface(state_, ray, hit, surface);
+    functions_.surface(state_, is_moved_ ? moved(ray) : ray, hit, surface);
+    if (is_moved_)
+      for (int axis = 0; axis < 3; ++axis)
+        surface.point[axis] = static_cast<float>(double{surface.point[axis]} + scene_->origin()[axis]);
     return surface;
   }
 
 private:
+  /// Returns a ray in the image's coordinates.
+  Ray moved(Ray ray) const {
+    for (int axis = 0; axis < 3; ++axis)
+      ray.origin[axis] = static_cast<float>(double{ray.origin[axis]} - scene_->origin()[axis]);
+    return ray;
+  }
   std::align_val_t alignment() const { return std::align_val_t{functions_.state_alignment}; }
   void check_size(std::span<const Ray> rays, std::size_t results) const {
     scene_->check();
@@ -80,6 +97,7 @@ private:
   std::shared_ptr<const RayQueryScene> scene_;
   const kernel::RayQueryFunctions& functions_;
   const kernel::QueryBvh bvh_;
+  const bool is_moved_ = scene_->origin() != Vec3(0);
   void* state_;
 };
 

@@ -15,9 +15,10 @@ namespace celltrace {
 class RayQueryScene {
 public:
   /// `frame` names a BVH for its image, which is `image`; both outlive queries that are asked before
-  /// retire(). `spu_key`: for which SPU type's CPU the code that answers is compiled. Throws InputError if
-  /// there is none.
-  RayQueryScene(const kernel::FrameBlock& frame, const SceneImage& image, std::string_view spu_key);
+  /// retire(). `origin`: of the image, in the coordinates of rays. `spu_key`: for which SPU type's CPU the
+  /// code that answers is compiled. Throws InputError if there is none.
+  RayQueryScene(const kernel::FrameBlock& frame, const SceneImage& image, const Vec3& origin,
+                std::string_view spu_key);
 
   static RayQueries queries(std::shared_ptr<const RayQueryScene> scene);
 
@@ -30,12 +31,14 @@ public:
   kernel::QueryBvh bvh() const { return bvh_.get(); }
   const std::uint32_t* owners() const { return image_.owners().data(); }
   const kernel::RayQueryFunctions& functions() const { return functions_; }
+  const Vec3& origin() const { return origin_; }
   /// The object of the scene that a record in the image is of.
   std::uint32_t object_at(std::uint32_t record) const { return image_.owner_of(record); }
 
 private:
   kernel::FrameBlock frame_;
   const SceneImage& image_;
+  const Vec3 origin_;
   SingleRayBvh bvh_;
   kernel::RayQueryFunctions functions_{};
   std::atomic<bool> is_current_ = true;

@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/lights/list.hpp"
 #include "kernel/shading/ray_stack.hpp"
+#include "prepare/scene_origin.hpp"
 #include "render/accelerator_builder.hpp"
 #include "render/frame_setup.hpp"
 #include "render/models/stage_team.hpp"
@@ -106,6 +107,8 @@ public:
   RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
     check_room_for_all();
     is_edited_ = true;
+    if (!changes.objects && !changes.surfaces && enter_moved_camera(scene.camera))
+      return reporting_failures([&] { return render_frame(picture_.rows(), progress); });
     const bool prepared = while_wanted(progress, scene, [&](const Scene& wanted, const Progress& go_on) {
       return prepare_changes(wanted, changes, go_on);
     });
@@ -130,8 +133,9 @@ public:
     if (static_cast<AcceleratorKind>(frame_.accelerator) != AcceleratorKind::bvh)
       throw InputError("ray queries need a BVH: the scene's accelerator is a grid");
     if (!query_scene_)
-      query_scene_ = std::make_shared<RayQueryScene>(
-          frame_, image_, machine_->direct_memory() ? machine_->spu_key() : make_machine({})->spu_key());
+      query_scene_ = std::make_shared<RayQueryScene>(frame_, image_, origin_,
+                                                     machine_->direct_memory() ? machine_->spu_key()
+                                                                               : make_machine({})->spu_key());
     return RayQueryScene::queries(query_scene_);
   }
   /// The only frame of this renderer.
@@ -181,13 +185,16 @@ private:
       throw;
     }
   }
-  /// Calls work(scene, go_on), with the scene that the picture's quality leaves of `scene`, and with what
-  /// hears of building. False, and there is no scene then, if that has ended it.
+  /// Calls work(scene, go_on), with the scene that the picture's quality leaves of `scene`, at its origin,
+  /// and with what hears of building. False, and there is no scene then, if that has ended it.
   template <class Work> bool while_wanted(const Progress& progress, const Scene& scene, Work work) {
     return while_building(progress, [&](const Progress& go_on) {
-      if (options_.quality >= kFullQuality) return work(scene, go_on);
+      const Vec3 origin = origin_for(scene);
+      if (origin != origin_) forget_scene();
+      origin_ = origin;
+      if (options_.quality >= kFullQuality) return work(SceneAtOrigin(scene, origin).scene(), go_on);
       validate(scene);
-      return work(at_quality(scene, options_.quality), go_on);
+      return work(SceneAtOrigin(at_quality(scene, options_.quality), origin).scene(), go_on);
     });
   }
   /// Calls work(go_on) in the same way.
@@ -267,10 +274,6 @@ private:
     prepared_ = nothing_prepared();
     validate(scene.camera);
     const bool is_for_eye = image_.is_for(scene.camera.location);
-    if (!changes.objects && !changes.surfaces && is_for_eye) {
-      enter_camera(scene.camera);
-      return true;
-    }
     const Stopwatch build;
     retire_queries();
     const SceneChanges all = {changes.objects || !is_for_eye, changes.surfaces};
@@ -306,14 +309,19 @@ private:
   RenderResult render_camera(const Camera& camera, const Progress& progress) {
     if (!has_scene_ && !kept_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
     check_room_for_all();
-    validate(camera);
-    if (!has_scene_ || !image_.is_for(camera.location)) {
-      if (!prepare_for_eye(camera, progress)) return no_frame();
-    } else {
-      prepared_ = nothing_prepared();
-      enter_camera(camera);
-    }
+    if (!enter_moved_camera(camera) && !prepare_for_eye(moved_to(origin_, camera), progress))
+      return no_frame();
     return render_frame(picture_.rows(), progress);
+  }
+  /// Takes another camera for the scene that is there. False, and nothing has changed, if there is none or
+  /// its image is not for that camera.
+  bool enter_moved_camera(const Camera& given) {
+    validate(given);
+    const Camera camera = moved_to(origin_, given);
+    if (!has_scene_ || !image_.is_for(camera.location)) return false;
+    prepared_ = nothing_prepared();
+    enter_camera(camera);
+    return true;
   }
   /// Makes the image of the kept scene for another camera. The scene is kept even if that is cancelled.
   bool prepare_for_eye(const Camera& camera, const Progress& progress) {
@@ -401,8 +409,8 @@ private:
     if (stages_) statistics.stages = stages_->counts();
     statistics.diagnostics = new_diagnostics();
     const ImageHeader& header = image_.header();
-    statistics.bounds[0] = {header.bounds_min[0], header.bounds_min[1], header.bounds_min[2]};
-    statistics.bounds[1] = {header.bounds_max[0], header.bounds_max[1], header.bounds_max[2]};
+    statistics.bounds[0] = origin_ + Vec3(header.bounds_min[0], header.bounds_min[1], header.bounds_min[2]);
+    statistics.bounds[1] = origin_ + Vec3(header.bounds_max[0], header.bounds_max[1], header.bounds_max[2]);
     result.statistics = statistics;
     // The picture then lies in memory that the scene has had. First hits ask where its tables are.
     if (is_last_frame_ && !options_.first_hits) image_ = SceneImage();
@@ -521,9 +529,10 @@ private:
   std::vector<Medium> media_;
   std::shared_ptr<RayQueryScene> query_scene_; ///< null: none of this scene was asked for
   bool has_scene_ = false;                     ///< and an accelerator for it
-  Camera camera_;                              ///< of the next frame
-  std::shared_ptr<Scene> kept_;                ///< that the image is of, where it depends on the eye
-  RenderStatistics prepared_;                  ///< what that took, for the statistics of the next frame
+  Vec3 origin_ = Vec3(0); ///< of the image, in the scene's coordinates; the following are measured from it
+  Camera camera_;         ///< of the next frame
+  std::shared_ptr<Scene> kept_; ///< that the image is of, where it depends on the eye
+  RenderStatistics prepared_;   ///< what that took, for the statistics of the next frame
   RowRange planned_ = {0, 0};
   BundleRows planned_grid_;
   BundleRows traced_; ///< of the grid, whose points are there

@@ -150,13 +150,17 @@ PlacedShape place(const Object& object, const Disc& disc) {
 PlacedShape place(const Object& object, const Box& box) {
   if (box.corner[0] == box.corner[1]) return nothing();
   Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
-  Vec3 scale;
-  for (int i = 0; i < 3; ++i) {
+  Vec3 scale, middle(0);
+  for (int i = 0; i < 3; ++i)
     scale[i] = glm::length(object.transform.rows[i]);
+  constexpr double kFarthest = 1e12; // where single units still have digits
+  const double away = glm::length(object.transform.rows[3]);
+  if (away > double{kMaxHitDistance} && away < kFarthest) middle = object.transform.inverse().point(Vec3(0));
+  for (int i = 0; i < 3; ++i) {
     // A side that no ray gets to would take the precision of the one across.
     const double reach = 2 * double{kMaxHitDistance} / scale[i];
-    low[i] = glm::clamp(low[i], -reach, reach);
-    high[i] = glm::clamp(high[i], -reach, reach);
+    low[i] = glm::clamp(low[i], middle[i] - reach, middle[i] + reach);
+    high[i] = glm::clamp(high[i], middle[i] - reach, middle[i] + reach);
   }
   const Vec3 half = 0.5 * (high - low);
   const double largest = std::max({half.x, half.y, half.z});
@@ -415,8 +419,8 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
   if (shape.is_empty || !has_boundary) return shape;
   // A point is as precise as its coordinates and those of its ray's origin are large. What is farther away
   // than this is seen too small for its boundary to matter.
-  const double far_away = 100 + 4 * glm::length(eye.location());
-  Vec3 reach = glm::abs(eye.location());
+  const double far_away = 100 + 4 * glm::length(eye.start());
+  Vec3 reach = glm::abs(eye.start());
   if (shape.is_bounded) {
     const kernel::Aabb box = shape.bounds();
     for (int i = 0; i < 3; ++i)

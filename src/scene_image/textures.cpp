@@ -4,6 +4,7 @@
 #include "geometry/pattern_tables.hpp"
 #include "kernel/textures/list.hpp"
 #include "scene_image/list_waves.hpp"
+#include "scene_image/pattern_offsets.hpp"
 #include "scene_image/record_vectors.hpp"
 #include "scene_image/surface_records.hpp"
 
@@ -520,6 +521,12 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
                                                 const PatternSpace& inside, bool is_average,
                                                 std::size_t entry_count) {
   PatternRecord r{};
+  PatternSpace space = space_of(pattern, outer);
+  PlacedPattern placed = {pattern.kind, {}, pattern.phase};
+  if (!is_average && !space.uv_mapping) {
+    placed = near_own_origin(pattern, space.steps);
+    space.steps = std::move(placed.space);
+  }
   const auto* grey = is_average ? nullptr : std::get_if<pattern::Grey>(&pattern.kind);
   Known of_grey{0, {}};
   if (grey != nullptr) of_grey = add_pigment(*grey->of, inside);
@@ -529,7 +536,7 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
   if (is_average) {
     r.kind_and_flags = pattern_flag::average;
   } else {
-    const PatternWords words = pattern_words(pattern.kind, scene_.number_of_waves);
+    const PatternWords words = pattern_words(placed.kind, scene_.number_of_waves);
     r.kind_and_flags = words.kind_and_flags;
     std::copy(std::begin(words.parameter), std::end(words.parameter), r.parameter);
     const std::uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
@@ -554,7 +561,7 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
       r.table = of_grey.index;
       r.kind_and_flags |= pattern_flag::nested;
     }
-    if (const auto* solid = std::get_if<pattern::Inside>(&pattern.kind)) {
+    if (const auto* solid = std::get_if<pattern::Inside>(&placed.kind)) {
       r.table = static_cast<std::uint32_t>(objects.size());
       objects.push_back(solid->of);
     }
@@ -564,10 +571,9 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
   const bool is_own = pattern.frequency == 0;
   if (is_own) r.kind_and_flags |= pattern_flag::never_repeats;
   r.frequency = static_cast<float>(is_own ? 1 : pattern.frequency);
-  r.phase = static_cast<float>(is_own ? 0 : pattern.phase);
+  r.phase = static_cast<float>(is_own ? 0 : placed.phase);
   r.wave_exponent = static_cast<float>(pattern.wave_exponent);
   r.turbulence = words_of(pattern.turbulence);
-  const PatternSpace space = space_of(pattern, outer);
   if (space.uv_mapping) r.kind_and_flags |= pattern_flag::uv_mapping;
   add_steps(r, space.steps);
   make_room(patterns, 1, "patterns");

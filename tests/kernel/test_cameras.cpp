@@ -89,6 +89,62 @@ TEST_CASE("The rays of every kind of camera") {
   }
 }
 
+TEST_CASE("Rays of cameras that are far away start before the scene") {
+  using Kind = Camera::Kind;
+  Random random(121);
+  Scene scene;
+  Object ball;
+  ball.shape = Sphere{{3, -2, 1}, 1.5};
+  scene.objects = {ball};
+  scene.add(Material());
+  const SceneImage image(scene);
+  for (const Kind kind :
+       {Kind::perspective, Kind::orthographic, Kind::spherical, Kind::ultra_wide_angle, Kind::cylinder_1,
+        Kind::cylinder_2, Kind::cylinder_3, Kind::cylinder_4, Kind::fisheye}) {
+    INFO(Cameras::kNames[static_cast<std::uint32_t>(kind)]);
+    for (const double distance : {1e4, 1e6, 1e9}) {
+      Camera camera;
+      camera.kind = kind;
+      camera.direction = random.direction();
+      const Vec3 right = glm::normalize(glm::cross(random.direction(), camera.direction));
+      const Vec3 up = glm::cross(camera.direction, right);
+      camera.location = Vec3(3, -2, 1) - camera.direction * distance;
+      const double size = 4, small = size / distance, degrees = small * 57.29577951308232;
+      const bool is_parallel = kind == Kind::orthographic;
+      camera.right = right * (is_parallel || kind == Kind::cylinder_4 ? size
+                              : kind == Kind::fisheye                 ? 1
+                                                                      : small);
+      camera.up = up * (is_parallel || kind == Kind::cylinder_3 ? size : kind == Kind::fisheye ? 1 : small);
+      camera.angle = camera.vertical_angle = degrees;
+      camera.direction *= 0.7; // which counts with two kinds only
+      if (kind == Kind::perspective) {
+        camera.right *= 0.7;
+        camera.up *= 0.7;
+      }
+      FrameBlock frame{};
+      frame.width = frame.height = 100;
+      set_camera(frame, camera, {100, 100}, {}, image);
+      REQUIRE(frame.camera.ahead > 0);
+      DirectSpu spu;
+      RayPacket packet;
+      const std::uint32_t lanes = make_primary_rays(spu, frame, 8, 14, packet);
+      const auto way = way_to_start<Simd>(frame.camera, packet.direction.load<Simd>());
+      FloatLanes ways;
+      way.store(ways.lane);
+      for (unsigned l = 0; l < kSimdLanes; ++l) {
+        const auto expected = reference::camera_ray(camera, (32.5 + l % 4) / 100, (56.5 + l / 4) / 100);
+        REQUIRE(((lanes >> l & 1) != 0) == expected.has_value());
+        if (!expected) continue;
+        const Vec3 come = at(packet.origin, l) - expected->origin;
+        CHECK(glm::length(at(packet.origin, l) - Vec3(3, -2, 1)) < 20);
+        CHECK(glm::length(glm::cross(come, expected->direction)) < 1e-5);
+        CHECK(glm::length(at(packet.direction, l) - expected->direction) < 4e-7);
+        CHECK(ways.lane[l] == Approx(glm::length(come)).epsilon(1e-6));
+      }
+    }
+  }
+}
+
 TEST_CASE("Only a perspective camera is traced as a pinhole") {
   Random random(119);
   for (std::uint32_t kind = 0; kind < Cameras::kCount; ++kind) {

@@ -1,5 +1,6 @@
 // triangle, smooth_triangle, mesh and mesh2.
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
 #include "pov/parsing.hpp"
 
@@ -195,4 +196,17 @@ TEST_CASE("meshes that cannot be") {
         "scene.pov:1:67: error: unexpected end of the scene, expected '>'");
   CHECK(error_line("triangle { 0, 1e300*x, y }") ==
         "scene.pov:1:1: error: a mesh has a coordinate that is too large");
+}
+
+TEST_CASE("a triangle that is far away keeps its digits, a mesh those that it has in POV-Ray") {
+  const std::string place = "#declare O = <500000, 0, 5400000>; ";
+  const std::string corners = "O + 0.1*x, O + <1, 0.3, 0.7>, O + <0, 1, 0.2>";
+  const auto vertex = [&](const std::string& text, std::size_t number) {
+    const Scene scene = parse(place + text);
+    return scene.objects.at(0).transform.point(Vec3(mesh_of(scene).vertices.at(number)));
+  };
+  CHECK(glm::distance(vertex("triangle { " + corners + " }", 0), Vec3(500000.1, 0, 5400000)) < 1e-6);
+  CHECK(glm::distance(vertex("triangle { " + corners + " }", 1), Vec3(500001, 0.3, 5400000.7)) < 1e-6);
+  CHECK(vertex("mesh { triangle { " + corners + " } }", 1) == Vec3(Vec3f(500001, 0.3, 5400000.7)));
+  CHECK(parse("triangle { 1000, 1001*x, 1001*z }").objects.at(0).transform.is_identity());
 }

@@ -23,15 +23,14 @@ struct CameraPicture {
 
 /// Where the rays of a packet are on the picture of a curved camera, and what becomes of them.
 template <class S> struct CameraRays {
-  V3<S> origin, direction; ///< of any length
-  typename S::F x, y;      ///< from the middle, in the units of the CameraPicture
+  V3<S> origin;
+  V3<S> direction;    ///< along the camera's axes: right, up and forward; of any length
+  typename S::F x, y; ///< from the middle, in the units of the CameraPicture
 };
 
-/// A vector of so much to the right, up and forward.
-template <class S>
-V3<S> along_axes(const CameraRecord& camera, const typename S::F& right, const typename S::F& up,
-                 const typename S::F& forward) {
-  return splat3<S>(camera.dx) * right + splat3<S>(camera.dy) * up + splat3<S>(camera.base) * forward;
+/// A vector along the axes of a camera in the scene.
+template <class S> V3<S> along_axes(const CameraRecord& camera, const V3<S>& v) {
+  return splat3<S>(camera.dx) * v.x + splat3<S>(camera.dy) * v.y + splat3<S>(camera.base) * v.z;
 }
 
 } // namespace celltrace::kernel

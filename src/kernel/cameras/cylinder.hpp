@@ -27,10 +27,10 @@ struct Cylinder1Camera : detail::StandingCylinder {
   static constexpr const char* kName = "cylinder 1";
   static constexpr SharedByRays kShared = SharedByRays::origin;
 
-  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+  template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine, cosine;
     sin_cos<S>(rays.x, sine, cosine);
-    rays.direction = along_axes<S>(camera, sine, rays.y, cosine);
+    rays.direction = {sine, rays.y, cosine};
     return 0xFFFF;
   }
 };
@@ -40,10 +40,10 @@ struct Cylinder2Camera : detail::LyingCylinder {
   static constexpr const char* kName = "cylinder 2";
   static constexpr SharedByRays kShared = SharedByRays::origin;
 
-  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+  template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine, cosine;
     sin_cos<S>(rays.y, sine, cosine);
-    rays.direction = along_axes<S>(camera, rays.x, sine, cosine);
+    rays.direction = {rays.x, sine, cosine};
     return 0xFFFF;
   }
 };
@@ -57,7 +57,7 @@ struct Cylinder3Camera : detail::StandingCylinder {
     typename S::F sine, cosine;
     sin_cos<S>(rays.x, sine, cosine);
     rays.origin = rays.origin + splat3<S>(camera.dy) * rays.y;
-    rays.direction = along_axes<S>(camera, sine, typename S::F(0.0f), cosine);
+    rays.direction = {sine, typename S::F(0.0f), cosine};
     return 0xFFFF;
   }
 };
@@ -71,7 +71,7 @@ struct Cylinder4Camera : detail::LyingCylinder {
     typename S::F sine, cosine;
     sin_cos<S>(rays.y, sine, cosine);
     rays.origin = rays.origin + splat3<S>(camera.dx) * rays.x;
-    rays.direction = along_axes<S>(camera, typename S::F(0.0f), sine, cosine);
+    rays.direction = {typename S::F(0.0f), sine, cosine};
     return 0xFFFF;
   }
 };

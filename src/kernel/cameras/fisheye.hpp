@@ -20,7 +20,7 @@ struct FisheyeCamera {
     const RoundPicture<S> at(rays);
     F sine, cosine;
     sin_cos<S>(at.radius * F(camera.bend), sine, cosine);
-    rays.direction = along_axes<S>(camera, at.right * sine, at.up * sine, cosine);
+    rays.direction = {at.right * sine, at.up * sine, cosine};
     return at.lanes;
   }
 };

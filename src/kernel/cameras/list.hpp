@@ -9,8 +9,8 @@
 // and if it is not flat
 //   kHasUnitAxes          whether its axes are of unit length
 //   picture(view)         where its pixels are
-//   bend(record, rays)    from the places on the picture the directions, and the origins if they are not the
-//                         location. Returns the lanes that have a ray.
+//   bend(record, rays)    from the places on the picture the directions, along the camera's axes, and the
+//                         origins if they are not the location. Returns the lanes that have a ray.
 #pragma once
 
 #include "kernel/cameras/cylinder.hpp"
@@ -37,7 +37,14 @@ inline bool is_pinhole(const CameraRecord& camera) {
     using Kind = decltype(kind);
     pinhole = Kind::kIsFlat && Kind::kShared == SharedByRays::origin;
   });
-  return pinhole;
+  return pinhole && camera.ahead == 0.0f;
+}
+
+/// How far rays of a camera that is far away start from it.
+template <class S> typename S::F way_to_start(const CameraRecord& camera, const V3<S>& direction) {
+  const bool is_parallel = camera.kind == kCameraKind<OrthographicCamera>;
+  return
+      typename S::F(camera.ahead) / dot<S>(direction, splat3<S>(is_parallel ? camera.origin : camera.base));
 }
 
 } // namespace celltrace::kernel

@@ -20,14 +20,14 @@ struct OmnimaxCamera {
     return {aspect > kWidest ? aspect / kWidest : 1, 1 / squeezed, 1 - 1 / squeezed};
   }
 
-  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+  template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     using F = typename S::F;
     const RoundPicture<S> at(rays);
     const F r2 = at.radius * at.radius;
     F sine, cosine;
     sin_cos<S>(at.radius * (F(1.411269f) + r2 * (F(-0.09439f) + r2 * F(0.25674f))), sine, cosine);
     const F up = at.up * sine;
-    rays.direction = along_axes<S>(camera, at.right * sine, up, cosine);
+    rays.direction = {at.right * sine, up, cosine};
     // Nothing more than 45 degrees below the horizon.
     return at.lanes & (up + cosine >= F(0.0f)).bits();
   }

@@ -16,12 +16,12 @@ struct PanoramicCamera {
     return {kQuarter, kQuarter};
   }
 
-  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+  template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine_x, cosine_x, sine_y, cosine_y;
     sin_cos<S>(rays.x, sine_x, cosine_x);
     sin_cos<S>(rays.y, sine_y, cosine_y);
     // All times the cosine, which is positive, as the tangent may be large.
-    rays.direction = along_axes<S>(camera, sine_x * cosine_y, sine_y, cosine_x * cosine_y);
+    rays.direction = {sine_x * cosine_y, sine_y, cosine_x * cosine_y};
     return 0xFFFF;
   }
 };

@@ -5,6 +5,8 @@
 #include "kernel/cameras/list.hpp"
 #include "kernel/modules.hpp"
 
+#include <type_traits>
+
 namespace celltrace::kernel {
 
 namespace detail {
@@ -14,23 +16,36 @@ alignas(64) constexpr float kLaneY[kSimdLanes] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 
 
 namespace module_cameras {
 
-/// The rays of a curved camera; returns the lanes that have one.
+/// The rays of a curved camera, or of one that is far away; returns the lanes that have one.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t bend(Spu& spu, const CameraRecord& camera, const typename Spu::simd::F& x,
                                  const typename Spu::simd::F& y, RayPacket& packet) {
   using S = typename Spu::simd;
   using F = typename S::F;
   spu.run_in_module(modules::kCameras);
+  const bool is_far = camera.ahead != 0.0f;
   CameraRays<S> rays;
   rays.origin = splat3<S>(camera.origin);
   rays.x = x * F(camera.step_x);
   rays.y = (F(0.0f) - y) * F(camera.step_y);
   uint32_t lanes = 0xFFFF;
+  bool turns = false;
   Cameras::dispatch(camera.kind, [&](auto kind) {
-    if constexpr (!decltype(kind)::kIsFlat) lanes = decltype(kind)::template bend<S>(camera, rays);
+    using Kind = decltype(kind);
+    if constexpr (Kind::kIsFlat)
+      rays.direction = {rays.x, rays.y, F(1.0f)};
+    else
+      lanes = Kind::template bend<S>(camera, rays);
+    turns = !is_far && std::is_same_v<Kind, SphericalCamera>;
   });
+  if (is_far) {
+    const F scale = F(camera.ahead) / rays.direction.z;
+    rays.origin = rays.origin +
+                  (splat3<S>(camera.dx) * rays.direction.x + splat3<S>(camera.dy) * rays.direction.y) * scale;
+  }
   packet.origin.template store<S>(rays.origin);
-  packet.direction.template store<S>(normalise<S>(rays.direction));
+  packet.direction.template store<S>(
+      normalise<S>(turns ? SphericalCamera::turn<S>(camera, rays) : along_axes<S>(camera, rays.direction)));
   return lanes;
 }
 
@@ -46,8 +61,8 @@ uint32_t make_rays_through(Spu& spu, const CameraRecord& camera, const typename 
     packet.start_object.lane[lane] = kNoOffset;
   bool flat = false, parallel = false;
   Cameras::dispatch(camera.kind, [&](auto kind) {
-    flat = decltype(kind)::kIsFlat;
     parallel = decltype(kind)::kShared == SharedByRays::direction;
+    flat = decltype(kind)::kIsFlat && (parallel || camera.ahead == 0.0f);
   });
   if (!flat) {
     spu.enter_module(modules::kCameras);

@@ -16,13 +16,21 @@ struct SphericalCamera {
     return {view.angle / 2, view.vertical_angle / 2};
   }
 
-  /// As in POV-Ray, forward turns about right and then about up, whatever their angle is: a camera with the
-  /// other hand sees upside down.
-  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
-    const typename S::F zero(0.0f);
-    rays.direction = turned<S>(splat3<S>(camera.base), splat3<S>(camera.dx), zero - rays.y);
-    rays.direction = turned<S>(rays.direction, splat3<S>(camera.dy), rays.x);
+  /// Of axes at right angles, as records of cameras that are far away have them.
+  template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
+    typename S::F sine_x, cosine_x, sine_y, cosine_y;
+    sin_cos<S>(rays.x, sine_x, cosine_x);
+    sin_cos<S>(rays.y, sine_y, cosine_y);
+    rays.direction = {sine_x * cosine_y, sine_y, cosine_x * cosine_y};
     return 0xFFFF;
+  }
+
+  /// Directions in the scene. As in POV-Ray, forward turns about right and then about up, whatever their
+  /// angle is: a camera with the other hand sees upside down.
+  template <class S> static V3<S> turn(const CameraRecord& camera, const CameraRays<S>& rays) {
+    const typename S::F zero(0.0f);
+    const V3<S> raised = turned<S>(splat3<S>(camera.base), splat3<S>(camera.dx), zero - rays.y);
+    return turned<S>(raised, splat3<S>(camera.dy), rays.x);
   }
 
 private:

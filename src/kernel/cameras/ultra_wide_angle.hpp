@@ -15,11 +15,11 @@ struct UltraWideAngleCamera {
     return {view.angle / 2, view.width > 0 ? view.angle / 2 * view.height / view.width : 0};
   }
 
-  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+  template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine_x, cosine_x, sine_y, cosine_y;
     sin_cos<S>(rays.x, sine_x, cosine_x);
     sin_cos<S>(rays.y, sine_y, cosine_y);
-    rays.direction = along_axes<S>(camera, sine_x, sine_y, cosine_x * cosine_y);
+    rays.direction = {sine_x, sine_y, cosine_x * cosine_y};
     return 0xFFFF;
   }
 };

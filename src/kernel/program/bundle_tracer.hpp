@@ -205,6 +205,10 @@ private:
       record.distance[lane] = member.hits.distance.lane[lane];
       record.interior[lane] = is_hit ? points.interior.lane[lane] : kNoOffset;
     }
+    if (frame_.camera.ahead != 0.0f) {
+      const F way = way_to_start<S>(frame_.camera, rays_of(member).direction.template load<S>());
+      (F::load(record.distance) + way).store(record.distance);
+    }
     if (member.hit != 0) {
       points.normal.x.store(record.normal[0]);
       points.normal.y.store(record.normal[1]);

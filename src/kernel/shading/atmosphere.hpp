@@ -1,6 +1,7 @@
 // What rays pass through on their way from surface to surface: fog, and rainbows behind it. Kernel dialect.
 #pragma once
 
+#include "kernel/cameras/list.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/scene_access.hpp"
@@ -165,12 +166,25 @@ template <class Spu> uint32_t lanes_in_the_open(SceneAccess<Spu>& scene, const R
 
 namespace detail {
 
+/// The lanes of a part in which an object is none.
+template <class S> typename S::M are_none(const WordLanes& objects, uint32_t first) {
+  using I = typename S::I;
+  const I object = I::load(reinterpret_cast<const int32_t*>(objects.lane + first));
+  return object == I::splat(static_cast<int32_t>(kNoOffset));
+}
+
 /// How far rays go to what they have hit. POV-Ray's distance to where there is nothing is 1e10.
 template <class S> typename S::F length_of(const HitPacket& hits, uint32_t first) {
-  using I = typename S::I;
-  const I object = I::load(reinterpret_cast<const int32_t*>(hits.object.lane + first));
-  const auto missed = object == I::splat(static_cast<int32_t>(kNoOffset));
-  return S::select(missed, typename S::F(1e10f), S::F::load(hits.distance.lane + first));
+  return S::select(are_none<S>(hits.object, first), typename S::F(1e10f),
+                   S::F::load(hits.distance.lane + first));
+}
+
+/// How far those of a node's rays that start before the scene, and at no surface, have come from the camera.
+template <class S> typename S::F way_before(const FrameBlock& frame, const RayNode& ray, uint32_t first) {
+  const typename S::F none(0.0f);
+  if (frame.camera.ahead == 0.0f) return none;
+  const V3<S> direction = ray.rays.direction.template load_from<S>(first);
+  return S::select(are_none<S>(ray.rays.start_object, first), way_to_start<S>(frame.camera, direction), none);
 }
 
 /// Multiplies how clear the way of rays is, in those lanes of a part.
@@ -201,8 +215,8 @@ template <class Spu>
       Passage<S> through;
       F clear = zero;
       auto seen = S::M::none();
-      see_rainbow(scene, bow, i, ray.rays.direction.template load_from<S>(first), length_of<S>(hits, first),
-                  through, clear, seen);
+      see_rainbow(scene, bow, i, ray.rays.direction.template load_from<S>(first),
+                  length_of<S>(hits, first) + way_before<S>(frame, ray, first), through, clear, seen);
       if (seen.bits() == 0) continue;
       clear_sum = clear_sum + S::select(seen, clear, zero);
       sum.pass = sum.pass + select<S>(seen, through.pass, nothing);
@@ -263,9 +277,10 @@ template <class Spu>
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(lanes, first);
       if (some == 0) return;
-      const V3<S> origin = ray.rays.origin.template load_from<S>(first);
       const V3<S> direction = ray.rays.direction.template load_from<S>(first);
-      const F length = detail::length_of<S>(hits, first);
+      const F before_scene = detail::way_before<S>(frame, ray, first);
+      const V3<S> origin = ray.rays.origin.template load_from<S>(first) - direction * before_scene;
+      const F length = detail::length_of<S>(hits, first) + before_scene;
       const Passage<S> fogged = detail::through_fog(scene.spu(), fog, origin, direction, length);
       const auto take = S::M::from_bits(some);
       const V3<S> throughput = ray.throughput.template load_from<S>(first);
