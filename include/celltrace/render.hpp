@@ -347,7 +347,8 @@ public:
   static constexpr int kRowStep = 32;
 
   /// Queries of the scene that was prepared or rendered last, with what RenderOptions::max_trace_level and
-  /// the like do not change. On every backend the host's CPU answers them. Throws InputError without
+  /// the like do not change. They are retired when the scene changes, and when records are updated for a
+  /// camera elsewhere. On every backend the host's CPU answers them. Throws InputError without
   /// RenderOptions::ray_queries, where no scene is prepared, and where its accelerator is a grid.
   RayQueries ray_queries() const;
 

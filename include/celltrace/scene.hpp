@@ -99,8 +99,9 @@ struct Fog {
   double offset = 0;
   double altitude = 0; ///< 0: there is no fog above the offset
   Vec3 up{0, 1, 0};
-  Turbulence turbulence;         ///< clears it here and there, where an amount is not 0
-  double turbulence_depth = 0.5; ///< how much
+  Turbulence turbulence;           ///< clears it here and there, where an amount is not 0
+  double turbulence_depth = 0.5;   ///< how much
+  Vec3 turbulence_origin{0, 0, 0}; ///< in the scene, of the noise
 };
 
 /// A bow of colours, with POV-Ray's formulas: it is seen before whatever rays meet there, the more the

@@ -27,7 +27,7 @@ constexpr CodeModule kSquares = {"squares", 28, 0, 9984};
 constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 13056};
 constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 10624};
 /// What primary rays hit, for main memory.
-constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 768};
+constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 1408};
 
 /// What insides take of light, and how clear they are; and mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 3968};
@@ -57,8 +57,8 @@ constexpr CodeModule kSecondary = {"secondary", 2, 1, 8832};
 constexpr CodeModule kLights = {"lights", 6, 1, 4864};
 /// The sampling of lights that have an area.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9472};
-/// The rays of cameras whose pictures are not flat.
-constexpr CodeModule kCameras = {"cameras", 10, 1, 6528};
+/// The rays of cameras whose pictures are not flat, or which are far away.
+constexpr CodeModule kCameras = {"cameras", 10, 1, 7808};
 /// Pigments and normals, but for the patterns themselves.
 constexpr CodeModule kTextures = {"textures", 9, 1, 7104};
 /// The maps of textures: which of them count where.
@@ -78,7 +78,7 @@ constexpr CodeModule kHits = {"hits", 5, 2, 7808};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7168};
 /// What rays pass through on their way or see before what they hit or behind it.
-constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 6784};
+constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7168};
 /// What rays see that hit nothing, where there is a sky.
 constexpr CodeModule kSky = {"sky", 34, 2, 2048};
 /// Shadow rays that go from surface to surface.

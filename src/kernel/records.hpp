@@ -474,7 +474,8 @@ struct alignas(128) FogRecord {
   uint32_t flags;
   float turbulence_depth;
   TurbulenceWords turbulence;
-  uint32_t unused[12];
+  float turbulence_offset[3]; ///< added to points that are multiplied by its amount
+  uint32_t unused[9];
 };
 static_assert(sizeof(FogRecord) == 128, "one a line");
 

@@ -21,8 +21,8 @@ bool is_near(const Sphere& sphere, const Vec3& location) {
 
 } // namespace
 
-Eye::Eye(const Scene& scene, Moves moves) : Eye(scene.camera, moves) {
-  if (const double largest = largest_coordinate_from_afar(scene); largest > 0)
+Eye::Eye(const Camera& camera, const Scene& scene, Moves moves) : Eye(camera, moves) {
+  if (const double largest = largest_coordinate_from_afar(scene, location_); largest > 0)
     start_ = location_ * (2 * largest / glm::length(location_));
 }
 

@@ -19,8 +19,8 @@ public:
   /// depend on it.
   explicit Eye(const Camera& camera, Moves moves = Moves::no)
       : location_(camera.location), start_(camera.location), may_move_(moves == Moves::yes) {}
-  /// The camera of a scene.
-  explicit Eye(const Scene& scene, Moves moves);
+  /// Where rays start depends on the scene, too.
+  Eye(const Camera& camera, const Scene& scene, Moves moves);
 
   /// Returns the location; what is prepared depends on it from here on.
   const Vec3& location() const noexcept {

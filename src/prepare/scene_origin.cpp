@@ -117,6 +117,7 @@ public:
 
   Fog moved(Fog fog) {
     fog.offset += glm::dot(fog.up, move_.rows[3]);
+    fog.turbulence_origin = move_.point(fog.turbulence_origin);
     return fog;
   }
 
@@ -208,8 +209,8 @@ Vec3 origin_for(const Scene& scene) {
   return glm::round(middle.place / step) * step;
 }
 
-double largest_coordinate_from_afar(const Scene& scene) {
-  const double distance = largest(scene.camera.location);
+double largest_coordinate_from_afar(const Scene& scene, const Vec3& location) {
+  const double distance = largest(location);
   const Middle middle = middle_of(scene);
   if (!(middle.size > 0) || distance <= kFar * middle.size) return 0;
   double reach = 0;

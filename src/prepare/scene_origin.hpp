@@ -13,9 +13,9 @@ namespace celltrace {
 /// of many objects are looked at.
 Vec3 origin_for(const Scene& scene);
 
-/// Returns the largest coordinate of an object that has bounds, if the camera is so far from all of them that
-/// they are small beside its distance; else 0.
-double largest_coordinate_from_afar(const Scene& scene);
+/// Returns the largest coordinate of an object that has bounds, if all of them are small beside how far away
+/// `location` is; else 0.
+double largest_coordinate_from_afar(const Scene& scene, const Vec3& location);
 
 /// Returns a camera in coordinates from `origin`.
 Camera moved_to(const Vec3& origin, Camera camera);

@@ -125,7 +125,7 @@ fields_of(const InteriorRecord&);
 
 FieldList<&FogRecord::colour, &FogRecord::least, &FogRecord::tint, &FogRecord::inverse_distance,
           &FogRecord::up, &FogRecord::offset, &FogRecord::flags, &FogRecord::turbulence_depth,
-          &FogRecord::turbulence, &FogRecord::unused>
+          &FogRecord::turbulence, &FogRecord::turbulence_offset, &FogRecord::unused>
 fields_of(const FogRecord&);
 
 FieldList<&RainbowRecord::direction, &RainbowRecord::angle, &RainbowRecord::up, &RainbowRecord::inverse_width,

@@ -158,7 +158,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread, const ImageMemory& remembered) {
   BuildWatch::reach(0);
   validate(given);
-  Eye eye(given, remembered.eye_moves ? Eye::Moves::yes : Eye::Moves::no);
+  Eye eye(given.camera, given, remembered.eye_moves ? Eye::Moves::yes : Eye::Moves::no);
   SceneOfRecords prepared(given, eye);
   TextureTables& textures = prepared.textures;
   const SceneWithProjectors& with_projectors = prepared.with_projectors;
@@ -246,7 +246,7 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread) {
   if (!origin_ || given.objects.size() != origin_->forms.size()) return false;
   validate(given);
-  Eye eye(given, eye_.may_move() ? Eye::Moves::yes : Eye::Moves::no);
+  Eye eye(given.camera, given, eye_.may_move() ? Eye::Moves::yes : Eye::Moves::no);
   SceneOfRecords prepared(given, eye);
   TextureTables& textures = prepared.textures;
   const SceneWithProjectors& with_projectors = prepared.with_projectors;

@@ -209,7 +209,7 @@ InteriorRecord make_record(const Interior& interior) {
 }
 
 FogRecord make_record(const Fog& fog, const Scene& scene) {
-  constexpr double kNoAltitude = 1e-6;
+  constexpr double kNoAltitude = 1e-6, kOfNoise = 4096; // after so many units it repeats
   FogRecord r{};
   copy(fog.colour, r.colour);
   r.least = static_cast<float>(fog.transmit);
@@ -225,6 +225,11 @@ FogRecord make_record(const Fog& fog, const Scene& scene) {
   if (scene.noise_generator == 1) r.flags |= fog_flag::first_generator;
   r.turbulence = words_of(fog.turbulence);
   r.turbulence_depth = static_cast<float>(fog.turbulence_depth);
+  const bool repeats = fog.turbulence.lambda == std::floor(fog.turbulence.lambda);
+  for (int i = 0; i < 3; ++i) {
+    const double offset = -fog.turbulence_origin[i] * fog.turbulence.amount[i];
+    r.turbulence_offset[i] = static_cast<float>(repeats ? std::remainder(offset, kOfNoise) : offset);
+  }
   return r;
 }
 

@@ -66,7 +66,7 @@ void check(const Light& light, const Name& name) {
 }
 
 void check(const Fog& fog, const Name& name) {
-  check_vectors({fog.colour, fog.up, fog.turbulence.amount}, name);
+  check_vectors({fog.colour, fog.up, fog.turbulence.amount, fog.turbulence_origin}, name);
   check_finite({fog.filter, fog.transmit, fog.distance, fog.offset, fog.altitude, fog.turbulence.omega,
                 fog.turbulence.lambda, fog.turbulence_depth},
                name);

@@ -102,7 +102,7 @@ TEST_CASE("Rays of cameras that are far away start before the scene") {
        {Kind::perspective, Kind::orthographic, Kind::spherical, Kind::ultra_wide_angle, Kind::cylinder_1,
         Kind::cylinder_2, Kind::cylinder_3, Kind::cylinder_4, Kind::fisheye}) {
     INFO(Cameras::kNames[static_cast<std::uint32_t>(kind)]);
-    for (const double distance : {1e4, 1e6, 1e9}) {
+    for (const double distance : {1e4, 1e6, 5e6}) {
       Camera camera;
       camera.kind = kind;
       camera.direction = random.direction();

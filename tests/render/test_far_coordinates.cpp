@@ -161,3 +161,23 @@ TEST_CASE("Fog and depth count from a camera that is far away") {
   CHECK(near.first_hits.depth[middle] == Approx(99).epsilon(1e-3));
   CHECK(far.first_hits.depth[middle] == Approx(1e6 - 1).epsilon(1e-6));
 }
+
+TEST_CASE("Patterns repeat exactly where they are asked far from their own origin") {
+  const std::string pigment =
+      GENERATE(as<std::string>{}, "checker rgb 1, rgb x", "hexagon rgb 1, rgb x, rgb y translate y",
+               "bozo color_map { [0 rgb 1] [1 rgb x] }", "granite color_map { [0 rgb 1] [1 rgb x] }",
+               "crackle color_map { [0 rgb 1] [1 rgb x] }", "quilted color_map { [0 rgb 1] [1 rgb x] }",
+               "checker rgb 1, rgb x warp { turbulence 0.5 }",
+               "marble color_map { [0 rgb 1] [1 rgb x] } turbulence 0.4 phase 100",
+               "checker rgb 1, rgb x warp { repeat 8*x } warp { black_hole 0.5, 0.2 }");
+  INFO(pigment);
+  const auto seen = [&](const std::string& place) {
+    return render(at(place, kCamera + "sphere { O, 1 pigment { " + pigment + " scale 0.5 } }"), small())
+        .image;
+  };
+  // Whole periods: of noise and cubes; of hexagons; and where marble's wave does not count.
+  const std::string far = pigment[0] == 'h'   ? "<600000, 70000, 0>"
+                          : pigment[0] == 'm' ? "<0, 409600, 819200>"
+                                              : "<409600, 204800, 819200>";
+  CHECK(psnr(seen("<0, 0, 0>"), seen(far)) > 40);
+}

@@ -34,22 +34,26 @@ template <class S, class PrimaryRays> struct BundleMember : LitPoints, PrimaryRa
   uint32_t lanes, hit; ///< of them, those that have a ray; of these, those that hit something
 };
 
-/// Traces bundles. A strategy's Trees say whether rays stay in the packets of their trees:
-///
-///   PrimaryRays                         the primary rays of a member are `of(member)`
-///   search(column, row, put, fill)      finds what primary rays hit; false: nothing, and all has been put
-///   begin_trees()
-///   hint(i)                             member i will be shaded soon
-///   shade_end(member)                   whether all that a member sees is known, as no rays go on
-///   begin_tree(member)
-///   take_hits()                         as RayTracer's
-///   knows_points(root)                  whether the points that a node has hit are known; null: it is no
-///   root leave_ends(hit)                     hits that are left for later leave_light(number, light, lanes,
-///   colour)   whether light at the node is left for later keep_tree(member)                   what a member
-///   sees is complete, but for what has been left end_tree() finish(stopped)                     works off
-///   what has been left; false: it was stopped on the way drop()                              forgets it
-///   add_left_light(member)              adds what came of light that the root's first round gathered
-///   lanes_with_ray(member), light_of(member)   what its pixels see
+// A strategy's Trees say whether rays stay in the packets of their trees. They have
+//
+//   PrimaryRays                       the primary rays of a member are `of(member)`
+//   search(column, row, put, fill)    finds what primary rays hit; false: nothing, and all has been put
+//   begin_trees()
+//   hint(i)                           member i will be shaded soon
+//   shade_end(member)                 whether all that a member sees is known, as no rays go on
+//   begin_tree(member)
+//   take_hits()                       as RayTracer's
+//   knows_points(root)                whether the points that a node has hit are known; null: it is no root
+//   leave_ends(hit)                   hits that are left for later
+//   leave_light(number, light, lanes, colour)   whether light at the node is left for later
+//   keep_tree(member)                 what a member sees is complete, but for what has been left
+//   end_tree()
+//   finish(stopped)                   works off what has been left; false: it was stopped on the way
+//   drop()                            forgets it
+//   add_left_light(member)            adds what came of light that the root's first round gathered
+//   lanes_with_ray(member), light_of(member)    what its pixels see
+
+/// Traces bundles.
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 class BundleTracer : public Strategy<Spu>::template Trees<BundleTracer<Spu, kAccelerators>, Spu> {
   using Trees = typename Strategy<Spu>::template Trees<BundleTracer, Spu>;
@@ -206,7 +210,7 @@ private:
       record.interior[lane] = is_hit ? points.interior.lane[lane] : kNoOffset;
     }
     if (frame_.camera.ahead != 0.0f) {
-      const F way = way_to_start<S>(frame_.camera, rays_of(member).direction.template load<S>());
+      const F way = way_to_start<S>(frame_.camera, PrimaryRays::of(member).direction.template load<S>());
       (F::load(record.distance) + way).store(record.distance);
     }
     if (member.hit != 0) {

@@ -69,7 +69,8 @@ through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& o
   }
   if ((fog.flags & fog_flag::turbulent) != 0) {
     // As in POV-Ray, noise is asked halfway, and counts the less the farther the ray goes.
-    const V3<S> middle = (origin + direction * (length * F(0.5f))) * splat3<S>(fog.turbulence.amount);
+    const V3<S> halfway = origin + direction * (length * F(0.5f));
+    const V3<S> middle = halfway * splat3<S>(fog.turbulence.amount) + splat3<S>(fog.turbulence_offset);
     spu.enter_module(modules::kNoise);
     const F noise =
         noise::turbulence_value<S>(middle, fog.turbulence, (fog.flags & fog_flag::first_generator) != 0);
