@@ -24,7 +24,7 @@
 namespace celltrace {
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kImageVersion = 17;
+constexpr std::uint32_t kImageVersion = 18;
 
 /// What a SceneImage remembers of its scene, 4 bytes an object each.
 struct ImageMemory {
