@@ -649,6 +649,10 @@ static_assert(sizeof(ImageHeader) == 384, "three lines");
 
 // --- frame ---
 
+/// How a camera's rays lie to each other: from one point through a plane, parallel from a plane, or as the
+/// code module of cameras makes them.
+enum class RaySheaf : uint32_t { pinhole, parallel, made };
+
 /// Flat cameras: through pixel (x, y) goes base + (x - middle_x)*dx + (y - middle_y)*dy, as a direction from
 /// `origin` (not normalised) or as an origin with direction `origin`; `middle_y` may be another row than that
 /// in the middle. Curved ones: `origin` is their location, and `base`, `dx` and `dy` are their axes forward,
@@ -671,7 +675,7 @@ struct alignas(16) CameraRecord {
   /// 0: rays start at the camera. A ray starts ahead / dot(direction, axis) away from it, where the axis is
   /// `base`, or `origin` of parallel rays.
   float ahead;
-  uint32_t unused;
+  uint32_t sheaf; ///< RaySheaf
 };
 static_assert(sizeof(CameraRecord) == 80, "crosses DMA");
 

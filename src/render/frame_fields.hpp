@@ -9,7 +9,7 @@ namespace celltrace::kernel {
 
 FieldList<&CameraRecord::origin, &CameraRecord::kind, &CameraRecord::base, &CameraRecord::bend,
           &CameraRecord::dx, &CameraRecord::middle_x, &CameraRecord::dy, &CameraRecord::middle_y,
-          &CameraRecord::step_x, &CameraRecord::step_y, &CameraRecord::ahead, &CameraRecord::unused>
+          &CameraRecord::step_x, &CameraRecord::step_y, &CameraRecord::ahead, &CameraRecord::sheaf>
 fields_of(const CameraRecord&);
 
 FieldList<&GridRecord::min, &GridRecord::cell_offset, &GridRecord::max, &GridRecord::list_offset,

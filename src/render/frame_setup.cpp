@@ -73,6 +73,7 @@ double horizon_row(const Vec3& middle, const Vec3& row, double height) {
 }
 
 void set_flat(CameraRecord& record, const Camera& camera, const PictureOnGrid& picture, bool parallel) {
+  record.sheaf = static_cast<std::uint32_t>(parallel ? RaySheaf::parallel : RaySheaf::pinhole);
   const Vec3 row = -camera.up / picture.height;
   Vec3 base = parallel ? camera.location : camera.direction;
   // Counted from the horizon: what single precision leaves of the difference of two directions decides how
@@ -95,6 +96,7 @@ Vec3 unit(const Vec3& v) {
 
 template <class Kind>
 void set_curved(CameraRecord& record, const Camera& camera, const PictureOnGrid& on_grid) {
+  record.sheaf = static_cast<std::uint32_t>(RaySheaf::made);
   constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   const CameraPicture picture =
       Kind::picture({camera.angle * kRadiansPerDegree, camera.vertical_angle * kRadiansPerDegree,
@@ -125,6 +127,7 @@ CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double star
       set_flat(record, camera, picture, true);
       record.ahead = static_cast<float>(start * length * length);
     } else if constexpr (Kind::kIsFlat) {
+      record.sheaf = static_cast<std::uint32_t>(RaySheaf::made);
       record.ahead = static_cast<float>(start * length);
       store(camera.location + camera.direction * start, record.origin);
       store(camera.direction / length, record.base);
@@ -411,8 +414,8 @@ CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& pictu
   // Samples are up to a pixel beyond the picture.
   const double margin = 4 / std::min(picture.width, picture.height);
   const double start = image != nullptr ? start_of_rays(camera, margin, *image) : 0;
-  CameraRecord record{};
   if (start > 0) return far_record(camera, picture, start);
+  CameraRecord record{};
   record.kind = static_cast<std::uint32_t>(camera.kind);
   Cameras::dispatch(record.kind, [&](auto kind) {
     using Kind = decltype(kind);

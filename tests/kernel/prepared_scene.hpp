@@ -2,6 +2,7 @@
 #pragma once
 
 #include "direct_spu.hpp"
+#include "kernel/entry/strategies.hpp"
 #include "kernel/program/prepare_frame.hpp"
 #include "render/frame_setup.hpp"
 #include "scene_image/scene_image.hpp"

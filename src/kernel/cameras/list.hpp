@@ -31,18 +31,13 @@ using Cameras = TypeList<PerspectiveCamera, OrthographicCamera, SphericalCamera,
 template <class C> constexpr uint32_t kCameraKind = Cameras::number<C>();
 
 /// Whether all rays leave one point through a plane.
-inline bool is_pinhole(const CameraRecord& camera) {
-  bool pinhole = false;
-  Cameras::dispatch(camera.kind, [&](auto kind) {
-    using Kind = decltype(kind);
-    pinhole = Kind::kIsFlat && Kind::kShared == SharedByRays::origin;
-  });
-  return pinhole && camera.ahead == 0.0f;
+constexpr bool is_pinhole(const CameraRecord& camera) {
+  return camera.sheaf == static_cast<uint32_t>(RaySheaf::pinhole);
 }
 
 /// How far rays of a camera that is far away start from it.
 template <class S> typename S::F way_to_start(const CameraRecord& camera, const V3<S>& direction) {
-  const bool is_parallel = camera.kind == kCameraKind<OrthographicCamera>;
+  const bool is_parallel = camera.sheaf == static_cast<uint32_t>(RaySheaf::parallel);
   return
       typename S::F(camera.ahead) / dot<S>(direction, splat3<S>(is_parallel ? camera.origin : camera.base));
 }

@@ -59,15 +59,11 @@ uint32_t make_rays_through(Spu& spu, const CameraRecord& camera, const typename 
   using S = typename Spu::simd;
   for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
     packet.start_object.lane[lane] = kNoOffset;
-  bool flat = false, parallel = false;
-  Cameras::dispatch(camera.kind, [&](auto kind) {
-    parallel = decltype(kind)::kShared == SharedByRays::direction;
-    flat = decltype(kind)::kIsFlat && (parallel || camera.ahead == 0.0f);
-  });
-  if (!flat) {
+  if (camera.sheaf == static_cast<uint32_t>(RaySheaf::made)) {
     spu.enter_module(modules::kCameras);
     return module_cameras::bend(spu, camera, x, y, packet);
   }
+  const bool parallel = !is_pinhole(camera);
   const V3<S> through = splat3<S>(camera.base) + splat3<S>(camera.dx) * x + splat3<S>(camera.dy) * y;
   const V3<S> fixed = splat3<S>(camera.origin);
   packet.origin.template store<S>(parallel ? through : fixed);
