@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-using namespace celltrace::pov;
+using namespace celltrace;
 
 namespace {
 
