@@ -65,7 +65,7 @@ template <> inline constexpr int kMembers<Material> = 6;
 
 template <> inline constexpr int kMembers<Camera> = 8;
 template <> inline constexpr int kMembers<Interior> = 7;
-template <> inline constexpr int kMembers<Fog> = 10;
+template <> inline constexpr int kMembers<Fog> = 11;
 template <> inline constexpr int kMembers<Rainbow> = 9;
 template <> inline constexpr int kMembers<Rainbow::Colour> = 4;
 template <> inline constexpr int kMembers<LightArea> = 8;
