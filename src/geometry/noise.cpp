@@ -17,10 +17,10 @@ using kernel::noise::kLattice;
 using kernel::noise::kPeriod;
 
 /// Beyond, numbers of lattice points overflow in POV-Ray.
-constexpr double kFarthest = 2147483647.0;
+constexpr double kFarthestInteger = 2147483647.0;
 
 double near_enough(double coordinate) {
-  return std::isfinite(coordinate) ? std::clamp(coordinate, -kFarthest, kFarthest) : 0;
+  return std::isfinite(coordinate) ? std::clamp(coordinate, -kFarthestInteger, kFarthestInteger) : 0;
 }
 
 /// The cell around a point.
