@@ -1,4 +1,4 @@
-// What helps where a scene uses something that is not supported.
+// The note that leads to --lenient where a scene uses something that is not supported.
 #pragma once
 
 #include "celltrace/pov.hpp"

@@ -12,7 +12,7 @@ namespace celltrace {
 /// Nothing if the polygon has no area.
 std::optional<Transform> frame_of(const Polygon& polygon);
 
-/// The same as triangles, transformed to the world; without any if the polygon is not convex, has many
+/// Makes triangles of a polygon, transformed to the world; none if the polygon is not convex, has many
 /// corners or its points lie beside the plane.
 Mesh triangles_of(const Polygon& polygon, const Transform& to_world);
 

@@ -432,9 +432,9 @@ private:
     return fork && fork->operation == Csg::Operation::merge;
   }
 
-  /// Of faces of one object: none, unless they are of parts of an intersection or a merge that look the same
-  /// way. Of an intersection POV-Ray shows that of the last part: the others are moved out, where they are in
-  /// no other part. Of a merge one is to be seen, which the others are then behind.
+  /// Orders two faces of one object, if they look the same way and are of parts of an intersection or a
+  /// merge. POV-Ray shows the last part of an intersection: the other faces are moved out, where they are in
+  /// no other part. One face of a merge is to be seen, and the others are behind it.
   std::optional<Order> order_of_parts(Face& a, Face& b) const {
     const std::optional<Fork> fork = fork_of(a, b);
     if (!fork || a.looks_up != b.looks_up) return std::nullopt;

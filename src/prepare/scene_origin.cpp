@@ -16,7 +16,7 @@ namespace celltrace {
 
 namespace {
 
-/// Of many objects, and of a mesh's vertices, so many are looked at.
+/// The most objects, and vertices of a mesh, that are looked at: more take time and move the median little.
 constexpr std::size_t kMostLooks = 256;
 
 double largest(const Vec3& v) {
@@ -196,7 +196,8 @@ Middle middle_of(const Scene& scene) {
   return middle;
 }
 
-/// So many sizes away single precision tells apart what is 65,536 times smaller than the scene.
+/// The distance, in sizes of the scene, from which on it has an origin of its own: there single precision
+/// still tells apart what is 65,536 times smaller than the scene.
 constexpr double kFar = 256;
 
 } // namespace

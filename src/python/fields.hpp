@@ -48,7 +48,7 @@ inline std::string signed_init(const std::string& parameters) {
 template <class T> inline constexpr bool kIsOptional = false;
 template <class T> inline constexpr bool kIsOptional<std::optional<T>> = true;
 
-/// What a field of this type takes, or what is said of it.
+/// Names the type that a field takes, for errors and documentation.
 template <class Value> std::string wanted(const char* doc) {
   if constexpr (kIsOptional<Value>)
     return wanted<typename Value::value_type>(doc) + ", or None";

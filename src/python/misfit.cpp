@@ -32,7 +32,7 @@ std::string type_of(py::handle value) {
   return py::type::handle_of(value).attr("__name__").cast<std::string>();
 }
 
-/// Those that have a place; the others are named anyhow.
+/// Returns the parameters that are given by place; others are given by name only.
 std::string placed(const std::string& parameters) {
   const std::size_t star = parameters.find(", *, ");
   std::string text = star == parameters.npos ? parameters : parameters.substr(0, star) + ", ...";

@@ -1,4 +1,4 @@
-// What calls get whose arguments do not fit: the parameters by name, in place of pybind11's list of C++
+// Errors of calls whose arguments do not fit: they name the parameters, in place of pybind11's list of C++
 // types.
 #pragma once
 
@@ -58,7 +58,7 @@ template <class Define> void add_misfit(const Define& define, Misfit misfit) {
                                       const py::kwargs& kwargs) { misfit.refuse(first, args, kwargs); },
          py::arg("first") = no_argument());
 }
-/// The same of a method.
+/// Adds the last overload of a method.
 template <class Class> void add_method_misfit(Class& bound, const char* name, Misfit misfit) {
   bound.def(
       name,
@@ -66,7 +66,7 @@ template <class Class> void add_method_misfit(Class& bound, const char* name, Mi
                                    const py::kwargs& kwargs) { misfit.refuse(first, args, kwargs); },
       py::arg("first") = no_argument());
 }
-/// The same of the constructor of a class whose values are a T each.
+/// Adds the last overload of the constructor of a class whose values are a T each.
 template <class T, class Class> void add_init_misfit(Class& bound, Misfit misfit) {
   bound.def(py::init([misfit = std::move(misfit)](const LastResort& first, const py::args& args,
                                                   const py::kwargs& kwargs) -> std::shared_ptr<T> {

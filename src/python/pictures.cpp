@@ -39,7 +39,7 @@ template <class Picture, class Channel> Picture image_of(const py::array& given,
   return image;
 }
 
-/// What NumPy makes an array of.
+/// Returns the array that NumPy makes of a value.
 py::array array_of(const py::object& given, const char* name) {
   if (py::isinstance<py::array>(given)) return given; // a Picture stays one
   if (!py::isinstance<py::str>(given))

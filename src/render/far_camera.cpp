@@ -227,7 +227,7 @@ double start_of_rays(const Camera& camera, double margin, const SceneImage& imag
   const View view(camera, *reach, margin);
   if (!view.is_valid()) return 0;
   const ImageHeader& header = image.header();
-  // What CSG shows of a mesh without an inside depends on where rays start.
+  // CSG shows more or less of a mesh without an inside, depending on where rays start.
   if (header.crossed_mesh_count != 0) return 0;
   const auto is_far = [&](double start) { return start > kFar * view.half_size(start); };
   const double farthest = double{kMaxHitDistance} / glm::length(camera.direction);

@@ -33,8 +33,8 @@ bool is_still(const Turbulence& turbulence) {
   return turbulence.amount == Vec3(0);
 }
 
-/// Of points that are displaced; of the octaves each has its own period unless the finer ones divide the
-/// first one's.
+/// Returns the periods of turbulence. Its octaves have one in common only if those of the finer ones divide
+/// the first one's.
 Periods of(const Turbulence& turbulence) {
   if (is_still(turbulence)) return Periods(kAny);
   return Periods(turbulence.lambda == std::floor(turbulence.lambda) ? kOfNoise : kFixed);

@@ -1,5 +1,6 @@
 // Union, intersection, difference, merge; inverse, clipped_by, bounded_by.
 #include <catch2/catch.hpp>
+#include <functional>
 
 #include "pov/parsing.hpp"
 
@@ -302,12 +303,23 @@ TEST_CASE("parts without a texture look like what they cut") {
   const auto& parts = std::get<std::shared_ptr<const Csg>>(black.objects[0].shape)->parts;
   CHECK(black.materials[parts[0].material].finish.diffuse == 0);
 
-  // Both of two textures count.
+  // Where a point is in both spheres, each texture counts half: maps by place lead to their average.
+  const std::function<const PatternMap<Material>*(const Material&)> average_in =
+      [&](const Material& material) -> const PatternMap<Material>* {
+    if (!material.map || material.map->is_average) return material.map.get();
+    for (const auto& entry : material.map->entries)
+      if (const PatternMap<Material>* found = average_in(entry.value)) return found;
+    return nullptr;
+  };
   const Scene two =
       parse("difference { union { " + ball + "sphere { x, 1" + green + "} } box { 0, 2 } cutaway_textures }");
   const Object& cut = std::get<std::shared_ptr<const Csg>>(two.objects[0].shape)->parts[1];
-  REQUIRE(two.materials[cut.material].map);
-  CHECK(two.materials[cut.material].map->entries.size() == 2);
+  const PatternMap<Material>* const average = average_in(two.materials[cut.material]);
+  REQUIRE(average != nullptr);
+  REQUIRE(average->entries.size() == 2);
+  CHECK(average->entries[0].position == average->entries[1].position);
+  CHECK(average->entries[0].value.pigment.rgb == Vec3(1, 0, 0));
+  CHECK(average->entries[1].value.pigment.rgb == Vec3(0, 1, 0));
 
   CHECK(error_line("union { sphere { 0, 1 } sphere { x, 1 } cutaway_textures }") ==
         "scene.pov:1:41: error: 'cutaway_textures' is for intersections and differences alone");

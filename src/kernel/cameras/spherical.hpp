@@ -16,7 +16,7 @@ struct SphericalCamera {
     return {view.angle / 2, view.vertical_angle / 2};
   }
 
-  /// Of axes at right angles, as records of cameras that are far away have them.
+  /// The axes have to be at right angles, as they are in records of cameras that are far away.
   template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine_x, cosine_x, sine_y, cosine_y;
     sin_cos<S>(rays.x, sine_x, cosine_x);

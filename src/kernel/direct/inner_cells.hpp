@@ -62,7 +62,7 @@ private:
         return found;
       };
       if (metric == 2.0f && wanted.last <= 1 && !wanted.point) {
-        // What is not taken over, compilers do not compute.
+        // Compilers leave out what is not assigned here.
         const Nearest found = take_all(2.0f);
         nearest.power[0] = found.power[0];
         nearest.power[1] = found.power[1];
