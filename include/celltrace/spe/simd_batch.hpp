@@ -82,6 +82,7 @@ template <class T> struct GenericBatch {
     return result;
   }
   void store_aligned(T* lanes) const { std::memcpy(lanes, &data, sizeof data); }
+  void store_unaligned(T* lanes) const { store_aligned(lanes); }
 
   Bits bits() const { return reinterpret_cast<Bits>(data); }
   static GenericBatch of_bits(Bits lanes) { return reinterpret_cast<register_type>(lanes); }
