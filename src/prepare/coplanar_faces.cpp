@@ -103,7 +103,7 @@ void turn(Face& face) {
 class CoplanarFaces {
 public:
   /// `eye` and `start`, which are of an Eye, are null for faces of which any may be seen.
-  CoplanarFaces(const Scene& scene, const std::vector<std::uint32_t>& material_flags, const Vec3* eye,
+  CoplanarFaces(const Scene& scene, std::span<const std::uint32_t> material_flags, const Vec3* eye,
                 const Vec3* start)
       : scene_(scene), material_flags_(material_flags), eye_(eye), start_(start) {
     std::size_t solids = 0;
@@ -509,7 +509,7 @@ private:
   }
 
   const Scene& scene_;
-  const std::vector<std::uint32_t>& material_flags_;
+  std::span<const std::uint32_t> material_flags_;
   const Vec3* eye_;
   const Vec3* start_;
   std::vector<Face> faces_;
@@ -521,13 +521,14 @@ private:
 
 } // namespace
 
-SceneWithFacesApart::SceneWithFacesApart(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
-                                         const Eye& eye)
-    : scene_(scene) {
-  if (scene.objects.size() > kMostObjects) return;
-  if (eye.may_move() && !CoplanarFaces(scene, material_flags, nullptr, nullptr).any_overlap()) return;
+std::optional<Scene> move_faces_apart(const Scene& scene, const PassContext& context) {
+  if (scene.objects.size() > kMostObjects) return std::nullopt;
+  const auto& [eye, material_flags] = context;
+  if (eye.may_move() && !CoplanarFaces(scene, material_flags, nullptr, nullptr).any_overlap())
+    return std::nullopt;
   CoplanarFaces faces(scene, material_flags, &eye.location(), &eye.start());
-  if (faces.settle()) copy_ = faces.moved();
+  if (!faces.settle()) return std::nullopt;
+  return faces.moved();
 }
 
 } // namespace celltrace

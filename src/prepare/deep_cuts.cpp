@@ -206,14 +206,9 @@ private:
 
 } // namespace
 
-SceneWithDeepCuts::SceneWithDeepCuts(const Scene& scene, const Eye& eye) : scene_(scene) {
-  DeepCuts cuts(eye);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    std::optional<Object> object = cuts.changed(scene.objects[i]);
-    if (!object) continue;
-    if (!copy_) copy_ = scene;
-    copy_->objects[i] = *std::move(object);
-  }
+std::optional<Scene> deepen_cuts(const Scene& scene, const PassContext& context) {
+  DeepCuts cuts(context.eye);
+  return with_objects_changed(scene, [&](const Object& object) { return cuts.changed(object); });
 }
 
 } // namespace celltrace

@@ -4,6 +4,7 @@
 #include "prepare/csg_leaves.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <variant>
 
@@ -17,8 +18,8 @@ constexpr std::size_t kMostSpheres = 8; ///< quadrics have no bounds: each ray i
 
 class LargeSpheres {
 public:
-  LargeSpheres(const Eye& eye, const std::vector<std::uint32_t>& material_flags)
-      : eye_(eye), material_flags_(material_flags) {}
+  explicit LargeSpheres(const PassContext& context)
+      : eye_(context.eye), material_flags_(context.material_flags) {}
 
   /// The object as it is to be, its parts too, if one of them has changed.
   std::optional<Object> changed(const Object& object) {
@@ -57,22 +58,15 @@ private:
   }
 
   const Eye& eye_;
-  const std::vector<std::uint32_t>& material_flags_;
+  std::span<const std::uint32_t> material_flags_;
   std::size_t count_ = 0;
 };
 
 } // namespace
 
-SceneWithLargeSpheres::SceneWithLargeSpheres(const Scene& scene,
-                                             const std::vector<std::uint32_t>& material_flags, const Eye& eye)
-    : scene_(scene) {
-  LargeSpheres spheres(eye, material_flags);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    std::optional<Object> object = spheres.changed(scene.objects[i]);
-    if (!object) continue;
-    if (!copy_) copy_ = scene;
-    copy_->objects[i] = *std::move(object);
-  }
+std::optional<Scene> centre_large_spheres(const Scene& scene, const PassContext& context) {
+  LargeSpheres spheres(context);
+  return with_objects_changed(scene, [&](const Object& object) { return spheres.changed(object); });
 }
 
 } // namespace celltrace

@@ -192,9 +192,13 @@ private:
       const Vec3 origin = origin_for(scene);
       if (origin != origin_) forget_scene();
       origin_ = origin;
-      if (options_.quality >= kFullQuality) return work(SceneAtOrigin(scene, origin).scene(), go_on);
+      const auto work_at_origin = [&](const Scene& wanted) {
+        const std::optional<Scene> moved = moved_to(origin, wanted);
+        return work(moved ? *moved : wanted, go_on);
+      };
+      if (options_.quality >= kFullQuality) return work_at_origin(scene);
       validate(scene);
-      return work(SceneAtOrigin(at_quality(scene, options_.quality), origin).scene(), go_on);
+      return work_at_origin(at_quality(scene, options_.quality));
     });
   }
   /// Calls work(go_on) in the same way.

@@ -2,9 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/direct/build_bvh_plan.hpp"
-#include "prepare/coplanar_faces.hpp"
-#include "prepare/deep_cuts.hpp"
-#include "prepare/large_spheres.hpp"
+#include "prepare/passes.hpp"
 #include "prepare/projectors.hpp"
 #include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
@@ -128,18 +126,13 @@ std::vector<Index> owners_of(const SceneObjects& objects, std::span<const Placed
 
 /// What records are made of: a scene's textures, and its objects as single precision needs them.
 struct SceneOfRecords {
-  const SceneWithProjectors as_given;
+  const std::optional<Scene> with_projectors; ///< of the scene as given: projectors have a material
   TextureTables textures;
-  const SceneWithDeepCuts with_deep_cuts;
-  const SceneWithFacesApart with_faces_apart;
-  const SceneWithLargeSpheres with_large_spheres;
-  const SceneWithProjectors with_projectors;
+  const PreparedScene prepared;
 
   SceneOfRecords(const Scene& given, const Eye& eye)
-      : as_given(given), textures(as_given.scene()), with_deep_cuts(given, eye),
-        with_faces_apart(with_deep_cuts.scene(), textures.object_flags, eye),
-        with_large_spheres(with_faces_apart.scene(), textures.object_flags, eye),
-        with_projectors(with_large_spheres.scene()) {}
+      : with_projectors(add_projectors(given, {eye, {}})),
+        textures(with_projectors ? *with_projectors : given), prepared(given, {eye, textures.object_flags}) {}
 };
 
 bool has_projectors(const Scene& scene) {
@@ -159,16 +152,16 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   BuildWatch::reach(0);
   validate(given);
   Eye eye(given.camera, given, remembered.eye_moves ? Eye::Moves::yes : Eye::Moves::no);
-  SceneOfRecords prepared(given, eye);
-  TextureTables& textures = prepared.textures;
-  const SceneWithProjectors& with_projectors = prepared.with_projectors;
-  const Scene& scene = with_projectors.scene();
+  SceneOfRecords records(given, eye);
+  TextureTables& textures = records.textures;
+  const PreparedScene& prepared = records.prepared;
+  const Scene& scene = prepared.scene();
   BuildWatch::reach(0.05);
-  const InstancedMeshes instanced(scene, with_projectors.own_objects(), textures.object_flags, threads);
+  const InstancedMeshes instanced(scene, prepared.own_objects(), textures.object_flags, threads);
   const MeshInstances instances(scene, instanced, textures.object_flags, threads);
   BuildWatch::reach(0.2);
-  const SceneObjects objects(scene, eye, with_projectors.own_objects(), textures.objects,
-                             textures.object_flags, instanced, instances, threads);
+  const SceneObjects objects(scene, eye, prepared.own_objects(), textures.objects, textures.object_flags,
+                             instanced, instances, threads);
   threads = threads_for(objects, instances, threads, objects_a_thread);
   const OrderMemory memory(work, objects.count());
   touch(work, work.size(), threads);
@@ -247,15 +240,15 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   if (!origin_ || given.objects.size() != origin_->forms.size()) return false;
   validate(given);
   Eye eye(given.camera, given, eye_.may_move() ? Eye::Moves::yes : Eye::Moves::no);
-  SceneOfRecords prepared(given, eye);
-  TextureTables& textures = prepared.textures;
-  const SceneWithProjectors& with_projectors = prepared.with_projectors;
-  const Scene& scene = with_projectors.scene();
-  const InstancedMeshes instanced(scene, with_projectors.own_objects(), textures.object_flags, threads);
+  SceneOfRecords records(given, eye);
+  TextureTables& textures = records.textures;
+  const PreparedScene& prepared = records.prepared;
+  const Scene& scene = prepared.scene();
+  const InstancedMeshes instanced(scene, prepared.own_objects(), textures.object_flags, threads);
   const MeshInstances instances(scene, instanced, textures.object_flags, threads);
   if (forms_of(instanced, instances, given.objects.size()) != origin_->forms) return false;
-  const SceneObjects objects(scene, eye, with_projectors.own_objects(), textures.objects,
-                             textures.object_flags, instanced, instances, threads);
+  const SceneObjects objects(scene, eye, prepared.own_objects(), textures.objects, textures.object_flags,
+                             instanced, instances, threads);
   if (objects.count() != origin_->places.size() || objects.order() != origin_->order) return false;
   threads = threads_for(objects, instances, threads, objects_a_thread);
   // Plain triangles are written as they are counted: should there turn out to be others than before, they all
