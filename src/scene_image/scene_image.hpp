@@ -14,6 +14,7 @@
 #include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
 #include "prepare/eye.hpp"
+#include "scene_image/object_form.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,8 @@
 #include <vector>
 
 namespace celltrace {
+
+struct ImageParts;
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
 constexpr std::uint32_t kImageVersion = 18;
@@ -35,9 +38,6 @@ struct ImageMemory {
   /// Bytes that the image and its BVH may take; 0: as many as there are.
   std::uint64_t most_bytes = 0;
 };
-
-/// What an object is in the image: records of its own, a copy of a mesh, or an instance of one.
-enum class ObjectForm : std::uint8_t { itself, copy, instance };
 
 /// Thread safety: as a standard container.
 class SceneImage {
@@ -108,6 +108,8 @@ public:
 
 private:
   Index owner_of_instanced(std::uint32_t number) const noexcept;
+  /// Remembers of these parts what tables do not say.
+  void remember(ImageParts& parts);
 
   /// What it remembers of its scene for updates.
   struct Origin {
