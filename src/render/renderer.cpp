@@ -5,9 +5,12 @@
 #include "kernel/shading/ray_stack.hpp"
 #include "prepare/scene_origin.hpp"
 #include "render/accelerator_builder.hpp"
+#include "render/camera_setup.hpp"
+#include "render/frame_plan.hpp"
 #include "render/frame_setup.hpp"
 #include "render/models/stage_team.hpp"
 #include "render/picture_memory.hpp"
+#include "render/picture_options.hpp"
 #include "render/quality.hpp"
 #include "render/ray_query_scene.hpp"
 #include "render/report_pace.hpp"
@@ -148,7 +151,8 @@ private:
   Impl(const RenderOptions& options, std::unique_ptr<Machine> machine)
       : options_(options), reports_(machine->spe_count(), machine->byte_order()),
         frame_block_(1, machine->byte_order()), frame_(frame_block_[0]),
-        picture_(options_, frame_, machine->byte_order()), machine_(std::move(machine)) {
+        picture_(options_, frame_, machine->byte_order()), plan_(options_, *machine, frame_, picture_),
+        machine_(std::move(machine)) {
     make_room_for_picture();
     team_ =
         std::make_unique<SpeTeam>(*machine_, frame_block_, static_cast<AcceleratorKind>(frame_.accelerator));
@@ -168,10 +172,10 @@ private:
     set_options(frame_, options_, *machine_);
     picture_.make_room(machine_->spe_count(), bundle_edge(machine_->direct_memory()));
     frame_.reports = reports_.ea();
-    planned_ = {0, 0};
+    plan_.forget();
     RowRange rows = picture_.rows();
     if (options_.rows_at_once != 0) rows.bottom = std::min(rows.bottom, options_.rows_at_once);
-    plan_rows(rows);
+    plan_.plan(rows);
   }
 
   template <class Work> std::invoke_result_t<Work> reporting_failures(Work work) {
@@ -352,7 +356,7 @@ private:
   void enter_camera(const Camera& camera) {
     camera_ = camera;
     set_camera(frame_, camera, picture_on_grid(options_), media_, image_);
-    traced_ = {0, 0};
+    plan_.forget_points();
   }
 
   /// What the frame block says of a scene whose image is there.
@@ -378,10 +382,10 @@ private:
 
   RenderResult render_frame(const RowRange& rows, const Progress& progress) {
     RenderStatistics statistics = std::exchange(prepared_, nothing_prepared());
-    plan_rows(rows);
-    traced_ = {0, 0};
+    plan_.plan(rows);
+    plan_.forget_points();
     // A frame that nobody can break off leaves no pixel out.
-    if (progress) picture_.clear_from(kept_lines());
+    if (progress) picture_.clear_from(plan_.kept_lines());
     const Stopwatch render;
     const SpeMeter meter(*machine_);
     RenderResult result;
@@ -389,17 +393,17 @@ private:
     if (options_.antialiasing) {
       const double grid_share = grid_share_;
       frame_.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
-      result.complete = render_pass(*plan_, part_of(progress, 0, grid_share), reports);
+      result.complete = render_pass(plan_.grid(), part_of(progress, 0, grid_share), reports);
       const double grid_seconds = render.seconds();
       picture_.keep_colours(rows);
       if (result.complete) {
-        traced_ = grid_rows_of(rows);
+        plan_.keep_points(rows);
         frame_.purpose = static_cast<std::uint32_t>(FramePurpose::samples);
-        result.complete = render_pass(*sample_plan_, part_of(progress, grid_share, 1), reports);
+        result.complete = render_pass(plan_.samples(), part_of(progress, grid_share, 1), reports);
         if (result.complete) grid_share_ = grid_seconds / render.seconds();
       }
     } else {
-      result.complete = render_pass(*plan_, progress, reports);
+      result.complete = render_pass(plan_.grid(), progress, reports);
       picture_.keep_colours(rows);
     }
     statistics.render_seconds = render.seconds();
@@ -421,55 +425,6 @@ private:
     picture_.copy(rows, image_, result);
     if (options_.work_map) result.work = std::move(work_);
     return result;
-  }
-
-  /// Bundles of the grid, by row: [begin, end).
-  struct BundleRows {
-    std::uint32_t begin = 0, end = 0;
-    bool operator==(const BundleRows&) const = default;
-    std::uint32_t count() const { return end - begin; }
-  };
-  /// All that the picture's rows need.
-  BundleRows grid_rows_of(const RowRange& rows) const {
-    const std::uint32_t height = bundle_edge(machine_->direct_memory()) * kPacketEdge;
-    // Points below and to the right of a pixel are in its block.
-    const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
-    return {static_cast<std::uint32_t>(rows.top) / height, (lines + height - 1) / height};
-  }
-  /// Returns the first line of a row of bundles.
-  std::uint32_t line_of(std::uint32_t bundle_row) const {
-    return bundle_row * bundle_edge(machine_->direct_memory()) * kPacketEdge;
-  }
-  /// Plans that have learned stay as long as the rows do.
-  void plan_rows(const RowRange& rows) {
-    BundleRows grid = grid_rows_of(rows);
-    // Points between these rows and those before are there.
-    const bool goes_on = traced_.begin <= grid.begin && grid.begin < traced_.end && traced_.end < grid.end;
-    if (goes_on) grid.begin = traced_.end;
-    picture_.begin_at(rows, goes_on ? line_of(grid.begin) : 0);
-    if (planned_ == rows && planned_grid_ == grid) return;
-    const unsigned spes = machine_->spe_count();
-    // The frame block has the columns of the plan that was carried out last, which may be of samples.
-    const std::uint32_t edge = bundle_edge(machine_->direct_memory());
-    plan_ = std::make_unique<WorkPlan>(options_.balance, (frame_.packet_columns + edge - 1) / edge,
-                                       grid.count(), spes, machine_->byte_order(), grid.begin);
-    if (options_.antialiasing) {
-      const auto blocks = [](int pixels) {
-        return (static_cast<std::uint32_t>(pixels) + kSampledEdge - 1) / kSampledEdge;
-      };
-      const PictureRegion region = region_of(options_);
-      const std::uint32_t first = static_cast<std::uint32_t>(rows.top) / kSampledEdge;
-      sample_plan_ =
-          std::make_unique<WorkPlan>(options_.balance, blocks(region.right - region.left),
-                                     blocks(rows.bottom) - first, spes, machine_->byte_order(), first);
-    }
-    planned_ = rows;
-    planned_grid_ = grid;
-  }
-  /// Lines of the grid that the plan leaves out: pixels, which came with the rows before.
-  std::uint32_t kept_lines() const {
-    if (planned_grid_.begin == grid_rows_of(planned_).begin) return 0;
-    return line_of(planned_grid_.begin);
   }
 
   static Progress part_of(const Progress& progress, double begin, double end) {
@@ -537,16 +492,13 @@ private:
   Camera camera_;         ///< of the next frame
   std::shared_ptr<Scene> kept_; ///< that the image is of, where it depends on the eye
   RenderStatistics prepared_;   ///< what that took, for the statistics of the next frame
-  RowRange planned_ = {0, 0};
-  BundleRows planned_grid_;
-  BundleRows traced_; ///< of the grid, whose points are there
   // Everything from here to the machine is read and written by the SPEs.
   AlignedBlock ray_stack_; // the SPEs' own
   SharedRecords<ReportRecord> reports_;
   SharedRecords<FrameBlock> frame_block_;
   FrameBlock& frame_; ///< the PPE's
   PictureMemory picture_;
-  std::unique_ptr<WorkPlan> plan_, sample_plan_; ///< the second one of blocks of pixels that are sampled
+  FramePlan plan_;
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
   std::unique_ptr<AcceleratorBuilder> builder_;
