@@ -19,18 +19,21 @@ namespace celltrace {
 
 namespace {
 
-constexpr std::size_t kMostObjects = 8192;
-constexpr std::size_t kMostOverlaps = 1 << 16; ///< beyond these nobody waits for more
-constexpr int kMostSteps = 32;                 ///< that faces of one plane are moved apart by
+constexpr std::size_t kMostObjects = most_of(PictureLimit::coplanar_objects);
+/// Beyond these nobody waits for more.
+constexpr std::size_t kMostOverlaps = most_of(PictureLimit::coplanar_pairs);
+/// That faces of one plane are moved apart by.
+constexpr int kMostSteps = most_of(PictureLimit::coplanar_layers);
 /// Steps that surely take a face out of a solid whose boundary it was on: that is a little larger than it is.
 constexpr int kStepsOut = 3;
 
 class CoplanarFaces {
 public:
-  /// `eye` and `start`, which are of an Eye, are null for faces of which any may be seen.
-  CoplanarFaces(const Scene& scene, std::span<const std::uint32_t> material_flags, const Vec3* eye,
-                const Vec3* start)
-      : scene_(scene), list_(scene, material_flags, eye), eye_(eye), start_(start) {}
+  /// `eye` and `start`, which are of an Eye, are null for faces of which any may be seen. Objects behind the
+  /// first ones are left out.
+  CoplanarFaces(const Scene& scene, const PassContext& context, const Vec3* eye, const Vec3* start)
+      : scene_(scene), context_(context), list_(scene, context.material_flags, eye, kMostObjects), eye_(eye),
+        start_(start) {}
 
   /// Whether any has to be moved.
   bool settle() {
@@ -44,6 +47,19 @@ public:
       any = any || !list_.for_each_pair(first, last, [&](const Face& a, const Face& b) {
         return (a.is_inverse && b.is_inverse) || (a.is_round && b.is_round) ||
                !FaceList::overlap(a.extent, b.extent);
+      });
+    });
+    return any;
+  }
+
+  /// Whether there are two of which it matters which one is seen, wherever the eye is. If there are too many
+  /// to look at, those that have been count.
+  bool any_matters() {
+    bool any = false;
+    list_.for_each_plane([&](std::size_t first, std::size_t last) {
+      list_.for_each_pair(first, last, [&](const Face& a, const Face& b) {
+        any = any || (may_differ(a, b) && FaceList::overlap(a.extent, b.extent));
+        return !any;
       });
     });
     return any;
@@ -128,6 +144,14 @@ private:
     return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
   }
 
+  /// Returns whether it may show from somewhere: can_differ() asks the eye besides.
+  bool may_differ(const Face& a, const Face& b) const {
+    const bool are_opaque = list_.is_opaque(a) && list_.is_opaque(b);
+    if (a.is_inverse || b.is_inverse) return a.is_inverse != b.is_inverse && !are_opaque;
+    if (a.is_round || b.is_round) return a.is_round != b.is_round;
+    return are_merged(a, b) || !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
+  }
+
   /// Two faces of one plane: the first one belongs nearer to the eye, by so many steps.
   struct Order {
     Face* near;
@@ -188,7 +212,8 @@ private:
       if (order) orders.push_back(*order);
       return true;
     });
-    if (!all || orders.empty()) return;
+    if (!all) return pass_pairs(first, last);
+    if (orders.empty()) return;
     any_moves_ = true;
     if (stack(orders)) return;
     // What is seen depends on the ray, and no order of all faces is right everywhere.
@@ -198,6 +223,15 @@ private:
     if (stack(orders)) return;
     for (std::size_t i = first; i < last; ++i)
       list_.faces()[i].steps = 0;
+    context_.pass(PictureLimit::coplanar_layers);
+  }
+  /// Says that the faces [first, last) of one plane have too many pairs, unless all of them look the same.
+  void pass_pairs(std::size_t first, std::size_t last) {
+    if (overlaps_ > kMostOverlaps) return context_.pass(PictureLimit::coplanar_pairs);
+    const Face& one = list_.faces()[first];
+    for (std::size_t i = first; i < last; ++i)
+      if (const Face& other = list_.faces()[i]; may_differ(one, other))
+        return context_.pass(PictureLimit::coplanar_comparisons);
   }
 
   /// Gives the faces their steps. False if these would be too many.
@@ -233,6 +267,7 @@ private:
   }
 
   const Scene& scene_;
+  const PassContext& context_;
   FaceList list_;
   const Vec3* eye_;
   const Vec3* start_;
@@ -244,11 +279,14 @@ private:
 } // namespace
 
 std::optional<Scene> move_faces_apart(const Scene& scene, const PassContext& context) {
-  if (scene.objects.size() > kMostObjects) return std::nullopt;
-  const auto& [eye, material_flags] = context;
-  if (eye.may_move() && !CoplanarFaces(scene, material_flags, nullptr, nullptr).any_overlap())
+  const auto faces_from_anywhere = [&] { return CoplanarFaces(scene, context, nullptr, nullptr); };
+  if (scene.objects.size() > kMostObjects) {
+    if (faces_from_anywhere().any_matters()) context.pass(PictureLimit::coplanar_objects);
     return std::nullopt;
-  CoplanarFaces faces(scene, material_flags, &eye.location(), &eye.start());
+  }
+  const Eye& eye = context.eye;
+  if (eye.may_move() && !faces_from_anywhere().any_overlap()) return std::nullopt;
+  CoplanarFaces faces(scene, context, &eye.location(), &eye.start());
   if (!faces.settle()) return std::nullopt;
   return faces.moved();
 }

@@ -58,10 +58,11 @@ bool are_parallel(const Face& a, const Face& b) {
 
 } // namespace
 
-FaceList::FaceList(const Scene& scene, std::span<const std::uint32_t> material_flags, const Vec3* eye)
+FaceList::FaceList(const Scene& scene, std::span<const std::uint32_t> material_flags, const Vec3* eye,
+                   std::size_t most)
     : scene_(scene), material_flags_(material_flags), eye_(eye) {
   std::size_t solids = 0;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(scene.objects.size(), most); ++i) {
     const Object& object = scene.objects[i];
     if (const auto* const plane = std::get_if<Plane>(&object.shape)) add_plane(i, *plane);
     const auto visit = [&](const auto& solid, const Transform& transform, Index material, const CsgPath& path,

@@ -1,6 +1,7 @@
 // Faces of solids by the planes that they are in.
 #pragma once
 
+#include "celltrace/picture_limit.hpp"
 #include "celltrace/scene.hpp"
 #include "geometry/extent.hpp"
 #include "kernel/records.hpp"
@@ -85,8 +86,9 @@ template <class AnyObject, class Visit> void visit_solids(AnyObject& object, Vis
 class FaceList {
 public:
   /// `scene` and `material_flags` stay as they are as long as this lives. `eye` is null for faces of which
-  /// any may be seen.
-  FaceList(const Scene& scene, std::span<const std::uint32_t> material_flags, const Vec3* eye);
+  /// any may be seen. Objects behind the first `most` are left out.
+  FaceList(const Scene& scene, std::span<const std::uint32_t> material_flags, const Vec3* eye,
+           std::size_t most);
 
   std::vector<Face>& faces() { return faces_; }
   const std::vector<Face>& faces() const { return faces_; }
@@ -155,7 +157,7 @@ private:
   static bool are_in_one_plane(const Face& a, const Face& b);
 
   /// Beyond these nobody waits for more.
-  static constexpr std::size_t kMostPairs = 1 << 20;
+  static constexpr std::size_t kMostPairs = most_of(PictureLimit::coplanar_comparisons);
 
   const Scene& scene_;
   std::span<const std::uint32_t> material_flags_;

@@ -14,12 +14,13 @@ namespace celltrace {
 
 namespace {
 
-constexpr std::size_t kMostSpheres = 8; ///< quadrics have no bounds: each ray is tested against all of them
+/// Quadrics have no bounds: each ray is tested against all of them.
+constexpr std::size_t kMostSpheres = most_of(PictureLimit::large_spheres);
 
 class LargeSpheres {
 public:
   explicit LargeSpheres(const PassContext& context)
-      : eye_(context.eye), material_flags_(context.material_flags) {}
+      : context_(context), eye_(context.eye), material_flags_(context.material_flags) {}
 
   /// The object as it is to be, its parts too, if one of them has changed.
   std::optional<Object> changed(const Object& object) {
@@ -38,11 +39,15 @@ public:
 private:
   std::optional<Object> about_nearest_point(const Object& object, const Sphere& sphere,
                                             const Transform& transform) {
-    if (object.inverse || object.clipped_by != nullptr || count_ == kMostSpheres) return {};
+    if (object.inverse || object.clipped_by != nullptr) return {};
     if (object.material < material_flags_.size() &&
         (material_flags_[object.material] & kernel::object_flag::by_surface) != 0)
       return {};
     if (!eye_.is_near_surface(sphere, transform)) return {};
+    if (count_ == kMostSpheres) {
+      context_.pass(PictureLimit::large_spheres);
+      return {};
+    }
     ++count_;
     const double radius = std::abs(sphere.radius);
     const Vec3 eye = eye_.location();
@@ -57,6 +62,7 @@ private:
     return quadric;
   }
 
+  const PassContext& context_;
   const Eye& eye_;
   std::span<const std::uint32_t> material_flags_;
   std::size_t count_ = 0;

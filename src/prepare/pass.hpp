@@ -1,21 +1,32 @@
 // The interface of the passes over a scene that single precision needs.
 #pragma once
 
+#include "celltrace/picture_limit.hpp"
 #include "celltrace/scene.hpp"
 #include "prepare/eye.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
 namespace celltrace {
 
-/// What passes are told besides the scene.
+/// The limits that a scene passes.
+using PassedLimits = std::set<PictureLimit>;
+
+/// What passes are told besides the scene, and whom they tell of limits.
 struct PassContext {
   const Eye& eye;
   std::span<const std::uint32_t> material_flags; ///< by material, the flags of objects that consist of it
+  PassedLimits* limits = nullptr;                ///< null: nobody asks
+
+  /// Says that the scene passes a limit.
+  void pass(PictureLimit limit) const {
+    if (limits != nullptr) limits->insert(limit);
+  }
 };
 
 /// A pass returns the scene as it is to be, or nothing if it leaves all as it is.

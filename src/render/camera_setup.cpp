@@ -143,11 +143,12 @@ PictureOnGrid picture_on_grid(const RenderOptions& options) {
           first - region.top};
 }
 
-CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture, const SceneImage* image) {
+CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture, const SceneImage* image,
+                           PassedLimits* limits) {
   Camera camera = framed(any_picture, picture.width, picture.height);
   // Samples are up to a pixel beyond the picture.
   const double margin = 4 / std::min(picture.width, picture.height);
-  const double start = image != nullptr ? start_of_rays(camera, margin, *image) : 0;
+  const double start = image != nullptr ? start_of_rays(camera, margin, *image, limits) : 0;
   if (start > 0) return far_record(camera, picture, start);
   CameraRecord record{};
   record.kind = static_cast<std::uint32_t>(camera.kind);
@@ -161,19 +162,23 @@ CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& pictu
   return record;
 }
 
-void set_camera(FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
-                const std::vector<Medium>& media, const SceneImage& image) {
-  frame.camera = camera_record(camera, picture, &image);
+PassedLimits set_camera(FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
+                        const std::vector<Medium>& media, const SceneImage& image) {
+  PassedLimits limits;
+  frame.camera = camera_record(camera, picture, &image, &limits);
   std::vector<std::pair<double, std::uint32_t>> around;
   for (const Medium& medium : media) {
     if (!medium.contains(camera.location)) continue;
     around.emplace_back(medium.volume(), offset_of_interior(image.header().interior_offset, medium.interior));
   }
   std::sort(around.begin(), around.end(), std::greater<>());
+  static_assert(kMaxInteriorDepth == most_of(PictureLimit::camera_interiors));
   const std::size_t kept = std::min<std::size_t>(around.size(), kMaxInteriorDepth);
+  if (kept < around.size()) limits.insert(PictureLimit::camera_interiors);
   frame.camera_interior_count = static_cast<std::uint32_t>(kept);
   for (std::size_t i = 0; i < kept; ++i)
     frame.camera_interiors[i] = around[around.size() - kept + i].second;
+  return limits;
 }
 
 } // namespace celltrace

@@ -17,11 +17,13 @@ struct PictureOnGrid {
 };
 PictureOnGrid picture_on_grid(const RenderOptions& options);
 /// Returns the camera of rays through a picture, to which it adapts as Camera::framing says. Where there is
-/// an image, rays of a camera that is far away from what it shows start just before that.
+/// an image, rays of a camera that is far away from what it shows start just before that; `limits` get what
+/// it passes, unless they are null.
 kernel::CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture,
-                                   const SceneImage* image = nullptr);
-/// Fills the camera, and the interiors of the media of the scene that it is inside of.
-void set_camera(kernel::FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
-                const std::vector<Medium>& media, const SceneImage& image);
+                                   const SceneImage* image = nullptr, PassedLimits* limits = nullptr);
+/// Fills the camera, and the interiors of the media of the scene that it is inside of. Returns the limits
+/// that it passes.
+PassedLimits set_camera(kernel::FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
+                        const std::vector<Medium>& media, const SceneImage& image);
 
 } // namespace celltrace

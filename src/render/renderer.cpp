@@ -355,7 +355,7 @@ private:
   }
   void enter_camera(const Camera& camera) {
     camera_ = camera;
-    set_camera(frame_, camera, picture_on_grid(options_), media_, image_);
+    camera_limits_ = set_camera(frame_, camera, picture_on_grid(options_), media_, image_);
     plan_.forget_points();
   }
 
@@ -415,6 +415,8 @@ private:
     statistics.height = rows.bottom - rows.top;
     statistics.model = options_.model;
     if (stages_) statistics.stages = stages_->counts();
+    statistics.limits = image_.limits();
+    statistics.limits.insert(camera_limits_.begin(), camera_limits_.end());
     statistics.diagnostics = new_diagnostics();
     const ImageHeader& header = image_.header();
     statistics.bounds[0] = origin_ + Vec3(header.bounds_min[0], header.bounds_min[1], header.bounds_min[2]);
@@ -490,6 +492,7 @@ private:
   bool has_scene_ = false;                     ///< and an accelerator for it
   Vec3 origin_ = Vec3(0); ///< of the image, in the scene's coordinates; the following are measured from it
   Camera camera_;         ///< of the next frame
+  PassedLimits camera_limits_;
   std::shared_ptr<Scene> kept_; ///< that the image is of, where it depends on the eye
   RenderStatistics prepared_;   ///< what that took, for the statistics of the next frame
   // Everything from here to the machine is read and written by the SPEs.

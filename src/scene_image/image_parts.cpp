@@ -25,11 +25,11 @@ const Scene& reached(double fraction, const Scene& scene) {
 ImageParts::ImageParts(const Scene& scene_given, Eye scene_eye, unsigned threads)
     : given(scene_given), eye(std::move(scene_eye)), with_projectors(add_projectors(given, {eye, {}})),
       surfaces(with_projectors ? *with_projectors : given),
-      prepared(given, {eye, surfaces.textures.object_flags}),
+      prepared(given, {eye, surfaces.textures.object_flags, &limits}),
       instanced(reached(0.05, scene()), prepared.own_objects(), surfaces.textures.object_flags, threads),
       instances(scene(), instanced, surfaces.textures.object_flags, threads),
       objects(reached(0.2, scene()), eye, prepared.own_objects(), surfaces.textures.objects,
-              surfaces.textures.object_flags, instanced, instances, threads) {
+              surfaces.textures.object_flags, instanced, instances, threads, limits) {
 }
 
 unsigned ImageParts::threads_for(std::uint32_t objects_a_thread, unsigned threads) const {

@@ -44,6 +44,7 @@ struct ImageParts {
 
   const Scene& given;
   Eye eye;
+  PassedLimits limits;
   const std::optional<Scene> with_projectors; ///< of the scene as given: projectors have a material
   SurfaceParts surfaces;
   const PreparedScene prepared;

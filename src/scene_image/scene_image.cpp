@@ -81,6 +81,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
 
 void SceneImage::remember(ImageParts& parts) {
   eye_ = std::move(parts.eye);
+  limits_ = std::move(parts.limits);
   if (!origin_) return;
   origin_->material_flags = std::move(parts.surfaces.textures.object_flags);
   origin_->surfaces_are_apart = parts.surfaces.textures.objects.empty() && !has_projectors(parts.given);

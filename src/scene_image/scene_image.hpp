@@ -14,6 +14,7 @@
 #include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
 #include "prepare/eye.hpp"
+#include "prepare/pass.hpp"
 #include "scene_image/object_form.hpp"
 
 #include <cstddef>
@@ -76,6 +77,9 @@ public:
   /// set.
   bool depends_on_eye() const { return eye_.matters(); }
 
+  /// Returns the limits that the scene has passed; an image that was saved does not know them.
+  const PassedLimits& limits() const { return limits_; }
+
   /// Makes room for an accelerator: a table of `table_bytes` bytes, of voxels or of nodes, and lists of
   /// `list_words` words in all; where the static part moves, the old address becomes invalid.
   void reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words);
@@ -126,6 +130,7 @@ private:
   AlignedBlock block_;
   std::unique_ptr<Origin> origin_; ///< null unless it is updatable
   Eye eye_;                        ///< that it was made for
+  PassedLimits limits_;
   std::vector<Index> owners_; ///< of unbounded objects and then all others, in the order of their records
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;

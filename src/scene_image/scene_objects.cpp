@@ -45,10 +45,10 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
 SceneObjects::SceneObjects(const Scene& scene, const Eye& eye, std::size_t projectors,
                            const std::vector<std::shared_ptr<const Object>>& patterns,
                            const std::vector<std::uint32_t>& material_flags, const InstancedMeshes& instanced,
-                           const MeshInstances& instances, unsigned threads)
+                           const MeshInstances& instances, unsigned threads, PassedLimits& limits)
     : scene_(scene), material_flags_(material_flags), instanced_(instanced),
       csg_(scene, eye, patterns, projectors, material_flags) {
-  order_ = order_of_tests(scene, eye, projectors, csg_);
+  order_ = order_of_tests(scene, eye, projectors, csg_, limits);
   for (const std::size_t i : order_) {
     BuildWatch::look_at(i);
     const Object& object = scene.objects[i];
