@@ -169,10 +169,15 @@ bool ScenePreparation::prepare_changes(const Scene& scene, const SceneChanges& c
   const bool is_for_eye = image_.is_for(scene.camera.location);
   const Stopwatch build;
   retire_queries();
-  const SceneChanges all = {changes.objects || !is_for_eye, changes.surfaces};
-  if (!builder_->update_image(scene, all)) return prepare_scene(scene, go_on);
-  keep_for_other_eyes(scene);
-  media_ = media_of(scene);
+  SceneChanges all = {changes.objects || !is_for_eye, changes.surfaces};
+  if (!changes.objects && !changes.surfaces && kept_ != nullptr && builder_->update_boundaries(scene)) {
+    all = {false, false};
+    kept_->camera = scene.camera;
+  } else {
+    if (!builder_->update_image(scene, all)) return prepare_scene(scene, go_on);
+    keep_for_other_eyes(scene);
+    media_ = media_of(scene);
+  }
   enter_scene(scene);
   prepared_.build_seconds = build.seconds();
   const Stopwatch prepare;

@@ -260,7 +260,7 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
   for (const auto& object : patterns) {
     const Node tree = build_tree(*object, solids, meshes);
     patterns_flattener.add_inside(tree);
-    move_boundaries(tree, eye, solids);
+    add_boundaries(tree, boundaries);
   }
   // Most CSGs show a part at least.
   parts.reserve(
@@ -276,7 +276,7 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
     if (steps.size() == first_step)
       solids.resize(first_solid);
     else
-      move_boundaries(tree, eye, solids);
+      add_boundaries(tree, boundaries);
     for (std::size_t part = first_part; part < parts.size(); ++part) {
       parts[part].whole = i;
       parts[part].object.interior = interior_or_own(parts[part].object.interior, scene, i);
@@ -285,6 +285,8 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
     for (std::size_t surface = first_replaced; surface < replaced.size(); ++surface)
       replaced[surface].whole = i;
   }
+  for (const SolidBoundary& boundary : boundaries)
+    boundary.write(eye, solids.data());
 }
 
 } // namespace celltrace

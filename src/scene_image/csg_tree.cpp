@@ -31,11 +31,6 @@ struct Surroundings {
   int depth = 0;
 };
 
-void write_shape(const PlacedShape& shape, SolidRecord& solid) {
-  std::copy(shape.geometry, shape.geometry + 12, solid.object.geometry);
-  std::copy(shape.parameters, shape.parameters + 2, solid.extra.value);
-}
-
 class TreeBuilder {
 public:
   TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes) : solids_(solids), meshes_(meshes) {}
@@ -153,13 +148,11 @@ Node build_tree(const Object& object, std::vector<SolidRecord>& solids, MeshInsi
   return TreeBuilder(solids, meshes).build(object, {});
 }
 
-void move_boundaries(const Node& node, const Eye& eye, std::vector<SolidRecord>& solids) {
-  if (node.kind == Node::Kind::solid) {
-    if (node.mesh() == nullptr) write_shape(with_boundary(node.shape, eye), solids[node.record]);
-    return;
-  }
+void add_boundaries(const Node& node, std::vector<SolidBoundary>& boundaries) {
+  if (node.kind == Node::Kind::solid && node.mesh() == nullptr && has_boundary(node.shape))
+    boundaries.push_back({node.record, node.shape});
   for (const Node& child : node.children)
-    move_boundaries(child, eye, solids);
+    add_boundaries(child, boundaries);
 }
 
 bool is_plane(const Node& node) {

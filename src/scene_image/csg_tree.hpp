@@ -4,9 +4,9 @@
 #include "celltrace/scene.hpp"
 #include "kernel/aabb.hpp"
 #include "kernel/records.hpp"
-#include "prepare/eye.hpp"
 #include "scene_image/mesh_insides.hpp"
 #include "scene_image/shapes.hpp"
+#include "scene_image/solid_boundary.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -83,8 +83,8 @@ struct Node {
 /// Throws InputError if it nests too deeply or has no CSG where one should be.
 Node build_tree(const Object& object, std::vector<SolidRecord>& solids, MeshInsides& meshes);
 
-/// Moves the boundaries of a tree's solids, of which programs ask what is inside.
-void move_boundaries(const Node& node, const Eye& eye, std::vector<SolidRecord>& solids);
+/// Appends the boundaries of a tree's solids, of which programs ask what is inside.
+void add_boundaries(const Node& node, std::vector<SolidBoundary>& boundaries);
 
 bool is_plane(const Node& node);
 

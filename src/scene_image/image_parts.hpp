@@ -50,7 +50,7 @@ struct ImageParts {
   const PreparedScene prepared;
   const InstancedMeshes instanced;
   const MeshInstances instances;
-  const SceneObjects objects;
+  SceneObjects objects;
 
   /// Returns the scene whose objects are the image's.
   const Scene& scene() const { return prepared.scene(); }

@@ -82,6 +82,8 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
 void SceneImage::remember(ImageParts& parts) {
   eye_ = std::move(parts.eye);
   limits_ = std::move(parts.limits);
+  boundaries_.clear();
+  if (eye_.may_move()) boundaries_ = parts.objects.take_boundaries();
   if (!origin_) return;
   origin_->material_flags = std::move(parts.surfaces.textures.object_flags);
   origin_->surfaces_are_apart = parts.surfaces.textures.objects.empty() && !has_projectors(parts.given);
@@ -100,6 +102,15 @@ bool SceneImage::update_surfaces(const Scene& scene) {
   std::memcpy(block_.data(), &updated, sizeof updated);
   TableWriter writer(block_.data(), updated, scene, surfaces.textures, 0);
   surfaces.write(writer, {});
+  return true;
+}
+
+bool SceneImage::update_boundaries(const Scene& scene) {
+  if (empty() || !eye_.prepares_alike_but_boundaries(scene.camera.location)) return false;
+  eye_.move_to(scene.camera, scene);
+  auto* const solids = reinterpret_cast<SolidRecord*>(block_.data() + header().solid_offset);
+  for (const SolidBoundary& boundary : boundaries_)
+    boundary.write(eye_, solids);
   return true;
 }
 

@@ -16,6 +16,7 @@
 #include "prepare/eye.hpp"
 #include "prepare/pass.hpp"
 #include "scene_image/object_form.hpp"
+#include "scene_image/solid_boundary.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -69,6 +70,9 @@ public:
   /// As update(), where all objects are as they were; but not for scenes in which patterns or lights refer to
   /// objects, or where materials become opaque, textured or the like or cease to be.
   bool update_surfaces(const Scene& scene);
+  /// Becomes the image of the same scene with another camera, if that moves nothing but boundaries of CSG's
+  /// solids. False, and nothing has changed, if it may move more.
+  bool update_boundaries(const Scene& scene);
   bool empty() const noexcept { return block_.size() == 0; }
   /// Returns whether the image shows the scene to a camera at `location` as one that was made for it would:
   /// always at the location that it was made for.
@@ -131,6 +135,7 @@ private:
   std::unique_ptr<Origin> origin_; ///< null unless it is updatable
   Eye eye_;                        ///< that it was made for
   PassedLimits limits_;
+  std::vector<SolidBoundary> boundaries_; ///< if the eye may move
   std::vector<Index> owners_; ///< of unbounded objects and then all others, in the order of their records
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;

@@ -16,6 +16,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace celltrace {
@@ -51,6 +52,7 @@ public:
   /// The order in which objects of the scene are numbered, if it depends on what is where.
   const std::vector<std::size_t>& order() const { return order_; }
   const CsgParts& csg() const { return csg_; }
+  std::vector<SolidBoundary> take_boundaries() { return std::move(csg_.boundaries); }
   const PolygonTable& polygons() const { return polygons_; }
 
   /// Writes those of [begin, end) that can be hit to `to`, in order. Throws InputError if an object's
