@@ -143,16 +143,16 @@ public:
 
 private:
   void add_plane(std::size_t object, const Plane& plane);
-  /// Of an inverse box the inside is seen, as that of a room which is cut out of something; and of one that
-  /// the eye is in.
+  /// Adds the faces of a box. The inside is seen of an inverse one, as that of a room which is cut out of
+  /// something, and of one that the eye is in.
   void add(std::size_t object, std::size_t number, const Box& box, const Transform& transform, Index material,
            const CsgPath& path, bool is_inverse);
   bool holds_eye(const Vec3& low, const Vec3& high, const Transform& transform) const;
-  /// Of cylinders and cones the ends that are seen through them.
+  /// Adds the ends of a cylinder or cone that are seen through it.
   template <class Round>
   void add(std::size_t object, std::size_t number, const Round& solid, const Transform& transform,
            Index material, const CsgPath&, bool is_inverse);
-  /// So that those of one plane are neighbours.
+  /// Makes neighbours of the faces of one plane.
   void sort();
   static bool are_in_one_plane(const Face& a, const Face& b);
 

@@ -17,7 +17,7 @@ namespace celltrace {
 /// The limits that a scene passes.
 using PassedLimits = std::set<PictureLimit>;
 
-/// What passes are told besides the scene, and whom they tell of limits.
+/// The things that passes are told besides the scene, and whom they tell of limits.
 struct PassContext {
   const Eye& eye;
   std::span<const std::uint32_t> material_flags; ///< by material, the flags of objects that consist of it

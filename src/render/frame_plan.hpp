@@ -33,7 +33,7 @@ public:
   std::uint32_t kept_lines() const;
 
   WorkPlan& grid() { return *grid_plan_; }
-  /// Of blocks of pixels that are sampled, if the options ask for antialiasing.
+  /// The plan of blocks of pixels that are sampled, if the options ask for antialiasing.
   WorkPlan& samples() { return *sample_plan_; }
 
 private:

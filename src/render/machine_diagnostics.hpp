@@ -1,4 +1,4 @@
-// What a machine finds wrong with its programs, told to the caller as it is found.
+// Tells the caller what a machine finds wrong with its programs, as it is found.
 #pragma once
 
 #include "celltrace/error.hpp"

@@ -1,4 +1,4 @@
-// What RenderOptions say of pictures, and whether they can be followed.
+// Pictures as RenderOptions ask for them, and whether they can be made.
 #pragma once
 
 #include "celltrace/render.hpp"

@@ -1,4 +1,4 @@
-// What a scene image is made of, whether it is a new one or one that is updated in place.
+// The parts that a scene image is made of, whether it is a new one or one that is updated in place.
 #pragma once
 
 #include "celltrace/scene.hpp"

@@ -1,4 +1,4 @@
-// What an object of a scene becomes in the scene image.
+// The forms that objects of a scene have in the scene image.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What the statistics say of scenes that pass a limit up to which pictures show what POV-Ray shows, and of
-// those that just do not.
+// Limits up to which pictures show what POV-Ray shows: the statistics name those that a scene passes, and
+// none of a scene that just does not.
 #include "celltrace/picture_limit.hpp"
 #include "celltrace/pov.hpp"
 #include "celltrace/transform.hpp"
@@ -52,7 +52,7 @@ Scene scene_from_above() {
   return scene;
 }
 
-/// Of boxes that are all the same, each of a material of its own.
+/// Returns boxes that are all the same, each of a material of its own.
 Scene boxes_in_one_another(int count) {
   Scene scene = scene_from_above();
   for (int i = 0; i < count; ++i)
@@ -76,7 +76,7 @@ void fill_with_balls(Scene& scene, std::size_t objects) {
     scene.objects.push_back(sphere_at({100.0 + static_cast<double>(i), 0, 0}, 0.25, 0, kNoIndex));
 }
 
-/// What a ball and a box have in common; the box is like no other.
+/// Returns the intersection of a ball and a box, which is like no other.
 Object ball_in_box(int number, Index material) {
   return csg_object(Operation::intersection,
                     {sphere_at({0, 0, 0}, 1, material, kNoIndex),

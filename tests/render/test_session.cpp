@@ -164,7 +164,7 @@ TEST_CASE("Where only boundaries of solids depend on the eye, a camera that move
     CHECK(check_next(session).statistics.preparation == Preparation::refitted);
     session.set_camera(camera_at({5, 2, -12}, {0, 0, 0}));
     CHECK(check_next(session).statistics.preparation == Preparation::updated);
-    // Of what is cut out, ends may be moved.
+    // Ends of what is cut out may be moved.
     scene.objects.push_back(csg_object(Csg::Operation::difference, {rod, box}));
     session.replace(scene);
     check_next(session);
