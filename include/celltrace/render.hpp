@@ -4,6 +4,7 @@
 #include "celltrace/cache/config.hpp"
 #include "celltrace/export.hpp"
 #include "celltrace/image.hpp"
+#include "celltrace/picture_limit.hpp"
 #include "celltrace/ray_queries.hpp"
 #include "celltrace/scene.hpp"
 #include "celltrace/spe/backend.hpp"
@@ -15,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -265,6 +267,8 @@ struct CELLTRACE_EXPORT RenderStatistics {
   Vec3 bounds[2] = {Vec3(0), Vec3(0)};
 
   std::vector<Spe> spes;
+  /// Limits that the scene passes, or the camera: the picture may differ from POV-Ray's.
+  std::set<PictureLimit> limits;
   /// Rules that were broken since the frame before.
   std::vector<Diagnostic> diagnostics;
 

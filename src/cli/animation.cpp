@@ -179,7 +179,7 @@ private:
   }
 
   void print_summary(bool complete) const {
-    if (sum_) print_dropped_rays(*sum_);
+    if (sum_) print_warnings(*sum_);
     std::cerr << what() << ": " << (complete ? "" : std::string(interruption()) + ", ") << done_
               << (done_ == 1 ? " frame" : " frames");
     if (sum_)

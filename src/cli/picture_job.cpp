@@ -91,12 +91,14 @@ PictureOutcome render_picture(Renderer& renderer, const RenderRequest& request,
   return render_whole(renderer, request, path, kept, costs, progress, use_image);
 }
 
-void print_dropped_rays(const RenderStatistics& statistics) {
-  if (statistics.dropped_rays == 0) return;
-  std::cerr
-      << "celltrace: warning: " << statistics.dropped_rays
-      << " rays were dropped, as so many at a time or inside of so many objects have no room: what they "
-         "would have seen is missing\n";
+void print_warnings(const RenderStatistics& statistics) {
+  if (statistics.dropped_rays != 0)
+    std::cerr
+        << "celltrace: warning: " << statistics.dropped_rays
+        << " rays were dropped, as so many at a time or inside of so many objects have no room: what they "
+           "would have seen is missing\n";
+  for (const PictureLimit limit : statistics.limits)
+    std::cerr << "celltrace: warning: " << text_of(limit) << '\n';
 }
 
 std::string summary_of(const RenderStatistics& s, double parse_seconds) {

@@ -58,8 +58,9 @@ PictureOutcome render_picture(Renderer& renderer, const RenderRequest& request,
 void save_picture(const RenderRequest& request, const std::filesystem::path& path,
                   const PartialPicture& picture, RenderStatistics& statistics);
 
-/// Says on standard error output if rays were dropped.
-void print_dropped_rays(const RenderStatistics& statistics);
+/// Says on standard error output why the picture may not be what the scene says: rays that were dropped, and
+/// limits that the scene passes.
+void print_warnings(const RenderStatistics& statistics);
 
 /// "32x18, native.avx2, 2 SPEs; parse 0.01 s, build 0.00 s, render 0.02 s; 1.23 million rays/s"
 std::string summary_of(const RenderStatistics& statistics, double parse_seconds);

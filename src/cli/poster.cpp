@@ -7,7 +7,7 @@
 #include "cli/row_keeper.hpp"
 #include "cli/row_output.hpp"
 #include "image/file.hpp"
-#include "render/frame_setup.hpp"
+#include "render/picture_options.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -152,7 +152,7 @@ int run_render(const RenderRequest& request) {
   if (!request.stats.empty()) write_statistics(request.stats, outcome.statistics, read.seconds);
   if (!request.quiet) {
     const RenderStatistics& s = outcome.statistics;
-    print_dropped_rays(s);
+    print_warnings(s);
     std::cerr << name << ": " << (outcome.complete ? "" : std::string(interruption()) + ", partial, ")
               << s.width << 'x' << height << ", " << summary_of(s, read.seconds) << '\n';
     if (!outcome.complete && state.is_kept() && outcome.rows_to_go < height)

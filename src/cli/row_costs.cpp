@@ -1,6 +1,6 @@
 #include "cli/row_costs.hpp"
 
-#include "render/frame_setup.hpp"
+#include "render/picture_options.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "cli/row_output.hpp"
 
 #include "celltrace/error.hpp"
-#include "render/frame_setup.hpp"
+#include "render/picture_options.hpp"
 
 #include <algorithm>
 #include <cerrno>

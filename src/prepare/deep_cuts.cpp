@@ -16,8 +16,8 @@ namespace celltrace {
 
 namespace {
 
-constexpr std::size_t kMostComparisons =
-    1 << 22; ///< of faces in all of the scene: beyond them nobody waits for more
+/// Of faces in all of the scene: beyond them nobody waits for more.
+constexpr std::size_t kMostComparisons = most_of(PictureLimit::shallow_cuts);
 
 /// A face in the scene. `ends`: which of a shape's, by axis and then the lower one first; of a cylinder or
 /// cone the base's is first.
@@ -32,7 +32,7 @@ struct EndFace {
 
 class DeepCuts {
 public:
-  explicit DeepCuts(const Eye& eye) : eye_(eye) {}
+  explicit DeepCuts(const PassContext& context) : context_(context), eye_(context.eye) {}
 
   /// The object with deeper cuts, if it needs any.
   std::optional<Object> changed(const Object& object) {
@@ -151,7 +151,7 @@ private:
     constexpr double kSameDirection = 1e-9, kSamePlane = 1e-11;
     moves_.clear();
     for (const EndFace& cut : cut_) {
-      if (pairs_ > kMostComparisons) return;
+      if (pairs_ > kMostComparisons) return context_.pass(PictureLimit::shallow_cuts);
       pairs_ += kept_.size();
       const double size = size_at(cut.point);
       double way = 0;
@@ -198,6 +198,7 @@ private:
     return result;
   }
 
+  const PassContext& context_;
   const Eye& eye_;
   std::vector<EndFace> kept_, cut_;
   std::vector<Move> moves_;
@@ -206,14 +207,9 @@ private:
 
 } // namespace
 
-SceneWithDeepCuts::SceneWithDeepCuts(const Scene& scene, const Eye& eye) : scene_(scene) {
-  DeepCuts cuts(eye);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    std::optional<Object> object = cuts.changed(scene.objects[i]);
-    if (!object) continue;
-    if (!copy_) copy_ = scene;
-    copy_->objects[i] = *std::move(object);
-  }
+std::optional<Scene> deepen_cuts(const Scene& scene, const PassContext& context) {
+  DeepCuts cuts(context);
+  return with_objects_changed(scene, [&](const Object& object) { return cuts.changed(object); });
 }
 
 } // namespace celltrace

@@ -22,6 +22,11 @@ bool is_near(const Sphere& sphere, const Vec3& location) {
 } // namespace
 
 Eye::Eye(const Camera& camera, const Scene& scene, Moves moves) : Eye(camera, moves) {
+  move_to(camera, scene);
+}
+
+void Eye::move_to(const Camera& camera, const Scene& scene) {
+  start_ = location_ = camera.location;
   if (const double largest = largest_coordinate_from_afar(scene, location_); largest > 0)
     start_ = location_ * (2 * largest / glm::length(location_));
 }
@@ -38,8 +43,7 @@ bool Eye::is_near_surface(const Sphere& sphere, const Transform& transform) cons
   return false;
 }
 
-bool Eye::prepares_alike(const Vec3& location) const {
-  if (location == location_) return true;
+bool Eye::prepares_alike_but_boundaries(const Vec3& location) const {
   if (is_asked_ || !may_move_) return false;
   return std::none_of(spheres_.begin(), spheres_.end(),
                       [&](const Sphere& sphere) { return is_near(sphere, location); }) &&

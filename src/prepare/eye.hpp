@@ -33,6 +33,12 @@ public:
     is_asked_ = true;
     return start_;
   }
+  /// Returns start() for boundaries of CSG's solids. They alone depend on it from here on, and are moved by
+  /// themselves when the camera does.
+  const Vec3& start_of_boundaries() const noexcept {
+    has_boundaries_ = true;
+    return start_;
+  }
   bool may_move() const noexcept { return may_move_; }
 
   /// Returns whether the eye is near the surface of a sphere for its size: within a 256th of its radius. If
@@ -40,10 +46,16 @@ public:
   bool is_near_surface(const Sphere& sphere, const Transform& transform) const;
 
   /// Returns whether what was prepared is known to be the same for this location.
-  bool prepares_alike(const Vec3& location) const;
+  bool prepares_alike(const Vec3& location) const {
+    return location == location_ || (!has_boundaries_ && prepares_alike_but_boundaries(location));
+  }
+  /// Returns whether it is known to be the same but for boundaries.
+  bool prepares_alike_but_boundaries(const Vec3& location) const;
+  /// Goes elsewhere; what was prepared is the same there but for boundaries.
+  void move_to(const Camera& camera, const Scene& scene);
   /// Returns whether there may be locations for which it is not.
   bool matters() const noexcept {
-    return !may_move_ || is_asked_ || !spheres_.empty() || !placed_spheres_.empty();
+    return !may_move_ || is_asked_ || has_boundaries_ || !spheres_.empty() || !placed_spheres_.empty();
   }
 
 private:
@@ -57,6 +69,7 @@ private:
   bool may_move_ = false;
   // Passes get the eye as one of their inputs.
   mutable bool is_asked_ = false;
+  mutable bool has_boundaries_ = false;
   mutable std::vector<Sphere> spheres_; ///< that the eye is not near, in the world
   mutable std::vector<PlacedSphere> placed_spheres_;
 };

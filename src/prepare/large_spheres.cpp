@@ -4,6 +4,7 @@
 #include "prepare/csg_leaves.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <variant>
 
@@ -13,12 +14,13 @@ namespace celltrace {
 
 namespace {
 
-constexpr std::size_t kMostSpheres = 8; ///< quadrics have no bounds: each ray is tested against all of them
+/// Quadrics have no bounds: each ray is tested against all of them.
+constexpr std::size_t kMostSpheres = most_of(PictureLimit::large_spheres);
 
 class LargeSpheres {
 public:
-  LargeSpheres(const Eye& eye, const std::vector<std::uint32_t>& material_flags)
-      : eye_(eye), material_flags_(material_flags) {}
+  explicit LargeSpheres(const PassContext& context)
+      : context_(context), eye_(context.eye), material_flags_(context.material_flags) {}
 
   /// The object as it is to be, its parts too, if one of them has changed.
   std::optional<Object> changed(const Object& object) {
@@ -37,11 +39,15 @@ public:
 private:
   std::optional<Object> about_nearest_point(const Object& object, const Sphere& sphere,
                                             const Transform& transform) {
-    if (object.inverse || object.clipped_by != nullptr || count_ == kMostSpheres) return {};
+    if (object.inverse || object.clipped_by != nullptr) return {};
     if (object.material < material_flags_.size() &&
         (material_flags_[object.material] & kernel::object_flag::by_surface) != 0)
       return {};
     if (!eye_.is_near_surface(sphere, transform)) return {};
+    if (count_ == kMostSpheres) {
+      context_.pass(PictureLimit::large_spheres);
+      return {};
+    }
     ++count_;
     const double radius = std::abs(sphere.radius);
     const Vec3 eye = eye_.location();
@@ -56,23 +62,17 @@ private:
     return quadric;
   }
 
+  const PassContext& context_;
   const Eye& eye_;
-  const std::vector<std::uint32_t>& material_flags_;
+  std::span<const std::uint32_t> material_flags_;
   std::size_t count_ = 0;
 };
 
 } // namespace
 
-SceneWithLargeSpheres::SceneWithLargeSpheres(const Scene& scene,
-                                             const std::vector<std::uint32_t>& material_flags, const Eye& eye)
-    : scene_(scene) {
-  LargeSpheres spheres(eye, material_flags);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    std::optional<Object> object = spheres.changed(scene.objects[i]);
-    if (!object) continue;
-    if (!copy_) copy_ = scene;
-    copy_->objects[i] = *std::move(object);
-  }
+std::optional<Scene> centre_large_spheres(const Scene& scene, const PassContext& context) {
+  LargeSpheres spheres(context);
+  return with_objects_changed(scene, [&](const Object& object) { return spheres.changed(object); });
 }
 
 } // namespace celltrace

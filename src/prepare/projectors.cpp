@@ -68,16 +68,18 @@ Object taken(const Object& object, Index material) {
 
 } // namespace
 
-SceneWithProjectors::SceneWithProjectors(const Scene& scene) : scene_(scene) {
+std::optional<Scene> add_projectors(const Scene& scene, const PassContext&) {
+  std::optional<Scene> copy;
   Index material = kNoIndex;
   for (const Light& light : scene.lights) {
     if (!light.projected_through) continue;
-    if (!copy_) {
-      copy_ = scene;
-      material = copy_->add(Material{});
+    if (!copy) {
+      copy = scene;
+      material = copy->add(Material{});
     }
-    copy_->objects.push_back(taken(*light.projected_through, material));
+    copy->objects.push_back(taken(*light.projected_through, material));
   }
+  return copy;
 }
 
 } // namespace celltrace

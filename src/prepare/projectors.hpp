@@ -2,26 +2,15 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
+#include "prepare/pass.hpp"
 
 #include <optional>
 
 namespace celltrace {
 
-/// A scene to whose objects the projectors of its lights are added, in the order of the lights. They have no
-/// meshes: triangles are polygons.
-class SceneWithProjectors {
-public:
-  /// `scene` stays as it is as long as this lives. Throws InputError if a mesh is a part of a projector's
-  /// CSG, or of what clips it.
-  explicit SceneWithProjectors(const Scene& scene);
-
-  const Scene& scene() const { return copy_ ? *copy_ : scene_; }
-  /// How many objects are the scene's own; those behind them are projectors.
-  std::size_t own_objects() const { return scene_.objects.size(); }
-
-private:
-  const Scene& scene_;
-  std::optional<Scene> copy_; ///< none if no light has a projector
-};
+/// Adds the projectors of a scene's lights to its objects, in the order of the lights, and their material
+/// behind its materials. They have no meshes: triangles are polygons. It asks nothing of the context. Throws
+/// InputError if a mesh is a part of a projector's CSG, or of what clips it.
+std::optional<Scene> add_projectors(const Scene& scene, const PassContext& context);
 
 } // namespace celltrace

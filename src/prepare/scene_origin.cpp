@@ -228,10 +228,11 @@ Camera moved_to(const Vec3& origin, Camera camera) {
   return camera;
 }
 
-SceneAtOrigin::SceneAtOrigin(const Scene& scene, const Vec3& origin) : scene_(scene) {
-  if (origin == Vec3(0)) return;
+std::optional<Scene> moved_to(const Vec3& origin, const Scene& scene) {
+  if (origin == Vec3(0)) return std::nullopt;
   validate(scene);
-  Scene& moved = copy_.emplace(scene);
+  std::optional<Scene> result = scene;
+  Scene& moved = *result;
   Mover mover(origin);
   const auto move_all = [&](auto& all) {
     for (auto& one : all)
@@ -242,6 +243,7 @@ SceneAtOrigin::SceneAtOrigin(const Scene& scene, const Vec3& origin) : scene_(sc
   move_all(moved.materials);
   move_all(moved.lights);
   move_all(moved.fogs);
+  return result;
 }
 
 } // namespace celltrace

@@ -20,18 +20,8 @@ double largest_coordinate_from_afar(const Scene& scene, const Vec3& location);
 /// Returns a camera in coordinates from `origin`.
 Camera moved_to(const Vec3& origin, Camera camera);
 
-/// A scene in coordinates from an origin: all that has a place in it is moved, textures too.
-class SceneAtOrigin {
-public:
-  /// `scene` stays as it is as long as this lives. Throws InputError as validate() does if it has to be
-  /// moved.
-  SceneAtOrigin(const Scene& scene, const Vec3& origin);
-
-  const Scene& scene() const { return copy_ ? *copy_ : scene_; }
-
-private:
-  const Scene& scene_;
-  std::optional<Scene> copy_; ///< none if the origin is 0
-};
+/// Returns a scene in coordinates from `origin`, in which all that has a place is moved, textures too;
+/// nothing if the origin is 0. Throws InputError as validate() does if it has to be moved.
+std::optional<Scene> moved_to(const Vec3& origin, const Scene& scene);
 
 } // namespace celltrace

@@ -64,6 +64,12 @@ bool AcceleratorBuilder::update_image(const Scene& scene, const SceneChanges& ch
   return changes.objects ? image_.update(scene, work_[0], host_threads()) : image_.update_surfaces(scene);
 }
 
+bool AcceleratorBuilder::update_boundaries(const Scene& scene) {
+  if (static_cast<AcceleratorKind>(frame_.accelerator) != AcceleratorKind::bvh) return false;
+  if (!machine_.direct_memory()) shared_image_.remember();
+  return image_.update_boundaries(scene);
+}
+
 std::optional<std::uint64_t> AcceleratorBuilder::update(const SceneChanges& changes) {
   if (changes.objects) {
     refit_.refit(image_.mutable_base(), frame_.bvh, host_threads());

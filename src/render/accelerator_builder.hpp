@@ -36,6 +36,9 @@ public:
   /// Makes `image` that of a scene in place, with the accelerator that build() left. False, and nothing has
   /// changed, if that cannot be done, or not well: it is all to be made anew. Throws as SceneImage::update().
   bool update_image(const Scene& scene, const SceneChanges& changes);
+  /// Makes it that of the same scene with another camera. False, and nothing has changed, if that cannot be
+  /// done without preparing all of it.
+  bool update_boundaries(const Scene& scene);
   /// After that, and after the frame block has what it says of a scene: refits the BVH if objects changed,
   /// and lets the SPEs fetch again what they have to, of which this returns the number of lines. Nothing: the
   /// BVH would be so much worse than a new one that it has to be built.

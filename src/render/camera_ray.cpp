@@ -4,7 +4,7 @@
 #include "celltrace/error.hpp"
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/cameras/primary_rays.hpp"
-#include "render/frame_setup.hpp"
+#include "render/camera_setup.hpp"
 
 namespace celltrace {
 

@@ -195,6 +195,10 @@ Obstacle obstacle_of(const ObjectRecord& object, const SceneImage& image) {
   return obstacle;
 }
 
+bool is_instance(const ObjectRecord& object) {
+  return (object.kind_and_flags & object_flag::kind_mask) == kInstanceKind;
+}
+
 /// Returns a distance from `from` on up to which no obstacle is in the view; `to` if none is before that.
 double first_meeting(const Obstacle& obstacle, const View& view, double from, double to, int depth = 0) {
   constexpr int kDeepest = 48;
@@ -219,9 +223,9 @@ Range distances_of(const Aabb& box, const View& view) {
 
 } // namespace
 
-double start_of_rays(const Camera& camera, double margin, const SceneImage& image) {
+double start_of_rays(const Camera& camera, double margin, const SceneImage& image, PassedLimits* limits) {
   constexpr double kFar = 256;
-  constexpr std::uint32_t kMostObjects = 4096; ///< that are looked at one by one
+  constexpr auto kMostObjects = static_cast<std::uint32_t>(most_of(PictureLimit::far_camera_objects));
   const std::optional<Reach> reach = reach_of(camera);
   if (!reach) return 0;
   const View view(camera, *reach, margin);
@@ -234,6 +238,7 @@ double start_of_rays(const Camera& camera, double margin, const SceneImage& imag
   if (!is_far(farthest)) return 0;
 
   double start = farthest;
+  bool are_too_many = false;
   const auto* const objects = reinterpret_cast<const ObjectRecord*>(image.base() + header.object_offset);
   if (header.object_count != 0) {
     Aabb bounds;
@@ -245,16 +250,19 @@ double start_of_rays(const Camera& camera, double margin, const SceneImage& imag
       start = std::min(start, all.low);
     } else {
       // The camera is inside of something, or of the box around all.
-      if (header.object_count > kMostObjects || header.instance_count != 0) return 0;
-      for (std::uint32_t i = 0; i < header.object_count; ++i)
-        start = first_meeting(obstacle_of(objects[i], image), view, 0, start);
+      are_too_many = header.object_count > kMostObjects || header.instance_count != 0;
+      for (std::uint32_t i = 0; i < std::min(header.object_count, kMostObjects) && is_far(start); ++i)
+        if (!is_instance(objects[i])) start = first_meeting(obstacle_of(objects[i], image), view, 0, start);
     }
   }
   for (std::uint32_t i = 1; i <= header.unbounded_count; ++i)
     start = first_meeting(obstacle_of(*(objects - i), image), view, 0, start);
   if (start == farthest) return 0;
   start -= view.half_size(start); // not on a surface
-  return is_far(start) ? start : 0;
+  if (!is_far(start)) return 0;
+  if (!are_too_many) return start;
+  if (limits != nullptr) limits->insert(PictureLimit::far_camera_objects);
+  return 0;
 }
 
 } // namespace celltrace

@@ -1,9 +1,10 @@
 #include "render/picture_memory.hpp"
 
 #include "celltrace/spe/byte_order.hpp"
+#include "celltrace/spe/machine.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "render/blocks.hpp"
-#include "render/frame_setup.hpp"
+#include "render/picture_options.hpp"
 #include "scene_image/scene_image.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "celltrace/session.hpp"
 
 #include "celltrace/error.hpp"
-#include "render/frame_setup.hpp"
+#include "render/picture_options.hpp"
 
 #include <atomic>
 #include <cstring>

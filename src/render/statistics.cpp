@@ -228,6 +228,7 @@ void add_rows(RenderStatistics& sum, const RenderStatistics& rows) {
   sum.module_share =
       all_cycles == 0 ? 0 : static_cast<double>(sum.module_cycles) / static_cast<double>(all_cycles);
   sum.imbalance = imbalance_of(sum);
+  sum.limits.insert(rows.limits.begin(), rows.limits.end());
   sum.diagnostics.insert(sum.diagnostics.end(), rows.diagnostics.begin(), rows.diagnostics.end());
 }
 
@@ -269,6 +270,9 @@ std::string to_json(const RenderStatistics& s) {
                     {"busy_ticks", spe.busy_ticks},
                     {"local_store_peak", spe.local_store_peak},
                     {"cycles", cycles_json(spe.cycles)}});
+  nlohmann::ordered_json limits = nlohmann::ordered_json::array();
+  for (const PictureLimit limit : s.limits)
+    limits.push_back({{"limit", name_of(limit)}, {"most", most_of(limit)}, {"text", text_of(limit)}});
   nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
   for (const Diagnostic& diagnostic : s.diagnostics)
     diagnostics.push_back(diagnostic_json(diagnostic));
@@ -329,6 +333,7 @@ std::string to_json(const RenderStatistics& s) {
         {"imbalance", s.imbalance}}},
       {"stages", stages_json(s.stages)},
       {"spes", spes},
+      {"limits", limits},
       {"diagnostics", diagnostics}};
   return json.dump(2);
 }

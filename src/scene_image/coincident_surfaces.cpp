@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -18,13 +19,16 @@ namespace celltrace {
 namespace {
 
 /// Pairs of objects to look at: beyond them nobody waits for more.
-constexpr std::size_t kMostSurfacePairs = 1 << 16;
+constexpr std::size_t kMostSurfacePairs = most_of(PictureLimit::coincident_pairs);
+/// Surfaces that are looked at only to find whether their order would matter.
+constexpr std::size_t kMostSurfacesWithoutOrder = 8192;
 
 /// A surface of an object, and where that may show it.
 struct PlacedSurface {
   std::uint32_t kind;
   std::array<float, 14> numbers; ///< geometry and parameters
   std::size_t object;
+  Index material; ///< kNoIndex: any
   kernel::Aabb bounds;
 
   bool is_same_as(const PlacedSurface& other) const { return kind == other.kind && numbers == other.numbers; }
@@ -32,24 +36,28 @@ struct PlacedSurface {
 
 class PlacedSurfaces {
 public:
-  PlacedSurfaces(const Scene& scene, std::size_t count, const CsgParts& parts) {
+  /// Surfaces behind the first `most` are left out.
+  PlacedSurfaces(const Scene& scene, std::size_t count, const CsgParts& parts, std::size_t most)
+      : most_(most) {
     for (const CsgPart& part : parts.parts)
-      if (part.whole < count && !is_mesh(part.object)) add(part.shape, part.whole, part.bounds);
+      if (part.whole < count && !is_mesh(part.object))
+        add(part.shape, part.whole, part.object.material, part.bounds);
     for (const CsgSurface& surface : parts.replaced)
-      add(surface.shape, surface.whole, surface.bounds);
-    for (std::size_t i = 0; i < count; ++i) {
+      add(surface.shape, surface.whole, kNoIndex, surface.bounds);
+    for (std::size_t i = 0; i < count && surfaces_.size() < most_; ++i) {
       const Object& object = scene.objects[i];
       if (CsgParts::contains(object) || is_mesh(object) || !has_bounds(object)) continue;
       const PlacedShape shape = place_shape(object);
-      if (!shape.is_empty) add(shape, i, shape.bounds());
+      if (!shape.is_empty) add(shape, i, object.material, shape.bounds());
     }
     std::stable_sort(surfaces_.begin(), surfaces_.end(), [](const PlacedSurface& a, const PlacedSurface& b) {
       return a.kind != b.kind ? a.kind < b.kind : a.numbers < b.numbers;
     });
   }
 
-  /// Calls `visit(a, b)` for surfaces of different objects that are the same one.
-  template <class Visit> void for_each_pair(const Visit& visit) const {
+  /// Calls `visit(a, b, middle)` for surfaces of different objects that are the same one, with the middle of
+  /// where both may be shown, until it returns false. False then, and if there are too many.
+  template <class Visit> bool for_each_pair(const Visit& visit) const {
     std::size_t pairs = 0;
     for (std::size_t first = 0, last; first < surfaces_.size(); first = last) {
       for (last = first + 1; last < surfaces_.size() && surfaces_[last].is_same_as(surfaces_[first]);)
@@ -57,27 +65,53 @@ public:
       for (std::size_t a = first; a < last; ++a)
         for (std::size_t b = a + 1; b < last; ++b) {
           BuildWatch::look_at(pairs);
-          if (++pairs > kMostSurfacePairs) return;
-          if (surfaces_[a].object != surfaces_[b].object) visit(surfaces_[a], surfaces_[b]);
+          if (++pairs > kMostSurfacePairs) return false;
+          if (surfaces_[a].object == surfaces_[b].object) continue;
+          const std::optional<Vec3> middle = middle_of(surfaces_[a].bounds, surfaces_[b].bounds);
+          if (middle && !visit(surfaces_[a], surfaces_[b], *middle)) return false;
         }
     }
+    return true;
   }
 
 private:
+  /// Nothing if the two have no point in common.
+  static std::optional<Vec3> middle_of(const kernel::Aabb& a, const kernel::Aabb& b) {
+    const kernel::Aabb both = intersected(a, b);
+    Vec3 middle;
+    for (int i = 0; i < 3; ++i) {
+      if (both.min[i] > both.max[i]) return std::nullopt;
+      middle[i] = 0.5 * (static_cast<double>(both.min[i]) + static_cast<double>(both.max[i]));
+    }
+    return middle;
+  }
   static bool is_mesh(const Object& object) {
     return std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape);
   }
-  void add(const PlacedShape& shape, std::size_t object, const kernel::Aabb& bounds) {
+  void add(const PlacedShape& shape, std::size_t object, Index material, const kernel::Aabb& bounds) {
+    if (surfaces_.size() == most_) return;
     PlacedSurface& surface = surfaces_.emplace_back();
     surface.kind = shape.kind_and_flags;
     std::copy(shape.geometry, shape.geometry + 12, surface.numbers.begin());
     std::copy(shape.parameters, shape.parameters + 2, surface.numbers.begin() + 12);
     surface.object = object;
+    surface.material = material;
     surface.bounds = bounds;
   }
 
+  const std::size_t most_;
   std::vector<PlacedSurface> surfaces_;
 };
+
+/// Returns whether surfaces of different materials coincide, among the first ones.
+bool any_differ(const PlacedSurfaces& surfaces) {
+  bool any = false;
+  surfaces.for_each_pair([&](const PlacedSurface& a, const PlacedSurface& b, const Vec3&) {
+    any = a.material != b.material || a.material == kNoIndex;
+    return !any;
+  });
+  return any;
+}
 
 /// The objects of `order`, but each behind those of `before`, by object; where these go in circles, one of
 /// them does not count.
@@ -110,7 +144,7 @@ std::vector<std::size_t> sorted(const std::vector<std::size_t>& order,
 } // namespace
 
 std::vector<std::size_t> order_of_tests(const Scene& scene, const Eye& eye, std::size_t count,
-                                        const CsgParts& parts) {
+                                        const CsgParts& parts, PassedLimits& limits) {
   std::vector<std::size_t> order;
   for (const bool are_csgs : {false, true})
     for (std::size_t i = 0; i < count; ++i)
@@ -118,13 +152,8 @@ std::vector<std::size_t> order_of_tests(const Scene& scene, const Eye& eye, std:
   std::vector<std::vector<std::size_t>> before(count);
   if (has_order_of_tests(count, parts)) {
     std::optional<BoundingTree> tree;
-    PlacedSurfaces(scene, count, parts).for_each_pair([&](const PlacedSurface& a, const PlacedSurface& b) {
-      const kernel::Aabb both = intersected(a.bounds, b.bounds);
-      Vec3 middle;
-      for (int i = 0; i < 3; ++i) {
-        if (both.min[i] > both.max[i]) return;
-        middle[i] = 0.5 * (static_cast<double>(both.min[i]) + static_cast<double>(both.max[i]));
-      }
+    const PlacedSurfaces surfaces(scene, count, parts, std::numeric_limits<std::size_t>::max());
+    const auto visit = [&](const PlacedSurface& a, const PlacedSurface& b, const Vec3& middle) {
       if (!tree) {
         std::vector<Extent> extents;
         for (std::size_t i = 0; i < count; ++i)
@@ -134,12 +163,18 @@ std::vector<std::size_t> order_of_tests(const Scene& scene, const Eye& eye, std:
       const Vec3 from = eye.location();
       const bool a_first = tree->tests_first(a.object, b.object, {from, middle - from});
       before[(a_first ? b : a).object].push_back((a_first ? a : b).object);
-    });
+      return true;
+    };
+    if (!surfaces.for_each_pair(visit)) limits.insert(PictureLimit::coincident_pairs);
+  } else if (!parts.parts.empty() &&
+             any_differ(PlacedSurfaces(scene, count, parts, kMostSurfacesWithoutOrder))) {
+    limits.insert(PictureLimit::coincident_objects);
   }
   return sorted(order, std::move(before));
 }
 
 bool has_order_of_tests(std::size_t count, const CsgParts& parts) {
+  static_assert(kMinObjectsToOrder == most_of(PictureLimit::coincident_objects) + 1);
   return !parts.parts.empty() && count + parts.parts.size() < kMinObjectsToOrder;
 }
 

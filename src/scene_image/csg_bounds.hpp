@@ -19,6 +19,13 @@ inline bool is_empty(const kernel::Aabb& box) {
   return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
 }
 
+inline bool is_bounded(const kernel::Aabb& box) {
+  constexpr float kMost = 1e18f;
+  for (int i = 0; i < 3; ++i)
+    if (!(box.min[i] > -kMost && box.max[i] < kMost)) return false;
+  return true;
+}
+
 /// How much wider bounds are than a face at a coordinate: more than single precision is wrong by, for what is
 /// not too far away.
 inline float slack_at(float coordinate) {

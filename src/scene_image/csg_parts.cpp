@@ -1,419 +1,26 @@
 #include "scene_image/csg_parts.hpp"
 
-#include "celltrace/error.hpp"
-#include "geometry/extent.hpp"
-#include "geometry/shape_geometry.hpp"
-#include "kernel/accel/object_bounds.hpp"
 #include "scene/build_watch.hpp"
 #include "scene_image/box_bounds.hpp"
 #include "scene_image/convex_solid.hpp"
 #include "scene_image/csg_bounds.hpp"
+#include "scene_image/csg_tree.hpp"
+#include "scene_image/csg_tree_bounds.hpp"
 #include "scene_image/interior_records.hpp"
 #include "scene_image/object_records.hpp"
 #include "scene_image/polytope.hpp"
 #include "scene_image/quadric_bounds.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
-#include <glm/common.hpp>
-
 namespace celltrace {
 
+using namespace csg;
 using namespace kernel;
 
 namespace {
-
-bool is_bounded(const Aabb& box) {
-  constexpr float kMost = 1e18f;
-  for (int i = 0; i < 3; ++i)
-    if (!(box.min[i] > -kMost && box.max[i] < kMost)) return false;
-  return true;
-}
-
-/// The half-space of a plane that is at right angles to an axis; else everywhere.
-Aabb half_space(const PlacedShape& plane, bool inverse) {
-  Aabb box = kEverywhere;
-  const float* n = plane.geometry + 8;
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(n[(i + 1) % 3]) > 1e-6f || std::abs(n[(i + 2) % 3]) > 1e-6f) continue;
-    // n x + d < 0.
-    const float at = -n[3] / n[i];
-    if ((n[i] > 0) != inverse)
-      box.max[i] = at + slack_at(at);
-    else
-      box.min[i] = at - slack_at(at);
-  }
-  return box;
-}
-
-/// Around a box after a transformation, and a little more.
-Aabb moved(const Aabb& box, const Transform& transform) {
-  const Extent around =
-      Extent{Vec3(box.min[0], box.min[1], box.min[2]), Vec3(box.max[0], box.max[1], box.max[2])};
-  if (around.is_everywhere()) return kEverywhere;
-  const Extent extent = around.moved(transform);
-  Aabb result;
-  for (int i = 0; i < 3; ++i) {
-    result.min[i] = static_cast<float>(extent.min[i] - 1e-5 * (1 + std::abs(extent.min[i])));
-    result.max[i] = static_cast<float>(extent.max[i] + 1e-5 * (1 + std::abs(extent.max[i])));
-  }
-  return result;
-}
-
-/// Around all triangles in the world, and a little more.
-Aabb bounds_of(const Mesh& mesh, const Transform& transform) {
-  Aabb box = kNowhere;
-  for (const Mesh::Triangle& triangle : mesh.triangles) {
-    BuildWatch::look_at(static_cast<std::size_t>(&triangle - mesh.triangles.data()));
-    for (const Index vertex : triangle.vertex) {
-      const Vec3 at = transform.point(Vec3(mesh.vertices[vertex]));
-      for (int i = 0; i < 3; ++i) {
-        const float slack = 1e-5f * (1.0f + static_cast<float>(std::abs(at[i])));
-        box.min[i] = std::min(box.min[i], static_cast<float>(at[i]) - slack);
-        box.max[i] = std::max(box.max[i], static_cast<float>(at[i]) + slack);
-      }
-    }
-  }
-  return box;
-}
-
-/// A node of the tree of one object, in which only solids are inverse: the inverse of an intersection is the
-/// merge of the inverse parts, that of a union or merge the intersection, as POV-Ray has it.
-struct Node {
-  enum class Kind { solid, union_, merge, intersection };
-  Kind kind = Kind::solid;
-  bool inverse = false;        ///< of a solid
-  bool shows = true;           ///< its surfaces are seen; not those of what clips
-  bool is_clipped = false;     ///< its first child is, by the others
-  Object object;               ///< of a solid
-  PlacedShape shape;           ///< of a solid that is no mesh
-  Aabb mesh_bounds;            ///< of a mesh
-  std::optional<Aabb> box;     ///< of a solid that is a box along the axes of the world
-  std::uint32_t record = 0;    ///< of a solid: index in CsgParts::solids
-  std::uint32_t leaves = 1;    ///< solids in it
-  std::uint32_t unseen_by = 0; ///< of object_flag::selective: rays that see none of it
-  bool is_bare = false;        ///< it has a solid without an inside, which shows beyond what is inside of it
-  bool needs_bounds = false;   ///< it has a quadric or an inverse box: what these leave depends on others
-  std::vector<Node> children;
-
-  /// Of a solid; null: no mesh.
-  const Mesh* mesh() const {
-    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
-    return mesh != nullptr ? mesh->get() : nullptr;
-  }
-  /// Of a solid that has no bounds by itself; null: no quadric.
-  const Quadric* quadric() const {
-    const bool may_be = kind == Kind::solid && !shape.is_empty && !shape.is_bounded;
-    return may_be ? std::get_if<Quadric>(&object.shape) : nullptr;
-  }
-  /// No point is in it, nor in its inverse: a polygon, or a mesh without an inside vector.
-  bool has_no_inside() const {
-    return mesh() != nullptr ? !mesh()->has_inside()
-                             : std::holds_alternative<std::shared_ptr<const Polygon>>(object.shape);
-  }
-
-  /// Rays that see other parts, but not this one. It hides nothing from them if the node is a merge.
-  std::uint32_t hidden_from(const Node& child) const {
-    return kind == Kind::merge ? child.unseen_by & ~unseen_by : 0;
-  }
-  /// Of the program that says whether a point is in a child.
-  std::uint32_t steps_for(const Node& child) const {
-    return child.leaves + (hidden_from(child) != 0 ? 1 : 0);
-  }
-  /// Whether it is in any.
-  std::uint32_t steps() const {
-    return std::accumulate(children.begin(), children.end(), 0u,
-                           [this](std::uint32_t sum, const Node& child) { return sum + steps_for(child); });
-  }
-
-  void add(Node child) {
-    leaves = (children.empty() ? 0 : leaves) + child.leaves;
-    is_bare = is_bare || child.is_bare;
-    needs_bounds = needs_bounds || child.needs_bounds;
-    children.push_back(std::move(child));
-  }
-};
-
-/// What comes to an object from around it.
-struct Surroundings {
-  Transform transform;
-  bool no_shadow = false, no_image = false, no_reflection = false;
-  /// Whether what the object says of these counts. So it is in POV-Ray: in unions all of it, but where they
-  /// are clipped or parts of other operations only no_reflection; in merges all but no_shadow; in
-  /// intersections and differences nothing. What is inverted counts as what it becomes.
-  bool hides_shadow = true, hides_image = true, hides_reflection = true;
-  bool is_in_unions = true; ///< alone, and in none that is clipped
-  bool inverse = false;
-  bool was_inverse = false; ///< somewhere on the way
-  bool shows = true;
-  int depth = 0;
-};
-
-void write_shape(const PlacedShape& shape, SolidRecord& solid) {
-  std::copy(shape.geometry, shape.geometry + 12, solid.object.geometry);
-  std::copy(shape.parameters, shape.parameters + 2, solid.extra.value);
-}
-
-/// Moves the boundaries of a tree's solids, of which programs ask what is inside.
-void move_boundaries(const Node& node, const Eye& eye, std::vector<SolidRecord>& solids) {
-  if (node.kind == Node::Kind::solid) {
-    if (node.mesh() == nullptr) write_shape(with_boundary(node.shape, eye), solids[node.record]);
-    return;
-  }
-  for (const Node& child : node.children)
-    move_boundaries(child, eye, solids);
-}
-
-class TreeBuilder {
-public:
-  TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes) : solids_(solids), meshes_(meshes) {}
-
-  Node build(const Object& object, Surroundings around) {
-    if (around.depth++ > kDeepestCsg) throw InputError("the scene has a CSG that nests too deeply");
-    if (!object.clipped_by || object.clipped_by->empty()) return build_unclipped(object, around);
-    // What clips is not inverted with what it clips.
-    Node clipped;
-    clipped.kind = Node::Kind::intersection;
-    clipped.is_clipped = true;
-    clipped.shows = around.shows;
-    around.is_in_unions = false;
-    clipped.add(build_unclipped(object, around));
-    clipped.unseen_by = clipped.children.front().unseen_by;
-    around.shows = false;
-    around.inverse = false;
-    for (const Object& clip : *object.clipped_by)
-      clipped.add(build(clip, around));
-    return clipped;
-  }
-
-private:
-  Node build_unclipped(const Object& object, Surroundings around) {
-    around.transform = object.transform.then(around.transform);
-    around.no_shadow = around.no_shadow || (around.hides_shadow && object.no_shadow);
-    around.no_image = around.no_image || (around.hides_image && object.no_image);
-    around.no_reflection = around.no_reflection || (around.hides_reflection && object.no_reflection);
-    around.inverse = around.inverse != object.inverse;
-    around.was_inverse = around.was_inverse || around.inverse;
-    if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
-      if (!*csg) throw InputError("an object has no CSG");
-      return seen_as(around, build_operation(**csg, around));
-    }
-    return seen_as(around, build_solid(object, around));
-  }
-
-  static Node seen_as(const Surroundings& around, Node node) {
-    if (around.no_image) node.unseen_by |= object_flag::no_image;
-    if (around.no_reflection) node.unseen_by |= object_flag::no_reflection;
-    return node;
-  }
-
-  Node build_operation(const Csg& csg, Surroundings around) {
-    using Operation = Csg::Operation;
-    const bool joins = csg.operation == Operation::union_ || csg.operation == Operation::merge;
-    Node node;
-    node.shows = around.shows;
-    if (joins == around.inverse)
-      node.kind = Node::Kind::intersection;
-    else // in POV-Ray an intersection that is inverted becomes a merge, whatever it was before
-      node.kind =
-          csg.operation == Operation::union_ && !around.was_inverse ? Node::Kind::union_ : Node::Kind::merge;
-    around.is_in_unions = around.is_in_unions && node.kind == Node::Kind::union_;
-    around.hides_shadow = around.is_in_unions;
-    around.hides_image = around.is_in_unions || node.kind == Node::Kind::merge;
-    around.hides_reflection = node.kind != Node::Kind::intersection;
-    const bool inverse = around.inverse;
-    node.children.reserve(csg.parts.size());
-    for (std::size_t i = 0; i < csg.parts.size(); ++i) {
-      around.inverse = inverse != (csg.operation == Operation::difference && i > 0);
-      node.add(build(csg.parts[i], around));
-    }
-    return node;
-  }
-
-  Node build_solid(const Object& object, const Surroundings& around) {
-    Node node;
-    node.inverse = around.inverse;
-    node.shows = around.shows;
-    node.object = object;
-    node.object.transform = around.transform;
-    node.object.inverse = around.inverse;
-    node.object.no_shadow = around.no_shadow;
-    node.object.no_image = around.no_image;
-    node.object.no_reflection = around.no_reflection;
-    node.object.clipped_by = nullptr;
-    node.record = static_cast<std::uint32_t>(solids_.size());
-    solids_.push_back(node.mesh() != nullptr ? place_mesh(node) : place_solid(node));
-    node.is_bare = node.has_no_inside();
-    if (node.mesh() == nullptr) node.box = box_along_axes(node.shape);
-    node.needs_bounds = node.inverse ? node.box.has_value() : node.quadric() != nullptr;
-    return node;
-  }
-
-  static SolidRecord place_solid(Node& node) {
-    node.shape = place_shape(node.object);
-    SolidRecord solid{};
-    solid.object.kind_and_flags =
-        node.shape.is_empty || node.has_no_inside() ? kEmptySolid : node.shape.kind_and_flags;
-    write_shape(node.shape, solid);
-    return solid;
-  }
-
-  SolidRecord place_mesh(Node& node) {
-    const Mesh& mesh = *node.mesh();
-    node.mesh_bounds = bounds_of(mesh, node.object.transform);
-    SolidRecord solid{};
-    solid.object.kind_and_flags = kEmptySolid;
-    if (!mesh.has_inside()) return solid;
-    const MeshInsides::Inside& inside = meshes_.of(mesh);
-    solid.object.kind_and_flags = kMeshSolid;
-    solid.object.extra = inside.grid;
-    write_map(node.object.transform.inverse().then(inside.to_grid_space), solid.object.geometry);
-    return solid;
-  }
-
-  std::vector<SolidRecord>& solids_;
-  MeshInsides& meshes_;
-};
-
-bool is_plane(const Node& node) {
-  return node.kind == Node::Kind::solid && node.mesh() == nullptr && !node.shape.is_empty &&
-         (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<PlanePrimitive>;
-}
-
-/// The half-spaces of an intersection, of intersections in it too.
-class HalfSpaces {
-public:
-  explicit HalfSpaces(const Node& intersection) { collect(intersection); }
-
-  /// Whether they say more than half_space() of each does.
-  bool limit_more() const { return has_slanted_; }
-
-  /// What they leave of a box. Each is the source of its face by its number among the solids.
-  Polytope cut_out_of(const Aabb& box) const {
-    Polytope polytope(box);
-    for (const Node* plane : planes_) {
-      const float* n = plane->shape.geometry + 8;
-      const double sign = plane->inverse ? -1 : 1;
-      polytope.cut(sign * Vec3(n[0], n[1], n[2]), -sign * n[3], plane->record);
-    }
-    return polytope;
-  }
-
-private:
-  /// Of more planes than this the others are left out: the time grows with the square.
-  static constexpr std::size_t kMost = 1000;
-
-  void collect(const Node& intersection) {
-    for (const Node& child : intersection.children) {
-      if (child.kind == Node::Kind::intersection) collect(child);
-      if (!is_plane(child) || planes_.size() == kMost) continue;
-      planes_.push_back(&child);
-      const float* n = child.shape.geometry + 8;
-      has_slanted_ = has_slanted_ || (n[0] != 0) + (n[1] != 0) + (n[2] != 0) > 1;
-    }
-  }
-
-  std::vector<const Node*> planes_;
-  bool has_slanted_ = false;
-};
-
-/// Calls `visit(child, its number)` with all children of a node, with those last that others may limit.
-template <class Visit> void for_each_child(const Node& node, const Visit& visit) {
-  for (const bool last : {false, true})
-    for (std::size_t i = 0; i < node.children.size(); ++i)
-      if (node.children[i].needs_bounds == last) visit(node.children[i], i);
-}
-
-/// A solid that is no mesh, in a space that the world is taken to, if that is not null.
-PlacedShape placed_in(const Transform* space, const Node& node) {
-  if (space == nullptr) return node.shape;
-  Object object = node.object;
-  object.transform = object.transform.then(*space);
-  return place_shape(object);
-}
-
-/// What a node may fill of a box; in the world, or in a space that the world is taken to.
-Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space = nullptr) {
-  Aabb all = node.kind == Node::Kind::intersection ? within : kNowhere;
-  switch (node.kind) {
-  case Node::Kind::solid: {
-    if (node.has_no_inside()) return kNowhere;
-    if (node.mesh() != nullptr) {
-      if (node.inverse) return kEverywhere;
-      return space == nullptr || is_empty(node.mesh_bounds) ? node.mesh_bounds
-                                                            : moved(node.mesh_bounds, *space);
-    }
-    if (node.shape.is_empty) return node.inverse ? kEverywhere : kNowhere;
-    if (is_plane(node)) return half_space(placed_in(space, node), node.inverse);
-    if (const Quadric* quadric = node.quadric(); quadric != nullptr && !node.inverse) {
-      const Transform& transform = node.object.transform;
-      return bounds_of_quadric(*quadric, space != nullptr ? transform.then(*space) : transform, true, within);
-    }
-    if (node.box && node.inverse && space == nullptr) return left_by_box(*node.box, within);
-    // The inside of a disc is a half-space.
-    if (node.inverse || !node.shape.is_bounded ||
-        (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
-      return kEverywhere;
-    return placed_in(space, node).bounds();
-  }
-  case Node::Kind::intersection:
-    for_each_child(node, [&](const Node& child, std::size_t) {
-      all = intersected(all, solid_bounds(child, all, space));
-    });
-    if (space != nullptr) return all;
-    if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))
-      all = intersected(all, planes.cut_out_of(all).bounds());
-    return all;
-  default:
-    for (const Node& child : node.children)
-      all = united(all, solid_bounds(child, within, space));
-    return all;
-  }
-}
-
-/// One of the intersections that a shape is shown in, and which of its children that is in.
-struct Limit {
-  const Node* intersection;
-  std::size_t shown;
-};
-
-/// Whether a transformation takes some axis to what is none.
-bool turns_axes(const Transform& transform) {
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 row = glm::abs(transform.rows[i]);
-    if (row.x + row.y + row.z > (1 + 1e-6) * std::max({row.x, row.y, row.z})) return true;
-  }
-  return false;
-}
-
-/// Bounds of a quadric or a plane along its own axes, around which there may be some where there are none
-/// along those of the world: around what has been turned as a whole. Infinite if not.
-Aabb bounds_in_own_space(const Node& node, const std::vector<Limit>& limits) {
-  if (node.mesh() != nullptr || node.shape.is_bounded || !turns_axes(node.object.transform))
-    return kEverywhere;
-  constexpr std::uint32_t kMostSolids = 100; // of all that is asked for each of many shapes
-  std::uint32_t solids = 0;
-  for (const Limit& limit : limits)
-    solids += limit.intersection->leaves;
-  if (solids > kMostSolids) return kEverywhere;
-  const Transform own = node.object.transform.inverse();
-  Aabb box = kEverywhere;
-  if (is_plane(node)) {
-    const PlacedShape plane = placed_in(&own, node);
-    box = intersected(half_space(plane, false), half_space(plane, true));
-  }
-  for (const bool last : {false, true})
-    for (const Limit& limit : limits)
-      for (const Node& child : limit.intersection->children)
-        if (&child != &limit.intersection->children[limit.shown] && child.needs_bounds == last)
-          box = intersected(box, solid_bounds(child, box, &own));
-  if (const Quadric* quadric = node.quadric()) box = bounds_of_quadric(*quadric, Transform(), false, box);
-  return is_bounded(box) && !is_empty(box) ? moved(box, node.object.transform) : kEverywhere;
-}
 
 /// Cuts a solid by all that a node consists of. False: that is not convex, or its materials ask for more than
 /// triangles tell.
@@ -649,12 +256,11 @@ bool CsgParts::contains(const Object& object) {
 CsgParts::CsgParts(const Scene& scene, const Eye& eye,
                    const std::vector<std::shared_ptr<const Object>>& patterns, std::size_t convex,
                    const std::vector<std::uint32_t>& material_flags) {
-  TreeBuilder builder(solids, meshes);
   Flattener patterns_flattener(*this, nullptr);
   for (const auto& object : patterns) {
-    const Node tree = builder.build(*object, {});
+    const Node tree = build_tree(*object, solids, meshes);
     patterns_flattener.add_inside(tree);
-    move_boundaries(tree, eye, solids);
+    add_boundaries(tree, boundaries);
   }
   // Most CSGs show a part at least.
   parts.reserve(
@@ -664,13 +270,13 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
     if (!contains(scene.objects[i])) continue;
     const std::size_t first_part = parts.size(), first_replaced = replaced.size();
     const std::size_t first_solid = solids.size(), first_step = steps.size();
-    const Node tree = builder.build(scene.objects[i], {});
+    const Node tree = build_tree(scene.objects[i], solids, meshes);
     Flattener(*this, i < convex ? &material_flags : nullptr).show(tree, kNoCondition, kEverywhere);
     // Nothing asks what is inside of solids that no program names.
     if (steps.size() == first_step)
       solids.resize(first_solid);
     else
-      move_boundaries(tree, eye, solids);
+      add_boundaries(tree, boundaries);
     for (std::size_t part = first_part; part < parts.size(); ++part) {
       parts[part].whole = i;
       parts[part].object.interior = interior_or_own(parts[part].object.interior, scene, i);
@@ -679,6 +285,8 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
     for (std::size_t surface = first_replaced; surface < replaced.size(); ++surface)
       replaced[surface].whole = i;
   }
+  for (const SolidBoundary& boundary : boundaries)
+    boundary.write(eye, solids.data());
 }
 
 } // namespace celltrace

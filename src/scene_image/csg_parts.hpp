@@ -7,6 +7,7 @@
 #include "scene_image/crossed_meshes.hpp"
 #include "scene_image/mesh_insides.hpp"
 #include "scene_image/shapes.hpp"
+#include "scene_image/solid_boundary.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,7 @@ struct CsgParts {
   std::vector<kernel::CsgStep> steps;
   /// `extra` of a mesh is an index in meshes.grids(), or in crossed_meshes.records().
   std::vector<kernel::SolidRecord> solids;
+  std::vector<SolidBoundary> boundaries; ///< of solids, written for the eye
   MeshInsides meshes;
   CrossedMeshes crossed_meshes;
 

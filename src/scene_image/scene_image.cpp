@@ -2,20 +2,12 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/direct/build_bvh_plan.hpp"
-#include "prepare/coplanar_faces.hpp"
-#include "prepare/deep_cuts.hpp"
-#include "prepare/large_spheres.hpp"
-#include "prepare/projectors.hpp"
 #include "scene/build_watch.hpp"
-#include "scene/parallel.hpp"
 #include "scene_image/image_layout.hpp"
-#include "scene_image/instanced_meshes.hpp"
-#include "scene_image/light_sets.hpp"
-#include "scene_image/mesh_instances.hpp"
-#include "scene_image/near_surfaces.hpp"
-#include "scene_image/scene_objects.hpp"
+#include "scene_image/image_parts.hpp"
+#include "scene_image/object_places.hpp"
 #include "scene_image/table_writer.hpp"
-#include "scene_image/textures.hpp"
+#include "scene_image/touch_memory.hpp"
 #include "scene_image/validation.hpp"
 
 #include <algorithm>
@@ -38,109 +30,9 @@ std::size_t bvh_bytes(const ImageHeader& header) {
          leaf_word::kReadableBytes + kLineBytes;
 }
 
-/// Work memory for ordering objects.
-struct OrderMemory {
-  PlacedObject* objects;
-  PlacedObject* spare;
-  std::uint32_t* cells;
-
-  OrderMemory(AlignedBlock& block, std::uint32_t count) {
-    const std::size_t list = whole_lines(std::size_t{count} * sizeof(PlacedObject));
-    block.reserve(2 * list + std::size_t{count} * sizeof(std::uint32_t));
-    objects = reinterpret_cast<PlacedObject*>(block.data());
-    spare = reinterpret_cast<PlacedObject*>(block.data() + list);
-    cells = reinterpret_cast<std::uint32_t*>(block.data() + 2 * list);
-  }
-};
-
-/// Takes the first `bytes` bytes of memory from the system in their order. Where records are sent anywhere,
-/// the first few of them would have it make all of that memory ready, which nothing could interrupt.
-void touch(AlignedBlock& block, std::size_t bytes, unsigned threads) {
-  constexpr std::size_t kPage = 4096, kBetweenLooks = std::size_t{2} << 20;
-  const auto parts = static_cast<std::uint32_t>(bytes / kBetweenLooks);
-  for_each_part(threads, [&](unsigned part) {
-    const HostPart mine(parts, part, threads);
-    for (std::size_t at = mine.begin * kBetweenLooks; at < mine.end * kBetweenLooks; at += kPage) {
-      if (at % kBetweenLooks == 0) BuildWatch::look();
-      *const_cast<volatile std::byte*>(block.data() + at) = std::byte(0);
-    }
-  });
+Eye eye_of(const Scene& scene, bool may_move) {
+  return {scene.camera, scene, may_move ? Eye::Moves::yes : Eye::Moves::no};
 }
-
-/// Writes those of the scene's objects that can be hit to `to`; in parts, which are brought together.
-ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned threads) {
-  std::vector<ObjectCensus> census(threads);
-  for_each_part(threads, [&](unsigned part) {
-    const HostPart mine(objects.count(), part, threads);
-    census[part] = objects.place(mine.begin, mine.end, to + mine.begin);
-  });
-  for (unsigned part = 1; part < threads; ++part) {
-    const PlacedObject* from = to + HostPart(objects.count(), part, threads).begin;
-    std::copy(from, from + census[part].objects, to + census[0].objects);
-    census[0].add(census[part]);
-  }
-  return census[0];
-}
-
-/// The same where objects have places already: `count(begin, end)` is asked of parts. Nothing if one that can
-/// be hit has none.
-template <class Count>
-std::optional<ObjectCensus> count_in_parts(std::uint32_t objects, unsigned threads, Count count) {
-  std::vector<std::optional<ObjectCensus>> census(threads);
-  for_each_part(threads, [&](unsigned part) {
-    const HostPart mine(objects, part, threads);
-    census[part] = count(mine.begin, mine.end);
-  });
-  for (unsigned part = 1; part < threads && census[0]; ++part) {
-    if (!census[part]) return std::nullopt;
-    census[0]->add(*census[part]);
-  }
-  return census[0];
-}
-
-unsigned threads_for(const SceneObjects& objects, const MeshInstances& instances, unsigned threads,
-                     std::uint32_t objects_a_thread) {
-  const std::uint64_t all = std::uint64_t{objects.count()} + instances.census().objects;
-  return static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
-}
-
-std::vector<ObjectForm> forms_of(const InstancedMeshes& instanced, const MeshInstances& instances,
-                                 std::size_t objects) {
-  std::vector<ObjectForm> forms(objects);
-  for (std::size_t i = 0; i < objects; ++i)
-    forms[i] = instanced.contains(i)   ? ObjectForm::instance
-               : instances.contains(i) ? ObjectForm::copy
-                                       : ObjectForm::itself;
-  return forms;
-}
-
-/// `order`: the objects that are no instances, as they lie in the image.
-std::vector<Index> owners_of(const SceneObjects& objects, std::span<const PlacedObject> order,
-                             const MeshInstances& instances) {
-  std::vector<Index> owners = objects.unbounded_owners();
-  const std::vector<Index> loose = objects.owners();
-  owners.reserve(owners.size() + order.size() + instances.census().objects);
-  for (const PlacedObject& object : order)
-    owners.push_back(loose[object.source]);
-  instances.append_owners(owners);
-  return owners;
-}
-
-/// What records are made of: a scene's textures, and its objects as single precision needs them.
-struct SceneOfRecords {
-  const SceneWithProjectors as_given;
-  TextureTables textures;
-  const SceneWithDeepCuts with_deep_cuts;
-  const SceneWithFacesApart with_faces_apart;
-  const SceneWithLargeSpheres with_large_spheres;
-  const SceneWithProjectors with_projectors;
-
-  SceneOfRecords(const Scene& given, const Eye& eye)
-      : as_given(given), textures(as_given.scene()), with_deep_cuts(given, eye),
-        with_faces_apart(with_deep_cuts.scene(), textures.object_flags, eye),
-        with_large_spheres(with_faces_apart.scene(), textures.object_flags, eye),
-        with_projectors(with_large_spheres.scene()) {}
-};
 
 bool has_projectors(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),
@@ -158,30 +50,11 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread, const ImageMemory& remembered) {
   BuildWatch::reach(0);
   validate(given);
-  Eye eye(given.camera, given, remembered.eye_moves ? Eye::Moves::yes : Eye::Moves::no);
-  SceneOfRecords prepared(given, eye);
-  TextureTables& textures = prepared.textures;
-  const SceneWithProjectors& with_projectors = prepared.with_projectors;
-  const Scene& scene = with_projectors.scene();
-  BuildWatch::reach(0.05);
-  const InstancedMeshes instanced(scene, with_projectors.own_objects(), textures.object_flags, threads);
-  const MeshInstances instances(scene, instanced, textures.object_flags, threads);
-  BuildWatch::reach(0.2);
-  const SceneObjects objects(scene, eye, with_projectors.own_objects(), textures.objects,
-                             textures.object_flags, instanced, instances, threads);
-  threads = threads_for(objects, instances, threads, objects_a_thread);
-  const OrderMemory memory(work, objects.count());
-  touch(work, work.size(), threads);
-  const ObjectCensus loose = place_all(objects, memory.objects, threads);
-  BuildWatch::reach(0.4);
-  std::vector<std::uint32_t> groups;
-  if (loose.objects != 0 && (loose.objects >= kMinObjectsToOrder || instances.group_count() != 0))
-    groups = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
-  ObjectCensus census = loose;
-  census.add(instances.census());
-  const LightSets light_sets(scene);
-  const ImageHeader header = make_header(scene, light_sets, textures, objects, census, groups, instanced,
-                                         instances, has_near_surfaces(given, textures.object_flags));
+  ImageParts parts(given, eye_of(given, remembered.eye_moves), threads);
+  threads = parts.threads_for(objects_a_thread, threads);
+  NewPlaces placed(parts.objects, parts.instances.group_count() != 0, work, threads);
+  const ObjectPlaces places = placed.places();
+  const ImageHeader header = parts.header(places);
 
   BuildWatch::reach(0.6);
   const std::size_t bytes = header.bytes + bvh_bytes(header);
@@ -191,54 +64,53 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   block_.reserve(bytes);
   origin_.reset();
   touch(block_, header.bytes, threads);
-  TableWriter writer(block_.data(), header, scene, textures,
-                     objects.unbounded_extras() + instanced.extra_count());
-  writer.write_header();
-  writer.write_lights(light_sets, objects.projector_sizes());
-  writer.write_surfaces(textures);
-  writer.write_csg(objects.csg());
-  writer.write_polygons(objects.polygons());
-  writer.write_instanced(instanced);
-  writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
-  BuildWatch::reach(0.9);
-  writer.write_groups(groups, threads);
-  writer.write_instances(instances, threads);
-  writer.write_unbounded(objects, census);
-  writer.write_bounds(loose.around);
-  eye_ = std::move(eye);
+  parts.write(block_.data(), header, places, threads);
   owners_.clear();
-  if (remembered.owners) owners_ = owners_of(objects, {memory.objects, loose.objects}, instances);
-  if (!remembered.updatable) return;
-
-  origin_ = std::make_unique<Origin>();
-  Origin& origin = *origin_;
-  origin.places.resize(objects.count(), SceneObjects::kNoPlace);
-  for (std::uint32_t i = 0; i < loose.objects; ++i) {
-    BuildWatch::look_at(i);
-    origin.places[memory.objects[i].source] = i;
+  if (remembered.owners) owners_ = parts.owners(*places.in_order);
+  if (remembered.updatable) {
+    origin_ = std::make_unique<Origin>();
+    origin_->places = placed.by_object();
+    origin_->placed = places.census.objects;
+    origin_->groups = placed.take_groups();
+    origin_->forms = parts.forms();
+    origin_->order = parts.objects.order();
+    origin_->own_interiors = header.interior_count - given.interiors.size();
   }
-  origin.placed = loose.objects;
-  origin.groups = std::move(groups);
-  origin.forms = forms_of(instanced, instances, given.objects.size());
-  origin.order = objects.order();
-  origin.own_interiors = header.interior_count - scene.interiors.size();
-  origin.material_flags = std::move(textures.object_flags);
-  origin.surfaces_are_apart = textures.objects.empty() && !has_projectors(given);
+  remember(parts);
+}
+
+void SceneImage::remember(ImageParts& parts) {
+  eye_ = std::move(parts.eye);
+  limits_ = std::move(parts.limits);
+  boundaries_.clear();
+  if (eye_.may_move()) boundaries_ = parts.objects.take_boundaries();
+  if (!origin_) return;
+  origin_->material_flags = std::move(parts.surfaces.textures.object_flags);
+  origin_->surfaces_are_apart = parts.surfaces.textures.objects.empty() && !has_projectors(parts.given);
 }
 
 bool SceneImage::update_surfaces(const Scene& scene) {
   if (!origin_ || !origin_->surfaces_are_apart || has_projectors(scene)) return false;
   validate_all_but_objects(scene);
-  TextureTables textures(scene);
-  if (!textures.objects.empty() || textures.object_flags != origin_->material_flags) return false;
-  const LightSets light_sets(scene);
-  const ImageHeader updated = with_surfaces(header(), scene, origin_->own_interiors, light_sets, textures);
+  SurfaceParts surfaces(scene);
+  if (!surfaces.textures.objects.empty() || surfaces.textures.object_flags != origin_->material_flags)
+    return false;
+  const ImageHeader updated =
+      with_surfaces(header(), scene, origin_->own_interiors, surfaces.light_sets, surfaces.textures);
   if (!have_same_layout(header(), updated)) return false;
 
   std::memcpy(block_.data(), &updated, sizeof updated);
-  TableWriter writer(block_.data(), updated, scene, textures, 0);
-  writer.write_lights(light_sets, {});
-  writer.write_surfaces(textures);
+  TableWriter writer(block_.data(), updated, scene, surfaces.textures, 0);
+  surfaces.write(writer, {});
+  return true;
+}
+
+bool SceneImage::update_boundaries(const Scene& scene) {
+  if (empty() || !eye_.prepares_alike_but_boundaries(scene.camera.location)) return false;
+  eye_.move_to(scene.camera, scene);
+  auto* const solids = reinterpret_cast<SolidRecord*>(block_.data() + header().solid_offset);
+  for (const SolidBoundary& boundary : boundaries_)
+    boundary.write(eye_, solids);
   return true;
 }
 
@@ -246,77 +118,46 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread) {
   if (!origin_ || given.objects.size() != origin_->forms.size()) return false;
   validate(given);
-  Eye eye(given.camera, given, eye_.may_move() ? Eye::Moves::yes : Eye::Moves::no);
-  SceneOfRecords prepared(given, eye);
-  TextureTables& textures = prepared.textures;
-  const SceneWithProjectors& with_projectors = prepared.with_projectors;
-  const Scene& scene = with_projectors.scene();
-  const InstancedMeshes instanced(scene, with_projectors.own_objects(), textures.object_flags, threads);
-  const MeshInstances instances(scene, instanced, textures.object_flags, threads);
-  if (forms_of(instanced, instances, given.objects.size()) != origin_->forms) return false;
-  const SceneObjects objects(scene, eye, with_projectors.own_objects(), textures.objects,
-                             textures.object_flags, instanced, instances, threads);
-  if (objects.count() != origin_->places.size() || objects.order() != origin_->order) return false;
-  threads = threads_for(objects, instances, threads, objects_a_thread);
+  ImageParts parts(given, eye_of(given, eye_.may_move()), threads);
+  const SceneObjects& objects = parts.objects;
+  if (parts.forms() != origin_->forms || objects.count() != origin_->places.size() ||
+      objects.order() != origin_->order)
+    return false;
+  threads = parts.threads_for(objects_a_thread, threads);
+  ObjectPlaces places;
+  places.are_known = true;
+  places.groups = origin_->groups;
   // Plain triangles are written as they are counted: should there turn out to be others than before, they all
   // are written again. Of the rest an error may be found, which has to leave the image as it was.
-  const bool at_once =
+  places.are_written =
       header().extra_count == 0 && header().blend_count == 0 && objects.are_plain_triangles();
-  std::optional<ObjectCensus> loose;
-  if (at_once) {
-    loose.emplace().objects = origin_->placed;
+  if (places.are_written) {
+    places.census.objects = origin_->placed;
   } else {
-    loose = count_in_parts(objects.count(), threads, [&](std::uint32_t begin, std::uint32_t end) {
-      return objects.count_placed(begin, end, origin_->places);
-    });
-    if (!loose || loose->objects != origin_->placed) return false;
+    const std::optional<ObjectCensus> census = count_placed(objects, origin_->places, threads);
+    if (!census || census->objects != origin_->placed) return false;
+    places.census = *census;
   }
-  ObjectCensus census = *loose;
-  census.add(instances.census());
-  const LightSets light_sets(scene);
-  const ImageHeader updated =
-      make_header(scene, light_sets, textures, objects, census, origin_->groups, instanced, instances,
-                  has_near_surfaces(given, textures.object_flags));
+  const ImageHeader updated = parts.header(places);
   if (!have_same_layout(header(), updated)) return false;
-  std::optional<OrderMemory> order; // records in other tables lie as objects do
-  if (updated.extra_count != 0 || updated.blend_count != 0) {
-    order.emplace(work, objects.count());
-    for (std::uint32_t i = 0; i < objects.count(); ++i) {
-      BuildWatch::look_at(i);
-      if (const std::uint32_t place = origin_->places[i]; place != SceneObjects::kNoPlace)
-        order->objects[place].source = i;
-    }
-  }
 
-  TableWriter writer(block_.data(), updated, scene, textures,
-                     objects.unbounded_extras() + instanced.extra_count());
-  if (at_once) {
-    loose = count_in_parts(objects.count(), threads, [&](std::uint32_t begin, std::uint32_t end) {
-      return writer.send_placed(objects, origin_->places, begin, end);
-    });
-    if (!loose || loose->objects != origin_->placed || loose->extras != 0 || loose->blended != 0) {
+  if (updated.extra_count != 0 || updated.blend_count != 0) { // records in other tables lie as objects do
+    const OrderMemory memory(work, objects.count());
+    places.in_order = in_order_of(origin_->places, origin_->placed, memory);
+    places.cells = memory.cells;
+  } else if (!places.are_written) {
+    places.by_object = origin_->places;
+  } else {
+    TableWriter writer = parts.writer(block_.data(), updated);
+    const std::optional<ObjectCensus> census = send_placed(writer, objects, origin_->places, threads);
+    if (!census || census->objects != origin_->placed || census->extras != 0 || census->blended != 0) {
       origin_.reset();
       return false;
     }
+    places.census = *census;
   }
-  writer.write_header();
-  writer.write_lights(light_sets, objects.projector_sizes());
-  writer.write_surfaces(textures);
-  writer.write_csg(objects.csg());
-  writer.write_polygons(objects.polygons());
-  writer.write_instanced(instanced);
-  if (order)
-    writer.write_objects(objects, {order->objects, loose->objects}, order->cells, threads);
-  else if (!at_once)
-    writer.send_objects(objects, origin_->places, threads);
-  // Where there are no instances, only what builds a BVH reads groups.
-  if (updated.prototype_count != 0) writer.write_groups(origin_->groups, threads);
-  writer.write_instances(instances, threads);
-  writer.write_unbounded(objects, census);
-  writer.write_bounds(loose->around);
-  eye_ = std::move(eye);
-  origin_->material_flags = std::move(textures.object_flags);
-  origin_->surfaces_are_apart = textures.objects.empty() && !has_projectors(given);
+  parts.write(block_.data(), updated, places, threads);
+  remember(parts);
   return true;
 }
 

@@ -14,6 +14,9 @@
 #include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
 #include "prepare/eye.hpp"
+#include "prepare/pass.hpp"
+#include "scene_image/object_form.hpp"
+#include "scene_image/solid_boundary.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +25,8 @@
 #include <vector>
 
 namespace celltrace {
+
+struct ImageParts;
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
 constexpr std::uint32_t kImageVersion = 18;
@@ -35,9 +40,6 @@ struct ImageMemory {
   /// Bytes that the image and its BVH may take; 0: as many as there are.
   std::uint64_t most_bytes = 0;
 };
-
-/// What an object is in the image: records of its own, a copy of a mesh, or an instance of one.
-enum class ObjectForm : std::uint8_t { itself, copy, instance };
 
 /// Thread safety: as a standard container.
 class SceneImage {
@@ -68,6 +70,9 @@ public:
   /// As update(), where all objects are as they were; but not for scenes in which patterns or lights refer to
   /// objects, or where materials become opaque, textured or the like or cease to be.
   bool update_surfaces(const Scene& scene);
+  /// Becomes the image of the same scene with another camera, if that moves nothing but boundaries of CSG's
+  /// solids. False, and nothing has changed, if it may move more.
+  bool update_boundaries(const Scene& scene);
   bool empty() const noexcept { return block_.size() == 0; }
   /// Returns whether the image shows the scene to a camera at `location` as one that was made for it would:
   /// always at the location that it was made for.
@@ -75,6 +80,9 @@ public:
   /// Returns whether there may be locations that it is not for; it says yes unless ImageMemory::eye_moves is
   /// set.
   bool depends_on_eye() const { return eye_.matters(); }
+
+  /// Returns the limits that the scene has passed; an image that was saved does not know them.
+  const PassedLimits& limits() const { return limits_; }
 
   /// Makes room for an accelerator: a table of `table_bytes` bytes, of voxels or of nodes, and lists of
   /// `list_words` words in all; where the static part moves, the old address becomes invalid.
@@ -108,6 +116,8 @@ public:
 
 private:
   Index owner_of_instanced(std::uint32_t number) const noexcept;
+  /// Remembers of these parts what tables do not say.
+  void remember(ImageParts& parts);
 
   /// What it remembers of its scene for updates.
   struct Origin {
@@ -124,6 +134,8 @@ private:
   AlignedBlock block_;
   std::unique_ptr<Origin> origin_; ///< null unless it is updatable
   Eye eye_;                        ///< that it was made for
+  PassedLimits limits_;
+  std::vector<SolidBoundary> boundaries_; ///< if the eye may move
   std::vector<Index> owners_; ///< of unbounded objects and then all others, in the order of their records
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;

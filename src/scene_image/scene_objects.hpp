@@ -5,6 +5,7 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "prepare/pass.hpp"
 #include "scene_image/csg_parts.hpp"
 #include "scene_image/instanced_meshes.hpp"
 #include "scene_image/mesh_instances.hpp"
@@ -15,6 +16,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace celltrace {
@@ -23,12 +25,12 @@ class SceneObjects {
 public:
   /// Those that are not among `instances`, each of `instanced` as one, and what is inside of `patterns`.
   /// Objects from `projectors` on are those of lights. `scene` and `material_flags`, what objects have that
-  /// consist of a material, stay as they are as long as this lives. Throws InputError if there are too many
-  /// objects.
+  /// consist of a material, stay as they are as long as this lives. Says which limits the scene passes.
+  /// Throws InputError if there are too many objects.
   SceneObjects(const Scene& scene, const Eye& eye, std::size_t projectors,
                const std::vector<std::shared_ptr<const Object>>& patterns,
                const std::vector<std::uint32_t>& material_flags, const InstancedMeshes& instanced,
-               const MeshInstances& instances, unsigned threads);
+               const MeshInstances& instances, unsigned threads, PassedLimits& limits);
 
   /// All that have bounds, those that cannot be hit included: spheres without a radius and triangles without
   /// an area.
@@ -50,6 +52,7 @@ public:
   /// The order in which objects of the scene are numbered, if it depends on what is where.
   const std::vector<std::size_t>& order() const { return order_; }
   const CsgParts& csg() const { return csg_; }
+  std::vector<SolidBoundary> take_boundaries() { return std::move(csg_.boundaries); }
   const PolygonTable& polygons() const { return polygons_; }
 
   /// Writes those of [begin, end) that can be hit to `to`, in order. Throws InputError if an object's

@@ -411,16 +411,22 @@ PlacedShape place_shape(const Object& object) {
   return std::visit([&](const auto& shape) { return place(object, shape); }, object.shape);
 }
 
+bool has_boundary(const PlacedShape& shape) {
+  const std::uint32_t kind = shape.kind_and_flags & object_flag::kind_mask;
+  return !shape.is_empty &&
+         (kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive> ||
+          kind == kPrimitiveKind<PlanePrimitive> || kind == kPrimitiveKind<BoxPrimitive>);
+}
+
 PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
+  if (!has_boundary(shape)) return shape;
   const std::uint32_t kind = shape.kind_and_flags & object_flag::kind_mask;
   const bool is_round = kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive>;
-  const bool has_boundary =
-      is_round || kind == kPrimitiveKind<PlanePrimitive> || kind == kPrimitiveKind<BoxPrimitive>;
-  if (shape.is_empty || !has_boundary) return shape;
   // A point is as precise as its coordinates and those of its ray's origin are large. What is farther away
   // than this is seen too small for its boundary to matter.
-  const double far_away = 100 + 4 * glm::length(eye.start());
-  Vec3 reach = glm::abs(eye.start());
+  const Vec3 start = eye.start_of_boundaries();
+  const double far_away = 100 + 4 * glm::length(start);
+  Vec3 reach = glm::abs(start);
   if (shape.is_bounded) {
     const kernel::Aabb box = shape.bounds();
     for (int i = 0; i < 3; ++i)

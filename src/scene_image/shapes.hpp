@@ -28,6 +28,8 @@ void write_map(const Transform& map, float (&to)[12]);
 /// Of a shape that is neither a mesh nor a CSG. Throws InputError if its transformation is singular.
 PlacedShape place_shape(const Object& object);
 
+/// Returns whether with_boundary() changes a shape.
+bool has_boundary(const PlacedShape& shape);
 /// The shape as points are tested against that lie on its surface but for rounding: those are in a box, in a
 /// half-space and in an open cylinder or cone, but not in a closed one, as in POV-Ray. Where surfaces of a
 /// CSG coincide, it depends on that which of them is seen. `eye`: where most rays begin.

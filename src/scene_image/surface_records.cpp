@@ -1,8 +1,8 @@
 #include "scene_image/surface_records.hpp"
 
 #include "kernel/lights/list.hpp"
+#include "scene_image/pattern_space.hpp"
 #include "scene_image/record_vectors.hpp"
-#include "scene_image/textures.hpp"
 
 #include <algorithm>
 #include <cmath>

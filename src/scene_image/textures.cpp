@@ -1,21 +1,16 @@
 #include "scene_image/textures.hpp"
 
-#include "celltrace/error.hpp"
-#include "geometry/pattern_tables.hpp"
 #include "kernel/textures/list.hpp"
 #include "scene_image/list_waves.hpp"
-#include "scene_image/pattern_offsets.hpp"
 #include "scene_image/record_vectors.hpp"
 #include "scene_image/surface_records.hpp"
+#include "scene_image/texture_room.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <string>
 #include <string_view>
 #include <type_traits>
-
-#include <glm/geometric.hpp>
 
 namespace celltrace {
 
@@ -23,111 +18,9 @@ using namespace kernel;
 
 namespace {
 
-void set(const Transform& to_space, float (&m)[12]) {
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
-      m[row * 4 + column] = static_cast<float>(to_space.rows[column][row]);
-}
-
-bool is_still(const Turbulence& t) {
-  return t.amount == Vec3(0);
-}
-
-void fill(SpaceStepRecord& r, const Turbulence& t) {
-  r.kind_and_flags = static_cast<std::uint32_t>(WarpKind::turbulence);
-  r.turbulence = words_of(t);
-}
-void fill(SpaceStepRecord& r, const warp::Repeat& w) {
-  r.kind_and_flags = static_cast<std::uint32_t>(WarpKind::repeat) | static_cast<std::uint32_t>(w.axis)
-                                                                        << warp_flag::axis_shift;
-  r.value[0] = static_cast<float>(w.width);
-  for (int i = 0; i < 3; ++i)
-    r.value[1 + i] = w.flip[i] != 0 ? -1.0f : 1.0f;
-  copy(w.offset, r.value + 4);
-}
-void fill(SpaceStepRecord& r, const warp::BlackHole& w) {
-  r.kind_and_flags =
-      static_cast<std::uint32_t>(WarpKind::black_hole) | (w.is_inverse ? warp_flag::inverse : 0);
-  copy(w.centre, r.value);
-  r.value[3] = static_cast<float>(w.radius);
-  r.value[4] = static_cast<float>(w.strength);
-  r.value[5] = static_cast<float>(w.falloff);
-  copy(w.repeat, r.value + 6);
-  copy(w.turbulence, r.turbulence.amount);
-}
-void fill(SpaceStepRecord& r, const warp::Mapping& w) {
-  using Shape = warp::Mapping::Shape;
-  const WarpKind kind = w.shape == Shape::planar        ? WarpKind::planar
-                        : w.shape == Shape::cylindrical ? WarpKind::cylindrical
-                        : w.shape == Shape::spherical   ? WarpKind::spherical
-                                                        : WarpKind::toroidal;
-  r.kind_and_flags = static_cast<std::uint32_t>(kind);
-  copy(glm::normalize(w.orientation), r.value);
-  r.value[3] = static_cast<float>(w.shape == Shape::planar ? w.distance : w.distance_exponent);
-  r.value[4] = static_cast<float>(w.major_radius);
-}
-void fill(SpaceStepRecord&, const Transform&) {
-} // is what its record's neighbours have
-
-SpaceStepRecord record_of(const SpaceStep& step) {
-  SpaceStepRecord r{};
-  std::visit([&](const auto& one) { fill(r, one); }, step);
-  return r;
-}
-
-bool reads_features(const SpaceStepRecord& r) {
-  const float(&amount)[3] = r.turbulence.amount;
-  return (r.kind_and_flags & warp_flag::kind_mask) == static_cast<std::uint32_t>(WarpKind::black_hole) &&
-         (amount[0] != 0 || amount[1] != 0 || amount[2] != 0);
-}
-
-/// Of all textures together, in each of the tables: what several maps share is written once for each space
-/// that it is in.
-constexpr std::size_t kMostRecords = std::size_t{1} << 22;
-
-template <class Record>
-void make_room(const std::vector<Record>& table, std::size_t count, const char* what) {
-  if (table.size() + count > kMostRecords)
-    throw InputError("all textures together have more than " + std::to_string(kMostRecords) + ' ' + what);
-}
-
-/// Whether the turbulence of such a pattern moves the points that it is asked at.
-bool is_moved_by_turbulence(const pattern::Kind& kind) {
-  return !std::holds_alternative<pattern::Marble>(kind) && !std::holds_alternative<pattern::Wood>(kind);
-}
-
-/// From a pattern's space to the scene, without displacements, as normals go through it.
-Transform whole_map(const PatternSpace& space) {
-  Transform map;
-  for (const SpaceStep& step : space.steps)
-    if (const auto* transform = std::get_if<Transform>(&step)) map = map.then(*transform);
-  return map.then(space.of_normals);
-}
-
-/// From the pattern's own space to the scene or the surface, for a pattern inside maps whose patterns are in
-/// `outer`.
-PatternSpace space_of(const Pattern& pattern, const PatternSpace& outer) {
-  if (pattern.uv_mapping) return {pattern.space, true, pattern.normal_space.then(whole_map(outer))};
-  PatternSpace all = outer;
-  all.steps.insert(all.steps.begin(), pattern.space.begin(), pattern.space.end());
-  return all;
-}
-
-/// What the patterns inside a map are in, whose pattern is in `outer` itself.
-PatternSpace space_inside(const Pattern& pattern, const PatternSpace& outer) {
-  PatternSpace inside = space_of(pattern, outer);
-  if (is_moved_by_turbulence(pattern.kind) && !is_still(pattern.turbulence))
-    inside.steps.insert(inside.steps.begin(), pattern.turbulence);
-  return inside;
-}
-
 std::size_t hash_of(const Vec3& vector) {
   const std::hash<double> hash;
   return (hash(vector.x) * 31 + hash(vector.y)) * 31 + hash(vector.z);
-}
-
-template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table) {
-  if (index != kNoOffset) index = table + index * static_cast<std::uint32_t>(sizeof(Record));
 }
 
 /// Of an interval of a map; 0 if it has none.
@@ -150,20 +43,7 @@ std::uint32_t nodes_of_mirror(const MaterialRecord& r) {
   return (r.flags & material_flag::bends_reflection) != 0 ? 2 : 1;
 }
 
-/// Whether points do not tell a pattern's values.
-bool asks_for_surface(const PatternRecord& r) {
-  return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
-         Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
-}
-
 } // namespace
-
-TurbulenceWords words_of(const Turbulence& t) {
-  return {{static_cast<float>(t.amount.x), static_cast<float>(t.amount.y), static_cast<float>(t.amount.z)},
-          static_cast<float>(t.lambda),
-          static_cast<float>(t.omega),
-          static_cast<std::uint32_t>(t.octaves)};
-}
 
 Material sky_of(const Scene& scene) {
   Material top;
@@ -515,160 +395,6 @@ TextureTables::Known TextureTables::add_pigment(const Pigment& pigment, const Pa
   map->entries = {{1, pigment}};
   made_.push_back(map);
   return add_map<Pigment>(map, outer, Place::inside);
-}
-
-TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const PatternSpace& outer,
-                                                const PatternSpace& inside, bool is_average,
-                                                std::size_t entry_count) {
-  PatternRecord r{};
-  PatternSpace space = space_of(pattern, outer);
-  PlacedPattern placed = {pattern.kind, {}, pattern.phase};
-  if (!is_average && !space.uv_mapping) {
-    placed = near_own_origin(pattern, space.steps);
-    space.steps = std::move(placed.space);
-  }
-  const auto* grey = is_average ? nullptr : std::get_if<pattern::Grey>(&pattern.kind);
-  Known of_grey{0, {}};
-  if (grey != nullptr) of_grey = add_pigment(*grey->of, inside);
-  r.entries = r.steps = 0;
-  r.entry_count = static_cast<std::uint32_t>(entry_count);
-  tables_.push_back(PatternTable::none);
-  if (is_average) {
-    r.kind_and_flags = pattern_flag::average;
-  } else {
-    const PatternWords words = pattern_words(placed.kind, scene_.number_of_waves);
-    r.kind_and_flags = words.kind_and_flags;
-    std::copy(std::begin(words.parameter), std::end(words.parameter), r.parameter);
-    const std::uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
-    const PatternWave wave =
-        Patterns::kAreLists[kind] ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
-    r.kind_and_flags |= static_cast<std::uint32_t>(wave) << pattern_flag::wave_shift;
-    const int generator = pattern.noise_generator == 0 ? scene_.noise_generator : pattern.noise_generator;
-    if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
-    const bool is_gradient_noise = generator == 3 && Patterns::kReadNoise[kind];
-    if (is_gradient_noise) r.kind_and_flags |= pattern_flag::gradient_noise;
-    if (!is_still(pattern.turbulence)) {
-      if (is_moved_by_turbulence(pattern.kind)) r.kind_and_flags |= pattern_flag::turbulent;
-      if (Patterns::kAreShifted[kind]) r.kind_and_flags |= pattern_flag::shifted;
-    }
-    r.table = words.fractal;
-    tables_.back() = pattern_table(r.kind_and_flags);
-    if (tables_.back() == PatternTable::slopes) {
-      r.table = static_cast<std::uint32_t>(slopes.size());
-      slopes.push_back(words.slope);
-    }
-    if (grey != nullptr) {
-      r.table = of_grey.index;
-      r.kind_and_flags |= pattern_flag::nested;
-    }
-    if (const auto* solid = std::get_if<pattern::Inside>(&placed.kind)) {
-      r.table = static_cast<std::uint32_t>(objects.size());
-      objects.push_back(solid->of);
-    }
-    add_table(tables_.back());
-  }
-  // A frequency of 0 leaves numbers as they are.
-  const bool is_own = pattern.frequency == 0;
-  if (is_own) r.kind_and_flags |= pattern_flag::never_repeats;
-  r.frequency = static_cast<float>(is_own ? 1 : pattern.frequency);
-  r.phase = static_cast<float>(is_own ? 0 : placed.phase);
-  r.wave_exponent = static_cast<float>(pattern.wave_exponent);
-  r.turbulence = words_of(pattern.turbulence);
-  if (space.uv_mapping) r.kind_and_flags |= pattern_flag::uv_mapping;
-  add_steps(r, space.steps);
-  make_room(patterns, 1, "patterns");
-  patterns.push_back(r);
-  Traits traits;
-  traits.by_surface = asks_for_surface(r) || of_grey.traits.by_surface;
-  return {static_cast<std::uint32_t>(patterns.size() - 1), traits};
-}
-
-void TextureTables::add_table(PatternTable table) {
-  if (table == PatternTable::waves && waves.empty()) waves = make_waves(scene_.number_of_waves);
-  if (table == PatternTable::gradients && gradients.empty()) gradients = make_gradients();
-  const bool has_features = table == PatternTable::features || table == PatternTable::gradients;
-  if (has_features && features.empty()) features = make_features();
-}
-
-/// What is met first is written last.
-void TextureTables::add_steps(PatternRecord& r, const std::vector<SpaceStep>& space) {
-  const auto first_step = static_cast<std::uint32_t>(steps.size());
-  r.steps = first_step;
-  Transform map;
-  const auto end_map = [&] {
-    set(map, steps.size() == first_step ? r.to_space : steps.back().to_space);
-    map = Transform();
-  };
-  for (auto step = space.rbegin(); step != space.rend(); ++step) {
-    if (const auto* transform = std::get_if<Transform>(&*step)) {
-      map = map.then(transform->inverse());
-      continue;
-    }
-    if (const auto* moved = std::get_if<Turbulence>(&*step); moved && is_still(*moved)) continue;
-    end_map();
-    make_room(steps, 1, "warps of patterns");
-    steps.push_back(record_of(*step));
-    if (reads_features(steps.back())) add_table(PatternTable::features);
-  }
-  end_map();
-  r.step_count = static_cast<std::uint32_t>(steps.size()) - first_step;
-}
-
-void TextureTables::relocate(const ImageHeader& header) {
-  for (SpaceStepRecord& r : steps)
-    if (reads_features(r)) r.table = header.feature_offset;
-  for (std::size_t i = 0; i < patterns.size(); ++i) {
-    PatternRecord& r = patterns[i];
-    to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
-    to_offset<SpaceStepRecord>(r.steps, header.space_step_offset);
-    switch (tables_[i]) {
-    case PatternTable::features:
-      r.table = header.feature_offset;
-      break;
-    case PatternTable::gradients:
-      r.table = header.gradient_offset;
-      break;
-    case PatternTable::waves:
-      r.table = header.wave_offset;
-      break;
-    case PatternTable::slopes:
-      to_offset<SlopeRecord>(r.table, header.slope_offset);
-      break;
-    case PatternTable::pigments:
-      to_offset<PatternRecord>(r.table, header.pattern_offset);
-      break;
-    case PatternTable::objects:
-      to_offset<CsgRecord>(r.table, header.csg_offset);
-      break;
-    case PatternTable::none:
-      break;
-    }
-  }
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    switch (children_[i]) {
-    case Child::pattern:
-      to_offset<PatternRecord>(entries[i].child, header.pattern_offset);
-      break;
-    case Child::normal:
-      to_offset<NormalRecord>(entries[i].child, header.normal_offset);
-      break;
-    case Child::material:
-      to_offset<MaterialRecord>(entries[i].child, header.material_offset);
-      break;
-    case Child::none:
-      break;
-    }
-  for (RainbowRecord& r : rainbows)
-    to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
-  for (NormalRecord& r : normals)
-    to_offset<PatternRecord>(r.pattern, header.pattern_offset);
-  for (MaterialRecord& r : materials) {
-    to_offset<PatternRecord>(r.pattern, header.pattern_offset);
-    to_offset<NormalRecord>(r.normal, header.normal_offset);
-    to_offset<MaterialRecord>(r.below, header.material_offset);
-    to_offset<MaterialRecord>(r.inside, header.material_offset);
-    to_offset<FinishRecord>(r.finish, header.finish_offset);
-  }
 }
 
 } // namespace celltrace

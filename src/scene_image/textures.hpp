@@ -3,6 +3,7 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "scene_image/pattern_space.hpp"
 #include "scene_image/patterns.hpp"
 #include "scene_image/texture_sharing.hpp"
 
@@ -17,18 +18,6 @@ namespace celltrace {
 
 /// The sky sphere as a texture of layers; there is one.
 Material sky_of(const Scene& scene);
-
-kernel::TurbulenceWords words_of(const Turbulence& turbulence);
-
-/// Of the maps around a pattern: what comes between its own space and the scene, or the surface. In no map
-/// there is nothing.
-struct PatternSpace {
-  std::vector<SpaceStep> steps;
-  bool uv_mapping = false;
-  Transform of_normals; ///< with uv_mapping: from there to the scene
-
-  bool is_scene() const { return steps.empty() && !uv_mapping; }
-};
 
 /// References among the tables are indices until relocate() makes offsets of them; kNoOffset stays.
 class TextureTables {

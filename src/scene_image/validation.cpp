@@ -257,10 +257,9 @@ void validate_all_but_objects(const Scene& scene) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check(scene.lights[i], {"light", i});
   validate_light_groups(scene);
-  const SceneWithProjectors with_projectors(scene);
-  for (std::size_t i = scene.objects.size(); i < with_projectors.scene().objects.size(); ++i)
-    check_object(with_projectors.scene(), with_projectors.scene().objects[i],
-                 {"projector", i - scene.objects.size()}, 0);
+  if (const std::optional<Scene> with_projectors = add_projectors(scene, {Eye(), {}}))
+    for (std::size_t i = scene.objects.size(); i < with_projectors->objects.size(); ++i)
+      check_object(*with_projectors, with_projectors->objects[i], {"projector", i - scene.objects.size()}, 0);
   validate_textures(scene.materials);
   validate_sky(scene);
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)

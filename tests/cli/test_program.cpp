@@ -133,6 +133,30 @@ TEST_CASE("every key of the statistics is documented") {
   }
 }
 
+TEST_CASE("the program warns once of limits that a scene passes") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "boxes.pov", "camera { location <0, 9, 0.1> look_at 0 }\n"
+                                    "#declare I = 0;\n"
+                                    "#while (I < 34)\n"
+                                    "  box { <-1, -1, -1>, <1, 0, 1> pigment { rgb <1, I / 34, 0> } }\n"
+                                    "  #declare I = I + 1;\n"
+                                    "#end\n");
+  const std::string warning = "celltrace: warning: more than 32 faces in one plane";
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"+KFF3"}}) {
+    std::vector<std::string> arguments = {"boxes.pov", "-W", "16", "-H", "12", "--stats", "s.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = celltrace_run(folder, arguments);
+    CAPTURE(outcome.err);
+    CHECK(outcome.exit_code == 0);
+    const std::size_t found = outcome.err.find(warning);
+    REQUIRE(found != std::string::npos);
+    CHECK(outcome.err.find("warning", found + warning.size()) == std::string::npos);
+    nlohmann::json statistics = nlohmann::json::parse(read_bytes(folder / "s.json"));
+    if (statistics.is_array()) statistics = statistics[2];
+    CHECK(statistics["limits"][0]["limit"] == "coplanar_layers");
+  }
+}
+
 TEST_CASE("the page about keywords is what the program prints") {
   const TemporaryFolder folder;
   CHECK(celltrace_run(folder, {"--list-keywords"}).out ==

@@ -2,7 +2,7 @@
 #include "kernel/cameras/primary_rays.hpp"
 #include "lanes.hpp"
 #include "reference/camera.hpp"
-#include "render/frame_setup.hpp"
+#include "render/camera_setup.hpp"
 #include "scene_image/scene_image.hpp"
 
 #include <catch2/catch.hpp>

@@ -44,7 +44,9 @@ std::vector<Index> order_in(Object object) {
 }
 
 std::vector<std::size_t> order_of(const Scene& scene) {
-  return order_of_tests(scene, Eye(scene.camera), scene.objects.size(), CsgParts(scene, Eye(scene.camera)));
+  const Eye eye(scene.camera);
+  PassedLimits limits;
+  return order_of_tests(scene, eye, scene.objects.size(), CsgParts(scene, eye), limits);
 }
 
 } // namespace

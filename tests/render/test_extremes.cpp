@@ -591,13 +591,13 @@ TEST_CASE("Planes are in front of faces of boxes in them, and copies of one obje
   twice.add(matte({1, 1, 1}));
   lid.material = 0;
   twice.objects = {lid, lid};
-  CHECK_FALSE(SceneWithFacesApart(twice, {kernel::object_flag::opaque}, Eye(twice.camera)).has_moved());
-  twice.objects[1].material = twice.add(matte({1, 0, 0}));
   const std::vector<std::uint32_t> opaque(2, kernel::object_flag::opaque);
+  CHECK_FALSE(move_faces_apart(twice, {Eye(twice.camera), opaque}).has_value());
+  twice.objects[1].material = twice.add(matte({1, 0, 0}));
   twice.camera.location = {0, 5, -9};
-  const SceneWithFacesApart apart(twice, opaque, Eye(twice.camera));
-  REQUIRE(apart.has_moved());
-  const auto& moved = std::get<Box>(apart.scene().objects[0].shape); // of two objects the first one is seen
+  const std::optional<Scene> apart = move_faces_apart(twice, {Eye(twice.camera), opaque});
+  REQUIRE(apart.has_value());
+  const auto& moved = std::get<Box>(apart->objects[0].shape); // of two objects the first one is seen
   CHECK(moved.corner[1].y > 0);
   CHECK(moved.corner[1].y < 1e-4);
   CHECK(moved.corner[0].y == -1);

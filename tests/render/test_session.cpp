@@ -145,6 +145,34 @@ TEST_CASE("Objects that move, shrink and change their material are refitted into
   }
 }
 
+TEST_CASE("Where only boundaries of solids depend on the eye, a camera that moves has only these rewritten") {
+  Object box, rod;
+  box.shape = Box{{{-2, -1, -1}, {2, 1, 1}}};
+  rod.shape = Cylinder{{-3, 0, 0}, {2, 0, 0}, 1.2};
+  for (const TestBackend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Scene scene = many_spheres(40);
+    scene.objects.push_back(csg_object(Csg::Operation::intersection, {box, rod}));
+    Session session(scene, backend.options(kWidth, kHeight, 2));
+    check_next(session);
+    for (const double x : {3.0, -400.0, 0.0}) {
+      session.set_camera(camera_at({x, 2, -12}, {0, 0, 0}));
+      CHECK(check_next(session).statistics.preparation == Preparation::updated);
+    }
+    // Objects are where the last eye had them put, too.
+    session.set_transform(3, Transform::translate({0.5, 1, -0.5}));
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+    session.set_camera(camera_at({5, 2, -12}, {0, 0, 0}));
+    CHECK(check_next(session).statistics.preparation == Preparation::updated);
+    // Ends of what is cut out may be moved.
+    scene.objects.push_back(csg_object(Csg::Operation::difference, {rod, box}));
+    session.replace(scene);
+    check_next(session);
+    session.set_camera(camera_at({2, 2, -12}, {0, 0, 0}));
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+  }
+}
+
 TEST_CASE("Of a moved sphere of a thousand only its lines are fetched again") {
   const TestBackend emulated = backends().back();
   RenderOptions options = emulated.options(160, 120, 8);

@@ -1,0 +1,32 @@
+#include "prepare/passes.hpp"
+
+#include "prepare/coplanar_faces.hpp"
+#include "prepare/deep_cuts.hpp"
+#include "prepare/large_spheres.hpp"
+#include "prepare/projectors.hpp"
+
+#include <utility>
+
+namespace celltrace {
+
+std::span<const Pass> passes() {
+  static constexpr Pass kPasses[] = {
+      // Faces are compared where they end up: a cut that is too shallow is moved by more than faces of one
+      // plane are, and may come to lie in the plane of another object's face, or leave it.
+      deepen_cuts,
+      move_faces_apart,
+      // Spheres have no faces, so that their order among the passes before does not matter. Whoever comes
+      // behind this finds quadrics in the place of some.
+      centre_large_spheres,
+      // Rays never see projectors: no other pass is to spend time on them, or move faces because of them.
+      add_projectors,
+  };
+  return kPasses;
+}
+
+PreparedScene::PreparedScene(const Scene& scene, const PassContext& context) : given_(scene) {
+  for (const Pass pass : passes())
+    if (std::optional<Scene> changed = pass(this->scene(), context)) changed_ = std::move(changed);
+}
+
+} // namespace celltrace

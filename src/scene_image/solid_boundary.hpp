@@ -1,0 +1,23 @@
+// Boundaries of the solids of CSG, which depend on where rays start.
+#pragma once
+
+#include "kernel/records.hpp"
+#include "prepare/eye.hpp"
+#include "scene_image/shapes.hpp"
+
+#include <cstdint>
+
+namespace celltrace {
+
+/// A solid whose record is that of its shape with_boundary().
+struct SolidBoundary {
+  std::uint32_t solid; ///< its index among the solids
+  PlacedShape shape;   ///< without the boundary
+
+  void write(const Eye& eye, kernel::SolidRecord* solids) const;
+};
+
+/// Writes what a solid's record has of its shape.
+void write_shape(const PlacedShape& shape, kernel::SolidRecord& solid);
+
+} // namespace celltrace
