@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/transform.hpp"
-#include "kernel/records.hpp"
+#include "records/random_tables.hpp"
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,6 @@
 #include "celltrace/spe/simd.hpp"
 #include "kernel/math.hpp"
 #include "kernel/parts.hpp"
-#include "kernel/records.hpp"
 #include "kernel/scalar.hpp"
 #include "kernel/strategy.hpp"
 

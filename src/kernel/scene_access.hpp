@@ -2,10 +2,20 @@
 #pragma once
 
 #include "celltrace/cache.hpp"
-#include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/strategy.hpp"
 #include "kernel/traversal_stack.hpp"
+#include "records/accelerator.hpp"
+#include "records/atmosphere.hpp"
+#include "records/csg.hpp"
+#include "records/frame.hpp"
+#include "records/instance.hpp"
+#include "records/light.hpp"
+#include "records/material.hpp"
+#include "records/mesh.hpp"
+#include "records/object.hpp"
+#include "records/pattern.hpp"
+#include "records/report.hpp"
 
 #include <stddef.h>
 

@@ -4,7 +4,7 @@
 #include "celltrace/picture_limit.hpp"
 #include "celltrace/scene.hpp"
 #include "geometry/extent.hpp"
-#include "kernel/records.hpp"
+#include "records/object.hpp"
 #include "scene/build_watch.hpp"
 
 #include <algorithm>

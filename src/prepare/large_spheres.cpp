@@ -1,7 +1,7 @@
 #include "prepare/large_spheres.hpp"
 
-#include "kernel/records.hpp"
 #include "prepare/csg_leaves.hpp"
+#include "records/object.hpp"
 
 #include <cmath>
 #include <cstdint>

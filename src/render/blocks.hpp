@@ -4,8 +4,8 @@
 
 #include "celltrace/image.hpp"
 #include "celltrace/render.hpp"
-#include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
+#include "records/frame.hpp"
 
 namespace celltrace {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/direct/build_bvh_bounds.hpp"
-#include "kernel/records.hpp"
+#include "records/accelerator.hpp"
 
 #include <cstddef>
 #include <cstdint>

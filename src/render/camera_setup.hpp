@@ -2,7 +2,8 @@
 #pragma once
 
 #include "celltrace/render.hpp"
-#include "kernel/records.hpp"
+#include "records/camera.hpp"
+#include "records/frame.hpp"
 #include "scene_image/insides.hpp"
 #include "scene_image/scene_image.hpp"
 

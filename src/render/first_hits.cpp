@@ -1,6 +1,7 @@
 #include "render/first_hits.hpp"
 
 #include "celltrace/spe/byte_order.hpp"
+#include "records/material.hpp"
 
 #include <cstddef>
 #include <cstring>

@@ -3,8 +3,8 @@
 
 #include "celltrace/image.hpp"
 #include "celltrace/render.hpp"
-#include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
+#include "records/frame.hpp"
 #include "scene_image/scene_image.hpp"
 
 #include <bit>

@@ -3,7 +3,11 @@
 #pragma once
 
 #include "celltrace/spe/byte_order.hpp"
-#include "kernel/records.hpp"
+#include "records/accelerator.hpp"
+#include "records/camera.hpp"
+#include "records/frame.hpp"
+#include "records/report.hpp"
+#include "records/sampling.hpp"
 
 namespace celltrace::kernel {
 

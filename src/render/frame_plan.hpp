@@ -3,7 +3,7 @@
 
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
-#include "kernel/records.hpp"
+#include "records/frame.hpp"
 #include "render/picture_memory.hpp"
 #include "render/work_plan.hpp"
 

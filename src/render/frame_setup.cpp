@@ -3,6 +3,7 @@
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
 #include "kernel/strategy.hpp"
+#include "records/light_way.hpp"
 #include "render/picture_options.hpp"
 #include "render/quality.hpp"
 #include "scene_image/record_vectors.hpp"

@@ -3,7 +3,9 @@
 
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
-#include "kernel/records.hpp"
+#include "records/accelerator.hpp"
+#include "records/frame.hpp"
+#include "records/image.hpp"
 #include "scene_image/scene_image.hpp"
 
 namespace celltrace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "celltrace/render.hpp"
-#include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
+#include "records/frame.hpp"
 #include "render/first_hits.hpp"
 #include "render/unit_blocks.hpp"
 

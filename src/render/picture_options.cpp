@@ -2,7 +2,7 @@
 
 #include "celltrace/cache.hpp"
 #include "celltrace/error.hpp"
-#include "kernel/records.hpp"
+#include "records/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>

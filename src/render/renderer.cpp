@@ -1,8 +1,11 @@
 #include "celltrace/render.hpp"
 
 #include "celltrace/error.hpp"
-#include "kernel/records.hpp"
 #include "kernel/strategy.hpp"
+#include "records/accelerator.hpp"
+#include "records/frame.hpp"
+#include "records/report.hpp"
+#include "records/sampling.hpp"
 #include "render/frame_plan.hpp"
 #include "render/frame_setup.hpp"
 #include "render/machine_diagnostics.hpp"

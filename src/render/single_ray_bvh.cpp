@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/primitives/triangle.hpp"
 #include "memory/huge_pages.hpp"
+#include "records/accelerator.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,8 @@
 
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
-#include "kernel/records.hpp"
+#include "records/frame.hpp"
+#include "records/report.hpp"
 
 #include <span>
 #include <vector>

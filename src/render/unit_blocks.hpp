@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/render.hpp"
-#include "kernel/records.hpp"
+#include "records/frame.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/records.hpp"
+#include "records/csg.hpp"
 #include "scene_image/crossed_meshes.hpp"
 #include "scene_image/mesh_insides.hpp"
 #include "scene_image/shapes.hpp"

@@ -3,7 +3,7 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/aabb.hpp"
-#include "kernel/records.hpp"
+#include "records/csg.hpp"
 #include "scene_image/mesh_insides.hpp"
 #include "scene_image/shapes.hpp"
 #include "scene_image/solid_boundary.hpp"

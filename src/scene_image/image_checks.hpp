@@ -2,7 +2,7 @@
 // of these take the image's first byte and its header, and need each table to lie within the image.
 #pragma once
 
-#include "kernel/records.hpp"
+#include "records/image.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,17 @@
 #pragma once
 
 #include "celltrace/spe/byte_order.hpp"
-#include "kernel/records.hpp"
+#include "records/accelerator.hpp"
+#include "records/atmosphere.hpp"
+#include "records/csg.hpp"
+#include "records/image.hpp"
+#include "records/instance.hpp"
+#include "records/light.hpp"
+#include "records/material.hpp"
+#include "records/mesh.hpp"
+#include "records/object.hpp"
+#include "records/pattern.hpp"
+#include "records/random_tables.hpp"
 
 namespace celltrace::kernel {
 

@@ -1,6 +1,7 @@
 #include "scene_image/image_layout.hpp"
 
 #include "celltrace/error.hpp"
+#include "records/light_way.hpp"
 #include "scene_image/image_fields.hpp"
 #include "scene_image/interior_records.hpp"
 #include "scene_image/scene_image.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/records.hpp"
+#include "records/image.hpp"
 #include "scene_image/instanced_meshes.hpp"
 #include "scene_image/light_sets.hpp"
 #include "scene_image/mesh_instances.hpp"

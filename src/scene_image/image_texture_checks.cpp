@@ -1,6 +1,7 @@
 // What the tables of textures in a scene image have to be.
 #include "kernel/textures/list.hpp"
 #include "kernel/textures/map_walk.hpp"
+#include "records/light_way.hpp"
 #include "scene_image/image_checks.hpp"
 #include "scene_image/patterns.hpp"
 

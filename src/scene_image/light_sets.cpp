@@ -1,7 +1,7 @@
 #include "scene_image/light_sets.hpp"
 
 #include "celltrace/error.hpp"
-#include "kernel/records.hpp"
+#include "records/object.hpp"
 
 #include <algorithm>
 #include <string>

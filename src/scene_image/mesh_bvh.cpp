@@ -1,5 +1,6 @@
 #include "scene_image/mesh_bvh.hpp"
 
+#include "records/instance.hpp"
 #include "scene/build_watch.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/aabb.hpp"
-#include "kernel/records.hpp"
+#include "records/accelerator.hpp"
 
 #include <cstdint>
 #include <span>

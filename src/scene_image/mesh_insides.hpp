@@ -3,7 +3,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/records.hpp"
+#include "records/mesh.hpp"
 
 #include <cstdint>
 #include <unordered_map>

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/records.hpp"
+#include "records/accelerator.hpp"
+#include "records/object.hpp"
 #include "scene_image/instanced_meshes.hpp"
 #include "scene_image/mesh_prototype.hpp"
 #include "scene_image/object_records.hpp"

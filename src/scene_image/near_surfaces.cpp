@@ -2,7 +2,7 @@
 
 #include "geometry/object_extents.hpp"
 #include "kernel/primitives/crossings.hpp"
-#include "kernel/records.hpp"
+#include "records/object.hpp"
 #include "scene/build_watch.hpp"
 
 #include <algorithm>

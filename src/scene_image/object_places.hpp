@@ -1,7 +1,6 @@
 // Where the objects that are no instances lie in a scene image: in an order of their own, or where they were.
 #pragma once
 
-#include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
 #include "scene_image/object_order.hpp"
 #include "scene_image/object_records.hpp"

@@ -3,7 +3,9 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/accel/object_bounds.hpp"
-#include "kernel/records.hpp"
+#include "records/material.hpp"
+#include "records/object.hpp"
+#include "records/offsets.hpp"
 #include "scene_image/interior_records.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/texture.hpp"
-#include "kernel/records.hpp"
+#include "records/pattern.hpp"
 
 #include <cstdint>
 

@@ -11,10 +11,12 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/records.hpp"
 #include "memory/aligned_block.hpp"
 #include "prepare/eye.hpp"
 #include "prepare/pass.hpp"
+#include "records/image.hpp"
+#include "records/instance.hpp"
+#include "records/object.hpp"
 #include "scene_image/object_form.hpp"
 #include "scene_image/solid_boundary.hpp"
 

@@ -1,5 +1,13 @@
 // Scene images as bytes: out with a checksum, in with distrust.
 #include "celltrace/error.hpp"
+#include "celltrace/spe/types.hpp"
+#include "records/accelerator.hpp"
+#include "records/atmosphere.hpp"
+#include "records/light.hpp"
+#include "records/material.hpp"
+#include "records/mesh.hpp"
+#include "records/pattern.hpp"
+#include "records/random_tables.hpp"
 #include "scene_image/image_checks.hpp"
 #include "scene_image/scene_image.hpp"
 

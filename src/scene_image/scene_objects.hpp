@@ -4,8 +4,8 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/records.hpp"
 #include "prepare/pass.hpp"
+#include "records/object.hpp"
 #include "scene_image/csg_parts.hpp"
 #include "scene_image/instanced_meshes.hpp"
 #include "scene_image/mesh_instances.hpp"

@@ -4,7 +4,6 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/aabb.hpp"
-#include "kernel/records.hpp"
 #include "prepare/eye.hpp"
 
 namespace celltrace {

@@ -1,8 +1,8 @@
 // Boundaries of the solids of CSG, which depend on where rays start.
 #pragma once
 
-#include "kernel/records.hpp"
 #include "prepare/eye.hpp"
+#include "records/csg.hpp"
 #include "scene_image/shapes.hpp"
 
 #include <cstdint>

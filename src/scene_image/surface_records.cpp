@@ -1,6 +1,7 @@
 #include "scene_image/surface_records.hpp"
 
 #include "kernel/lights/list.hpp"
+#include "records/offsets.hpp"
 #include "scene_image/pattern_space.hpp"
 #include "scene_image/record_vectors.hpp"
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/records.hpp"
+#include "records/atmosphere.hpp"
+#include "records/light.hpp"
+#include "records/material.hpp"
 
 namespace celltrace {
 

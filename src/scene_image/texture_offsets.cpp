@@ -1,4 +1,6 @@
 // Offsets in the image in the place of indices.
+#include "records/csg.hpp"
+#include "records/offsets.hpp"
 #include "scene_image/textures.hpp"
 
 namespace celltrace {

@@ -2,7 +2,11 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/records.hpp"
+#include "records/atmosphere.hpp"
+#include "records/image.hpp"
+#include "records/material.hpp"
+#include "records/pattern.hpp"
+#include "records/random_tables.hpp"
 #include "scene_image/pattern_space.hpp"
 #include "scene_image/patterns.hpp"
 #include "scene_image/texture_sharing.hpp"

@@ -1,8 +1,8 @@
 // Records of the scene image as tests want them.
 #pragma once
 
-#include "kernel/records.hpp"
 #include "lanes.hpp"
+#include "records/object.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,7 @@
 // Streams and the radix sort through local store, with counts around the borders of chunks and lines.
 #include "kernel/entry/strategies.hpp"
-#include "kernel/records.hpp"
+#include "records/accelerator.hpp"
+#include "records/object.hpp"
 #include "scene_image/scene_image.hpp"
 #include "spe/run_on.hpp"
 

@@ -4,6 +4,7 @@
 #include "celltrace/image.hpp"
 #include "celltrace/pov.hpp"
 #include "models/models.hpp"
+#include "records/light_way.hpp"
 #include "render/scenes.hpp"
 #include "scene_image/scene_image.hpp"
 

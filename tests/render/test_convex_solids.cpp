@@ -1,5 +1,5 @@
 // What CSG makes of planes and boxes becomes boxes or meshes, where that is convex.
-#include "kernel/records.hpp"
+#include "records/object.hpp"
 #include "render/scenes.hpp"
 #include "scene_image/csg_parts.hpp"
 

@@ -2,6 +2,7 @@
 #include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
 #include "prepare/coplanar_faces.hpp"
+#include "records/light_way.hpp"
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"

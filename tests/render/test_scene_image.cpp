@@ -2,6 +2,9 @@
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
 #include "kernel/lights/list.hpp"
+#include "records/atmosphere.hpp"
+#include "records/material.hpp"
+#include "records/mesh.hpp"
 #include "render/image_bytes.hpp"
 #include "render/scenes.hpp"
 

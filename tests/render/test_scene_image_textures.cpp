@@ -1,6 +1,7 @@
 // SceneImage: the records of textures.
 #include "celltrace/error.hpp"
 #include "kernel/textures/list.hpp"
+#include "records/light_way.hpp"
 #include "render/image_bytes.hpp"
 #include "render/scenes.hpp"
 

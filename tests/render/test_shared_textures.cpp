@@ -1,5 +1,6 @@
 // Textures that many objects have, each at another place: what is in their maps is in the image once.
 #include "celltrace/image.hpp"
+#include "records/pattern.hpp"
 #include "render/backends.hpp"
 #include "render/image_bytes.hpp"
 #include "render/scenes.hpp"

@@ -6,6 +6,8 @@
 #include "kernel/accel/prepare_result.hpp"
 #include "kernel/accel/radix_sort.hpp"
 #include "kernel/accel/stream.hpp"
+#include "records/frame.hpp"
+#include "records/offsets.hpp"
 
 namespace celltrace::kernel {
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernel/packet.hpp"
+#include "records/accelerator.hpp"
 
 #include <stdint.h>
 

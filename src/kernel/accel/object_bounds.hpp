@@ -2,8 +2,9 @@
 #pragma once
 
 #include "kernel/primitives/list.hpp"
-#include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
+#include "records/accelerator.hpp"
+#include "records/object.hpp"
 
 namespace celltrace::kernel {
 

@@ -3,6 +3,7 @@
 
 #include "kernel/math.hpp"
 #include "kernel/packet.hpp"
+#include "records/camera.hpp"
 
 namespace celltrace::kernel {
 

@@ -4,6 +4,9 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/cameras/list.hpp"
 #include "kernel/modules.hpp"
+#include "records/frame.hpp"
+#include "records/offsets.hpp"
+#include "records/sampling.hpp"
 
 #include <type_traits>
 

@@ -8,6 +8,7 @@
 
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/tuning.hpp"
+#include "records/light.hpp"
 
 namespace celltrace::kernel {
 

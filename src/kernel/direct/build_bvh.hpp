@@ -5,6 +5,7 @@
 #include "kernel/direct/build_bvh_leaves.hpp"
 #include "kernel/direct/build_bvh_memory.hpp"
 #include "kernel/strategy.hpp"
+#include "records/frame.hpp"
 
 namespace celltrace::kernel {
 

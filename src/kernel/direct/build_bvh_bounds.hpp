@@ -4,7 +4,8 @@
 
 #include "kernel/accel/object_bounds.hpp"
 #include "kernel/math.hpp"
-#include "kernel/records.hpp"
+#include "records/object.hpp"
+#include "records/offsets.hpp"
 
 #include <stdint.h>
 

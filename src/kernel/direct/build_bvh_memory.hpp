@@ -3,6 +3,7 @@
 
 #include "kernel/direct/build_bvh_plan.hpp"
 #include "kernel/direct/build_bvh_treelets.hpp"
+#include "records/frame.hpp"
 
 namespace celltrace::kernel::bvh {
 

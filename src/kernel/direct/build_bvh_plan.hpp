@@ -1,7 +1,7 @@
 // What the PPE has to know of a BVH build: the number of SPEs, the steps, and the memory. Kernel dialect.
 #pragma once
 
-#include "kernel/records.hpp"
+#include "celltrace/spe/types.hpp"
 #include "kernel/tuning.hpp"
 
 #include <stdint.h>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernel/direct/build_bvh_subtree.hpp"
+#include "records/frame.hpp"
 
 namespace celltrace::kernel::bvh {
 

@@ -12,6 +12,7 @@
 #include "kernel/direct/sky_queue.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/lighting.hpp"
+#include "records/light_way.hpp"
 
 namespace celltrace::kernel {
 

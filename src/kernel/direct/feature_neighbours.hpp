@@ -6,7 +6,7 @@
 // apart, see neighbours_of_lanes.hpp.
 #pragma once
 
-#include "kernel/records.hpp"
+#include "records/random_tables.hpp"
 
 #include <stdint.h>
 

@@ -3,7 +3,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/streams.hpp"
-#include "kernel/records.hpp"
+#include "records/report.hpp"
 
 namespace celltrace::kernel {
 

@@ -11,6 +11,7 @@
 #include "kernel/math.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/textures/features.hpp"
+#include "records/random_tables.hpp"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -2,8 +2,6 @@
 // It is made of what the leaves of the BVH for packets have, which suit sixteen lanes.
 #pragma once
 
-#include "kernel/records.hpp"
-
 #include <stdint.h>
 
 namespace celltrace::kernel {

@@ -10,6 +10,8 @@
 #include "kernel/lights/incident_light.hpp"
 #include "kernel/lights/list.hpp"
 #include "kernel/modules.hpp"
+#include "records/frame.hpp"
+#include "records/light.hpp"
 
 namespace celltrace::kernel {
 

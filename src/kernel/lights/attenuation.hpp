@@ -2,8 +2,8 @@
 #pragma once
 
 #include "kernel/math.hpp"
-#include "kernel/records.hpp"
 #include "kernel/strategy.hpp"
+#include "records/light.hpp"
 
 namespace celltrace::kernel {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/lights/incident_light.hpp"
+#include "records/light.hpp"
 
 namespace celltrace::kernel {
 

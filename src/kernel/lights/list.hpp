@@ -12,6 +12,8 @@
 #include "kernel/lights/point.hpp"
 #include "kernel/lights/spotlight.hpp"
 #include "kernel/type_list.hpp"
+#include "records/frame.hpp"
+#include "records/light_way.hpp"
 
 namespace celltrace::kernel {
 

@@ -3,6 +3,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/lights/incident_light.hpp"
+#include "records/light.hpp"
 
 namespace celltrace::kernel {
 

@@ -4,7 +4,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/local/streams.hpp"
-#include "kernel/records.hpp"
+#include "records/report.hpp"
 
 namespace celltrace::kernel {
 

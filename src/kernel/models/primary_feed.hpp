@@ -5,6 +5,7 @@
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/models/job_sender.hpp"
 #include "kernel/models/model_work.hpp"
+#include "records/report.hpp"
 
 namespace celltrace::kernel::models {
 

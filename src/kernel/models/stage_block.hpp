@@ -2,6 +2,7 @@
 // render/models/stage_fields.hpp. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/types.hpp"
 #include "kernel/packet.hpp"
 
 namespace celltrace::kernel::models {

@@ -12,6 +12,7 @@
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
 #include "kernel/traversal_stack.hpp"
+#include "records/image.hpp"
 
 #include <stddef.h>
 #include <string.h>

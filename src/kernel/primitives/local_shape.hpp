@@ -14,8 +14,8 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/aabb.hpp"
 #include "kernel/primitives/crossings.hpp"
-#include "kernel/records.hpp"
 #include "kernel/scalar.hpp"
+#include "records/object.hpp"
 
 namespace celltrace::kernel {
 

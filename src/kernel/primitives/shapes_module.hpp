@@ -6,6 +6,7 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/primitives/list.hpp"
+#include "records/csg.hpp"
 
 namespace celltrace::kernel {
 

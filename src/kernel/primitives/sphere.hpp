@@ -3,8 +3,8 @@
 
 #include "kernel/aabb.hpp"
 #include "kernel/primitives/crossings.hpp"
-#include "kernel/records.hpp"
 #include "kernel/scalar.hpp"
+#include "records/object.hpp"
 
 namespace celltrace::kernel {
 

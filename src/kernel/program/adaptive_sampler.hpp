@@ -4,6 +4,8 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/program/pixel_sampler.hpp"
+#include "records/frame.hpp"
+#include "records/sampling.hpp"
 
 namespace celltrace::kernel {
 

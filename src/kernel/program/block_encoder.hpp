@@ -8,6 +8,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/packet.hpp"
+#include "records/sampling.hpp"
 
 namespace celltrace::kernel {
 

@@ -8,6 +8,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/program/pixel_sampler.hpp"
+#include "records/frame.hpp"
 
 namespace celltrace::kernel {
 

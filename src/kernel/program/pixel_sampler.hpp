@@ -9,6 +9,8 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/program/pixel_writer.hpp"
+#include "records/frame.hpp"
+#include "records/light_way.hpp"
 
 namespace celltrace::kernel {
 

@@ -8,6 +8,7 @@
 #include "kernel/modules.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/program/block_encoder.hpp"
+#include "records/frame.hpp"
 
 namespace celltrace::kernel {
 

@@ -5,7 +5,8 @@
 #include "celltrace/balance/strip.hpp"
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
-#include "kernel/records.hpp"
+#include "records/frame.hpp"
+#include "records/report.hpp"
 
 namespace celltrace::kernel {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/spe/types.hpp"
-#include "kernel/records.hpp"
+#include "records/frame.hpp"
 
 namespace celltrace::kernel {
 

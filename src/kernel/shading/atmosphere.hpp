@@ -11,6 +11,7 @@
 #include "kernel/textures/angles.hpp"
 #include "kernel/textures/noise.hpp"
 #include "kernel/textures/sky.hpp"
+#include "records/light_way.hpp"
 
 namespace celltrace::kernel {
 

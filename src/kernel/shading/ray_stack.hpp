@@ -3,6 +3,7 @@
 
 #include "kernel/packet.hpp"
 #include "kernel/strategy.hpp"
+#include "records/frame.hpp"
 
 namespace celltrace::kernel {
 

@@ -6,6 +6,7 @@
 #include "kernel/shading/hit_points.hpp"
 #include "kernel/textures/angles.hpp"
 #include "kernel/textures/pattern_points.hpp"
+#include "records/light_way.hpp"
 
 namespace celltrace::kernel {
 

@@ -5,6 +5,7 @@
 #include "kernel/packet.hpp"
 #include "kernel/textures/features.hpp"
 #include "kernel/textures/pattern_traits.hpp"
+#include "records/random_tables.hpp"
 
 namespace celltrace::kernel {
 

@@ -3,6 +3,7 @@
 
 #include "kernel/math.hpp"
 #include "kernel/scene_access.hpp"
+#include "records/random_tables.hpp"
 
 namespace celltrace::kernel {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
-#include "kernel/records.hpp"
+#include "records/pattern.hpp"
 
 namespace celltrace::kernel {
 

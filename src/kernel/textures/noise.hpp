@@ -7,8 +7,8 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "celltrace/spe/simd.hpp"
 #include "kernel/math.hpp"
-#include "kernel/records.hpp"
 #include "kernel/textures/noise_tables.hpp"
+#include "records/pattern.hpp"
 
 namespace celltrace::kernel::noise {
 

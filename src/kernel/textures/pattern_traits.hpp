@@ -1,8 +1,6 @@
 // What patterns derive from: how the stages of textures treat them. Kernel dialect.
 #pragma once
 
-#include "kernel/records.hpp"
-
 namespace celltrace::kernel {
 
 /// Where in local store a pattern's code is: always there, for little code that scenes are full of; in the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/textures/pattern_traits.hpp"
+#include "records/pattern.hpp"
 
 namespace celltrace::kernel {
 

@@ -3,6 +3,7 @@
 
 #include "kernel/math.hpp"
 #include "kernel/textures/pattern_traits.hpp"
+#include "records/pattern.hpp"
 
 namespace celltrace::kernel {
 

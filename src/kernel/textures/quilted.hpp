@@ -3,6 +3,7 @@
 
 #include "kernel/textures/lattice.hpp"
 #include "kernel/textures/pattern_traits.hpp"
+#include "records/pattern.hpp"
 
 namespace celltrace::kernel {
 

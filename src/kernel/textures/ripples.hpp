@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/textures/running_waves.hpp"
+#include "records/random_tables.hpp"
 
 namespace celltrace::kernel {
 

@@ -4,6 +4,7 @@
 #include "kernel/math.hpp"
 #include "kernel/scene_access.hpp"
 #include "kernel/textures/pattern_traits.hpp"
+#include "records/random_tables.hpp"
 
 namespace celltrace::kernel {
 

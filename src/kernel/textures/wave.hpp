@@ -3,7 +3,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/math.hpp"
-#include "kernel/records.hpp"
+#include "records/pattern.hpp"
 
 namespace celltrace::kernel {
 

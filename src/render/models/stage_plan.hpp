@@ -3,6 +3,7 @@
 
 #include "celltrace/render.hpp"
 #include "kernel/models/stage_block.hpp"
+#include "records/accelerator.hpp"
 
 #include <cstdint>
 #include <vector>

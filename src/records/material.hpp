@@ -1,0 +1,106 @@
+// Materials: what is at the surface of objects, and behind it. Kernel dialect.
+#pragma once
+
+#include <stdint.h>
+
+namespace celltrace::kernel {
+
+/// A normal: adds a disturbance to the normals of surfaces, which the linear map takes to the pattern's
+/// space.
+struct alignas(64) NormalRecord {
+  uint32_t pattern; ///< offset of a PatternRecord
+  /// 0 or 1: the pattern's entries are NormalRecords, and what follows means nothing. 0: if the pattern has
+  /// entries, they are a slope map.
+  uint32_t is_mapped;
+  float amount;
+  float accuracy;  ///< distance at which slopes are measured
+  float linear[9]; ///< three rows
+  uint32_t unused[3];
+};
+static_assert(sizeof(NormalRecord) == 64, "two a line");
+
+namespace material_flag {
+constexpr uint32_t fresnel = 0x1;
+constexpr uint32_t conserve_energy = 0x2;
+constexpr uint32_t patterned = 0x4; ///< `pattern` says what the pigment is
+constexpr uint32_t disturbed = 0x8; ///< has a normal
+constexpr uint32_t layered = 0x10;  ///< has a layer below
+constexpr uint32_t mapped = 0x20;   ///< a texture map: `pattern` has MaterialRecords, all else means nothing
+constexpr uint32_t old_opacity =
+    0x40; ///< filtered light is counted by the brightest channel, as before version 3.7
+// What the numbers of a record ask for: where a flag is not set, numbers that only it concerns are not read.
+constexpr uint32_t bends_diffuse = 0x80; ///< brilliance is not 1
+constexpr uint32_t phong = 0x100;
+constexpr uint32_t specular = 0x200;
+constexpr uint32_t highlights = phong | specular;
+constexpr uint32_t metallic = 0x400; ///< of highlights
+constexpr uint32_t reflects = 0x800;
+constexpr uint32_t metallic_mirror = 0x1000;
+constexpr uint32_t falloff = 0x2000;          ///< of reflection is not 1
+constexpr uint32_t bends_reflection = 0x4000; ///< its exponent is not 1
+constexpr uint32_t transmits = 0x8000;        ///< by its constants; a pattern may do so as well
+} // namespace material_flag
+
+/// A texture or one layer of it: pigment, normal and finish, with what is constant per frame computed
+/// beforehand.
+struct alignas(128) MaterialRecord {
+  float pigment[3];
+  float filter;
+  float transmit;
+  float opacity;
+  float ambient[3]; ///< finish ambient times the scene's ambient light, plus emission
+  float diffuse;
+  float brilliance;
+  float phong;
+  float phong_size;
+  float specular;
+  float inverse_roughness;
+  float metallic;
+  float reflection_min[3];
+  float reflection_max[3];
+  float reflection_falloff;
+  float reflection_metallic;
+  float inverse_reflection_exponent;
+  uint32_t flags;
+  uint32_t pattern;     ///< offset of a PatternRecord
+  uint32_t normal;      ///< offset of a NormalRecord
+  uint32_t below;       ///< offset of the layer's MaterialRecord
+  uint32_t finish;      ///< offset of a FinishRecord, or kNoOffset
+  uint32_t inside;      ///< two_sided objects: offset of the MaterialRecord that is seen from inside
+  float diffuse_behind; ///< of light that falls on the other side
+};
+static_assert(sizeof(MaterialRecord) == 128, "one material a line");
+
+/// A face whose vertices have different materials, blended by barycentric coordinates.
+struct alignas(16) BlendRecord {
+  uint32_t material[3];
+  uint32_t unused;
+};
+static_assert(sizeof(BlendRecord) == 16, "crosses DMA");
+
+/// What few finishes have.
+struct alignas(32) FinishRecord {
+  float crand;
+  float irid;
+  float irid_thickness;
+  float irid_turbulence;
+  float inverse_wavelength[3];
+  uint32_t first_generator; ///< 0 or 1: of noise, as pattern_flag's
+};
+static_assert(sizeof(FinishRecord) == 32, "four a line");
+
+struct alignas(32) InteriorRecord {
+  float ior;
+  /// What transmitted light is multiplied by at its surfaces; with the other sign, where there is fog in it.
+  float signed_refraction;
+  float inverse_fade_distance; ///< 0: it does not fade
+  float fade_power;            ///< from 1000 on: exponentially
+  float fade_colour[3];
+  float caustics; ///< exponent; 0: none
+
+  bool is_hollow() const { return __builtin_signbit(signed_refraction) != 0; }
+  float refraction() const { return __builtin_fabsf(signed_refraction); }
+};
+static_assert(sizeof(InteriorRecord) == 32, "four a line");
+
+} // namespace celltrace::kernel
