@@ -1,7 +1,7 @@
 # Compiles SPE programs for every SPU type of the build.
 #
 #   celltrace_spe_program(NAME [HOT] [LEVEL -On] SOURCE entry.cpp [SPUS types...] [CODE_BYTES n STACK_BYTES n]
-#     [SPU_HEADER kernel.hpp SPU_KERNEL qualified::function [SPU_ARENA bytes] [SPU_MODULES script.ld]] [LINK targets...])
+#     [SPU_HEADER kernel.hpp SPU_KERNEL qualified::function [SPU_ARENA bytes] [SPU_MODULES modules.hpp]] [LINK targets...])
 #
 # makes the static library celltrace_NAME_program. CODE_BYTES (with data) and STACK_BYTES are what the program takes of
 # a real SPE's local store; celltrace_spu_budget_test() of the same name holds them against the real build. HOT: what

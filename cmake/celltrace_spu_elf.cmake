@@ -1,6 +1,6 @@
 # Compiles kernels for the real SPU with CELLTRACE_SPU_GXX.
 #
-#   celltrace_spu_elf(NAME HEADER kernel.hpp KERNEL qualified::function [ARENA bytes] [MODULES script.ld])
+#   celltrace_spu_elf(NAME HEADER kernel.hpp KERNEL qualified::function [ARENA bytes] [MODULES modules.hpp])
 #
 # makes the target celltrace_spu_NAME, part of `all`: NAME.elf, NAME.map (the linker's map, with the stack that every
 # function needs) and NAME.stack.txt in the current binary directory. The header is looked for in the current source
@@ -53,9 +53,16 @@ function(celltrace_spu_elf name)
     DEPENDS ${main} DEPFILE ${base}.d
     COMMENT "Compiling ${name} for the SPU" VERBATIM)
   set(modules "")
+  set(modules_script "")
   if(ELF_MODULES)
+    set(modules_script ${base}.modules.ld)
+    set(maker ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/celltrace_modules.cmake)
+    add_custom_command(
+      OUTPUT ${modules_script}
+      COMMAND ${CMAKE_COMMAND} -DHEADER=${ELF_MODULES} -DSCRIPT=${modules_script} -P ${maker}
+      DEPENDS ${ELF_MODULES} ${maker} COMMENT "Making the linker script of ${name}'s code modules" VERBATIM)
     set(modules ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/modules.S
-      -Wl,-T,${ELF_MODULES} -Wl,-u,__ovly_load -Wl,-u,__ovly_return
+      -Wl,-T,${modules_script} -Wl,-u,__ovly_load -Wl,-u,__ovly_return
       -Wl,--emit-stub-syms) # stubs are made when unused sections are gone
   endif()
   add_custom_command(
@@ -63,7 +70,7 @@ function(celltrace_spu_elf name)
     BYPRODUCTS ${base}.map ${base}.stack.txt
     COMMAND ${CELLTRACE_SPU_GXX} -Wl,--gc-sections -Wl,--stack-analysis -Wl,-Map,${base}.map ${modules}
       ${name}.o -o ${name}.elf > ${name}.stack.txt # whose name as given here becomes part of it
-    DEPENDS ${base}.o ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/modules.S ${ELF_MODULES} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
+    DEPENDS ${base}.o ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/modules.S ${modules_script} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
     COMMENT "Linking ${name} for the SPU" VERBATIM)
   add_custom_target(celltrace_spu_${name} ALL DEPENDS ${base}.elf)
   set_target_properties(celltrace_spu_${name} PROPERTIES CELLTRACE_BASE ${base} CELLTRACE_ARENA ${ELF_ARENA}
@@ -89,7 +96,6 @@ function(celltrace_spu_budget_test test name)
   get_target_property(base celltrace_spu_${name} CELLTRACE_BASE)
   get_target_property(arena celltrace_spu_${name} CELLTRACE_ARENA)
   get_target_property(modules celltrace_spu_${name} CELLTRACE_MODULES)
-  string(REGEX REPLACE "\\.ld$" ".hpp" modules "${modules}")
   cmake_parse_arguments(TEST "" "FREE" "" ${ARGN})
   set(check ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/check_budget.cmake)
   get_property(said_code GLOBAL PROPERTY CELLTRACE_${name}_CODE_BYTES)

@@ -1,91 +1,181 @@
 // The tracer's code modules, of three regions. In each lies what never runs together. Kernel dialect.
 //
-// Which functions a module has, modules.ld says. The tests of the programs' budgets check that each number is
-// one module's, and that none takes more than its `bytes`.
+// Below each module stand its functions, of which cmake/celltrace_modules.cmake makes the SPU's linker
+// script. A class stands for all of its functions, a namespace for all in it; `Name<>` is a template with any
+// arguments, `Name<Type>`, `Name<3u>` and `Name<Enumeration(2)>` have these among them; `*Name` ends in Name;
+// `data:` begins with whose constants go along. Of two modules that name a function the first has it, so that
+// what names a part of another module stands before it. A module calls resident code, itself, and modules of
+// the other regions if these call none of its own. The tests of the programs' budgets check that each number
+// is one module's, that none takes more than its `bytes`, and that none calls another of its region.
 #pragma once
 
 #include "celltrace/spe/code_module.hpp"
 
 namespace celltrace::kernel::modules {
 
-// Of the first region: what asks no other module.
+// The first region: what asks no other module.
 
 /// Intersections with the shapes that are no spheres, triangles and planes, and what is inside of shapes,
 /// which CSG asks; but for heavy ones.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
-/// What a program does once a frame or once for many: it makes its objects, and reports.
-constexpr CodeModule kStart = {"start", 3, 0, 12800};
-/// The building of accelerators.
-constexpr CodeModule kBuild = {"build", 16, 0, 21504};
+//   module_shapes, inside_local, drop_start, *SlabInterval, LocalPrimitive<BoxPrimitive>,
+//   LocalPrimitive<ConePrimitive>, LocalPrimitive<CylinderPrimitive>, LocalPrimitive<DiscPrimitive>,
+//   LocalPrimitive<EllipsoidPrimitive>, LocalPrimitive<PolygonPrimitive>, BoxPrimitive::intersect_local,
+//   ConePrimitive::intersect_local, CylinderPrimitive::intersect_local, DiscPrimitive::intersect_local,
+//   EllipsoidPrimitive::intersect_local, PolygonPrimitive::intersect_local
+
+/// Patterns that few scenes have, many of which read tables of the scene image.
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14464};
+//   module_rare, CracklePattern, ObjectPattern, *GradientNoise; data: *GradientNoise, CracklePattern.cst16,
+//   module_rare
+
+/// Warps but for turbulence.
+constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
+//   module_warps
+
+/// What patterns ask of surfaces besides points.
+constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3968};
+//   find_surface_lanes, surface_coordinates_of; data: find_surface_lanes, surface_coordinates_of
+
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
+//   module_patterns, value_of<PatternCode(1)>, *Pattern::value
+
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
-/// What becomes of the points of antialiased pictures, and which samples they need besides: by the fixed
-/// method, by the adaptive one, and either with alpha.
-constexpr CodeModule kSampling = {"sampling", 18, 0, 13056};
-constexpr CodeModule kSquares = {"squares", 28, 0, 9984};
-constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 13056};
-constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 10624};
-/// What primary rays hit, for main memory.
-constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 1408};
+//   module_noise, value_of<PatternCode(2)>, kernel::noise; data: kernel::noise
 
 /// What insides take of light, and how clear they are; and mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 3968};
-/// Patterns that few scenes have, many of which read tables of the scene image.
-constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14464};
-/// What patterns ask of surfaces besides points.
-constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3968};
-/// Warps but for turbulence.
-constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
+//   RayTree<>::gather, RayTree<>::redirect, RayTree<>::fade_child, kernel::fade<>, kernel::is_inside
 
-// Of the second region: what shades, and asks patterns.
+/// What a program does once a frame or once for many: it makes its objects, and reports.
+constexpr CodeModule kStart = {"start", 3, 0, 12800};
+//   Tracer<>::Tracer, Tracer<>::start_phase, Tracer<>::begin_frame, Tracer<>::end_frame,
+//   Tracer<>::synchronize
+
+/// What becomes of the points of antialiased pictures, and which samples they need besides: by the fixed
+/// method, by the adaptive one, and either with alpha.
+constexpr CodeModule kSampling = {"sampling", 18, 0, 13056};
+//   PixelSampler<SamplingMethod(1), 3u>, FixedSampler<3u>
+
+constexpr CodeModule kSquares = {"squares", 28, 0, 9984};
+//   PixelSampler<SamplingMethod(2), 3u>, AdaptiveSampler<3u>
+
+constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 13056};
+//   PixelSampler<SamplingMethod(1), 4u>, FixedSampler<4u>
+
+constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 10624};
+//   PixelSampler<SamplingMethod(2), 4u>, AdaptiveSampler<4u>
+
+/// What primary rays hit, for main memory.
+constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 1408};
+//   BundleTracer<>::put_first_hits
+
+/// The building of accelerators.
+constexpr CodeModule kBuild = {"build", 16, 0, 21504};
+//   Tracer<>::prepare, *build_grid, *emit_pairs, *write_lists, *RadixSort, *LocalSortTarget,
+//   *for_each_voxel, kernel::bounding_box, *bounds_in_world, kernel::overlaps, *_overlaps, *StreamReader,
+//   *StreamWriter
+
+// The second region: what shades, and asks patterns.
 
 /// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
 constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8960};
+//   module_heavy, LocalPrimitive<TorusPrimitive>, TorusPrimitive::intersect_local, TorusPrimitive::Quartic,
+//   LocalPrimitive<QuadricPrimitive>, QuadricPrimitive::intersect_local,
+//   LocalPrimitive<SuperellipsoidPrimitive>, SuperellipsoidPrimitive::intersect_local,
+//   SuperellipsoidPrimitive::Line
+
 /// What is inside of shapes whose equations have powers, and the normals of these.
 constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
+//   module_heavy_points
+
 /// What is inside of meshes, and which crossings CSG sees of those without an inside. Likewise: where CSG has
 /// meshes, it asks both by turns.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 4864};
+//   module_meshes
+
 /// Where crossings are in polygons. Likewise, beside the shapes.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
+//   module_polygons
+
 /// Instances of meshes. Likewise.
 constexpr CodeModule kInstances = {"instances", 35, 1, 7808};
-/// Rays that go on from surfaces.
-constexpr CodeModule kSecondary = {"secondary", 2, 1, 8832};
+//   module_instances
+
 /// Light that is not simply a point's.
 constexpr CodeModule kLights = {"lights", 6, 1, 4864};
+//   module_lights, SpotLight::way_off, CylinderLight::way_off, kernel::beam_share, kernel::fade_share,
+//   kernel::make_parallel, kernel::aim_parallel
+
 /// The sampling of lights that have an area.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9472};
+//   module_areas, kernel::AreaShadow; data: kJitterX, kJitterY
+
 /// The rays of cameras whose pictures are not flat, or which are far away.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 7808};
-/// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 7104};
+//   module_cameras, *Camera::bend, *Camera::turned, *RoundPicture, kernel::along_axes, kernel::sin_cos
+
+constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
+//   disturb_normals, disturb_normal, detail::disturb_by, height_of, disturb_part, *slope_disturbance,
+//   TextureStage(1)
+
 /// The maps of textures: which of them count where.
 constexpr CodeModule kMaps = {"maps", 27, 1, 7168};
-constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
+//   TextureStage(2)
+
+/// Pigments and normals, but for the patterns themselves.
+constexpr CodeModule kTextures = {"textures", 9, 1, 7104};
+//   TextureStage(0), pigment_at, blend_colours, add_up_leaves, add_pigments, filter_of_texture,
+//   filter_of_layers
 
 /// What few finishes do with light, light from behind, and the materials of surfaces that look different from
 /// inside.
 constexpr CodeModule kFinishes = {"finishes", 19, 1, 5248};
+//   *change_special, light_of_both_sides, film_factors, random_at, cosine_of_turns, take_inside_materials
 
-// Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
+/// Rays that go on from surfaces.
+constexpr CodeModule kSecondary = {"secondary", 2, 1, 8832};
+//   RayTree<>::spawn, RayTree<>::transmit, RayTree<>::reflect, RayTree<>::prepare_child, *cross_surfaces,
+//   *solid_crossing, kernel::refract, kernel::mirror, find_secondary_rays, secondary_rays_of,
+//   kernel::reflectivity, *fresnel
+
+// The third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
+
+/// Where hits lie on objects, and the normals there.
+constexpr CodeModule kHits = {"hits", 5, 2, 7808};
+//   kernel::find_hit_points, detail::surface_of, kernel::local_normal
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
 constexpr CodeModule kObjects = {"objects", 12, 2, 6784};
-/// Where hits lie on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 2, 7808};
+//   test_closest_of_other, occluded_by_other, occluded_by_instance, test_instance, ObjectTests<>::accept,
+//   ObjectTests<>::accepted, csg_accepted
+
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7168};
+//   SurfaceShading<>::shade_composed, SurfaceShading<>::shade_share, SurfaceShading<>::shade_whole,
+//   SurfaceShading<>::shade_layers
+
 /// What rays pass through on their way or see before what they hit or behind it.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7168};
+//   cross_atmosphere, through_fog, lanes_in_the_open, ground_density, arc_share, dim_shadow_rays,
+//   cross_rainbows, see_rainbow, detail::dim_clear, bow_colour
+
 /// What rays see that hit nothing, where there is a sky.
 constexpr CodeModule kSky = {"sky", 34, 2, 2048};
+//   kernel::add_sky, add_sky_layers, see_through
+
 /// Shadow rays that go from surface to surface.
 constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5632};
+//   begin_shadow_walk, hits_of_walk, step_shadow_walk, filter_light, add_caustics
+
 /// Pixels become blocks of BC1.
 constexpr CodeModule kEncoding = {"encoding", 32, 2, 6976};
+//   PixelWriter<>::send_blocks, kernel::encode_block, kernel::block, kernel::extend_pixels
+
 /// Exchange of units of work with other SPEs.
 constexpr CodeModule kExchange = {"exchange", 14, 2, 4992};
+//   WorkExchange<>::enter_domain, WorkExchange<>::wait_for_work, WorkExchange<>::act,
+//   WorkExchange<>::drain_mailbox, WorkExchange<>::handle
 
 } // namespace celltrace::kernel::modules
