@@ -31,7 +31,7 @@ struct alignas(128) InstanceRecord {
   uint32_t first_triangle; ///< offset of the mesh's first ObjectRecord
   uint32_t root;           ///< offset of the mesh's NodeRecord
   uint32_t kind_and_flags; ///< of triangles without a material of their own
-  uint32_t material;       ///< of these
+  uint32_t material;       ///< material_word of these
   uint32_t interior;       ///< of all
   uint32_t owner;          ///< index of its object in the scene
   uint32_t unused[3];

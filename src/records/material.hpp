@@ -79,15 +79,16 @@ struct alignas(16) BlendRecord {
 static_assert(sizeof(BlendRecord) == 16, "crosses DMA");
 
 /// What few finishes have.
-struct alignas(32) FinishRecord {
+struct alignas(64) FinishRecord {
   float crand;
   float irid;
   float irid_thickness;
   float irid_turbulence;
   float inverse_wavelength[3];
   uint32_t first_generator; ///< 0 or 1: of noise, as pattern_flag's
+  uint32_t unused[8];
 };
-static_assert(sizeof(FinishRecord) == 32, "four a line");
+static_assert(sizeof(FinishRecord) == 64, "two a line");
 
 struct alignas(32) InteriorRecord {
   float ior;

@@ -8,32 +8,41 @@ namespace celltrace::kernel {
 /// What an object record describes; low byte of ObjectRecord::kind_and_flags: the place of a shape in the
 /// list of primitives/list.hpp, of which these are the first.
 enum class ObjectKind : uint32_t { sphere = 0, triangle = 1, plane = 2, ellipsoid = 3 };
-constexpr uint32_t kMaxPrimitives = 16;
+constexpr uint32_t kMaxPrimitives = 48;
 
 namespace object_flag {
 constexpr uint32_t kind_mask = 0x7F;
-/// Secondary rays may leave some of its materials, or these are texture maps.
-constexpr uint32_t spawns = 0x80;
-constexpr uint32_t smooth = 0x100;     ///< triangle with vertex normals
-constexpr uint32_t no_shadow = 0x200;  ///< shadow rays pass
-constexpr uint32_t opaque = 0x400;     ///< shadow rays stop
-constexpr uint32_t blended = 0x800;    ///< `material` is the offset of a BlendRecord
-constexpr uint32_t open = 0x1000;      ///< cylinder or cone without caps
-constexpr uint32_t csg = 0x2000;       ///< part of a CSG: crossings count where its condition holds
-constexpr uint32_t textured = 0x4000;  ///< some materials of it are not the constants of their records alone
-constexpr uint32_t disturbed = 0x8000; ///< some of its materials disturb normals
-constexpr uint32_t no_image = 0x10000; ///< only rays that came by a mirror see it
+constexpr uint32_t smooth = 0x100;          ///< triangle with vertex normals
+constexpr uint32_t no_shadow = 0x200;       ///< shadow rays pass
+constexpr uint32_t opaque = 0x400;          ///< shadow rays stop
+constexpr uint32_t blended = 0x800;         ///< `material` is the offset of a BlendRecord
+constexpr uint32_t open = 0x1000;           ///< cylinder or cone without caps
+constexpr uint32_t csg = 0x2000;            ///< part of a CSG: crossings count where its condition holds
+constexpr uint32_t no_image = 0x10000;      ///< only rays that came by a mirror see it
 constexpr uint32_t no_reflection = 0x20000; ///< and these do not
 constexpr uint32_t selective = no_image | no_reflection;
 constexpr uint32_t two_sided = 0x40000;   ///< another material where it is seen from inside,
 constexpr uint32_t inverse = 0x80000;     ///< which is what else is outside
 constexpr uint32_t by_surface = 0x100000; ///< some patterns of it ask for more of it than points
 constexpr uint32_t flat_map = 0x200000;   ///< an ellipsoid whose surface coordinates are x and y
-/// Some of its materials send on light that falls on the other side.
-constexpr uint32_t lit_behind = 0x400000;
-constexpr uint32_t lit_through = 0x800000; ///< as if it fell on this side; also lit_behind then
+/// Light that falls on the other side counts as if it fell on this one.
+constexpr uint32_t lit_through = 0x800000;
 constexpr uint32_t light_set_shift = 24; ///< number of the set of lights that shine on it; 0: all global ones
+constexpr uint32_t unused = 0x40C080;    ///< room for others
 } // namespace object_flag
+
+/// ObjectRecord::material: an offset, which is a multiple of 16, and what the shading of hits has to know of
+/// the materials there before it reads them.
+namespace material_word {
+constexpr uint32_t flags_mask = 0xF;
+constexpr uint32_t spawns = 0x1;     ///< secondary rays may leave some of them, or they are texture maps
+constexpr uint32_t textured = 0x2;   ///< some are not the constants of their records alone
+constexpr uint32_t disturbed = 0x4;  ///< some disturb normals
+constexpr uint32_t lit_behind = 0x8; ///< some send on light that falls on the other side
+constexpr uint32_t offset(uint32_t word) {
+  return word & ~flags_mask;
+}
+} // namespace material_word
 
 /// What an object has to have among its kind_and_flags: in the bits of `mask` those of `value`, and no
 /// others.
@@ -57,7 +66,7 @@ constexpr uint32_t kMaxLightSets = 1u << (32 - object_flag::light_set_shift);
 /// rows of four (xyz | offset).
 struct alignas(64) ObjectRecord {
   uint32_t kind_and_flags;
-  uint32_t material; ///< offset of a MaterialRecord, or of a BlendRecord if `blended`
+  uint32_t material; ///< material_word of a MaterialRecord, or of a BlendRecord if `blended`
   uint32_t interior; ///< offset of an InteriorRecord; also identifies the inside
   uint32_t extra;    ///< offset of an ExtraRecord, or kNoOffset
   float geometry[12];

@@ -24,7 +24,7 @@ struct alignas(128) ReportRecord {
   uint64_t block_error;  ///< of pixels in blocks: squared differences, summed over red, green and blue
   uint32_t unused[26];
 };
-static_assert(sizeof(ReportRecord) == 384, "three lines");
+static_assert(sizeof(ReportRecord) == 640, "five lines");
 
 /// Kinds of data that the cache counts separately.
 enum class DataKind : uint32_t { list = 0, object = 1, material = 2, light = 3 };

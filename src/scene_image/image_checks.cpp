@@ -56,8 +56,8 @@ private:
   bool has_plain_material(std::uint32_t flags, std::uint32_t material) const {
     return (flags & kForbidden) == static_cast<std::uint32_t>(ObjectKind::triangle) &&
            flags >> object_flag::light_set_shift == 0 &&
-           (material == kNoOffset ||
-            refers_to(material, h_.material_offset, h_.material_count, sizeof(MaterialRecord)));
+           (material == kNoOffset || refers_to(material_word::offset(material), h_.material_offset,
+                                               h_.material_count, sizeof(MaterialRecord)));
   }
   bool is_triangle(const ObjectRecord& object) const {
     const bool smooth = (object.kind_and_flags & object_flag::smooth) != 0;
@@ -142,11 +142,12 @@ bool objects_are_valid(const std::byte* base, const ImageHeader& h) {
     const bool blended = (flags & object_flag::blended) != 0;
     if ((flags & object_flag::kind_mask) >= kObjectKinds) return false;
     if (flags >> object_flag::light_set_shift >= h.light_set_count) return false;
-    if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
-                : !is_material(object.material))
+    const std::uint32_t material = material_word::offset(object.material);
+    if (blended ? !refers_to(material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
+                : !is_material(material))
       return false;
     const std::uint32_t outside =
-        blended ? reinterpret_cast<const BlendRecord*>(base + object.material)->material[0] : object.material;
+        blended ? reinterpret_cast<const BlendRecord*>(base + material)->material[0] : material;
     if ((flags & object_flag::two_sided) != 0 &&
         !is_material(reinterpret_cast<const MaterialRecord*>(base + outside)->inside))
       return false;

@@ -126,7 +126,8 @@ FieldList<&NormalRecord::pattern, &NormalRecord::is_mapped, &NormalRecord::amoun
 fields_of(const NormalRecord&);
 
 FieldList<&FinishRecord::crand, &FinishRecord::irid, &FinishRecord::irid_thickness,
-          &FinishRecord::irid_turbulence, &FinishRecord::inverse_wavelength, &FinishRecord::first_generator>
+          &FinishRecord::irid_turbulence, &FinishRecord::inverse_wavelength, &FinishRecord::first_generator,
+          &FinishRecord::unused>
 fields_of(const FinishRecord&);
 
 FieldList<&InteriorRecord::ior, &InteriorRecord::signed_refraction, &InteriorRecord::inverse_fade_distance,

@@ -263,13 +263,14 @@ private:
     for (std::uint32_t i = 0; i < h_.object_count + h_.unbounded_count; ++i) {
       const ObjectRecord& object = objects[i];
       const auto has = [&](std::uint32_t flag) { return (object.kind_and_flags & flag) != 0; };
+      const std::uint32_t material = material_word::offset(object.material);
       bool object_asks = false;
       if (has(object_flag::blended)) {
-        const BlendRecord& blend = *reinterpret_cast<const BlendRecord*>(base_ + object.material);
+        const BlendRecord& blend = *reinterpret_cast<const BlendRecord*>(base_ + material);
         object_asks = asks(blend.material[0], has(object_flag::two_sided)) ||
                       asks(blend.material[1], false) || asks(blend.material[2], false);
       } else {
-        object_asks = asks(object.material, has(object_flag::two_sided));
+        object_asks = asks(material, has(object_flag::two_sided));
       }
       if (!object_asks) continue;
       const std::uint32_t ways =

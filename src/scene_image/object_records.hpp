@@ -48,7 +48,7 @@ struct RecordTables {
   std::uint32_t csg_offset, polygon_edge_offset, instance_offset;
   kernel::ExtraRecord* extras;                      ///< table
   kernel::BlendRecord* blends;                      ///< table
-  const std::vector<std::uint32_t>& material_flags; ///< object_flags by material
+  const std::vector<std::uint32_t>& material_flags; ///< TextureTables::object_flags
 
   std::uint32_t offset_of_material(Index index) const {
     return material_offset + index * static_cast<std::uint32_t>(sizeof(kernel::MaterialRecord));
@@ -61,8 +61,9 @@ struct RecordTables {
   }
   /// Not blended.
   void set_material(kernel::ObjectRecord& record, Index material) const {
-    record.material = offset_of_material(material);
-    record.kind_and_flags |= material_flags[material];
+    const std::uint32_t flags = material_flags[material];
+    record.material = offset_of_material(material) | (flags & kernel::material_word::flags_mask);
+    record.kind_and_flags |= flags & ~kernel::material_word::flags_mask;
   }
   /// Of a flat triangle of a mesh: its normal points to its inside, unless `object` is a mirror image.
   static void change_sides(kernel::ObjectRecord& record, const Object& object) {
@@ -89,13 +90,12 @@ inline bool is_seen_inverse(const Object& object) {
 inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
                                          const RecordTables& tables) {
   kernel::ObjectRecord r{};
-  r.kind_and_flags =
-      kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
-      (object.no_image ? kernel::object_flag::no_image : 0) |
-      (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
-      (is_seen_inverse(object) ? kernel::object_flag::inverse : 0) |
-      (object.is_lit_through ? kernel::object_flag::lit_behind | kernel::object_flag::lit_through : 0) |
-      light_set_of(object) << kernel::object_flag::light_set_shift;
+  r.kind_and_flags = kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
+                     (object.no_image ? kernel::object_flag::no_image : 0) |
+                     (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
+                     (is_seen_inverse(object) ? kernel::object_flag::inverse : 0) |
+                     (object.is_lit_through ? kernel::object_flag::lit_through : 0) |
+                     light_set_of(object) << kernel::object_flag::light_set_shift;
   r.interior = tables.interior_of(object);
   r.extra = kernel::kNoOffset;
   return r;

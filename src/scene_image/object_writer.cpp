@@ -352,8 +352,10 @@ private:
     // From inside it looks as its first material says.
     if ((tables_.material_flags[first] & object_flag::two_sided) == 0) any &= ~object_flag::two_sided;
     r.kind_and_flags &= ~object_flag::opaque;
-    r.kind_and_flags |= object_flag::blended | (all & object_flag::opaque) | (any & ~object_flag::opaque);
-    r.material = tables_.blend_offset + blended_ * static_cast<std::uint32_t>(sizeof(BlendRecord));
+    r.kind_and_flags |= object_flag::blended | (all & object_flag::opaque) |
+                        (any & ~(object_flag::opaque | material_word::flags_mask));
+    r.material = (tables_.blend_offset + blended_ * static_cast<std::uint32_t>(sizeof(BlendRecord))) |
+                 (any & material_word::flags_mask);
     tables_.blends[blended_++] = record;
   }
 

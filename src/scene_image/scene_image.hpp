@@ -31,7 +31,7 @@ namespace celltrace {
 struct ImageParts;
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kImageVersion = 18;
+constexpr std::uint32_t kImageVersion = 19;
 
 /// What a SceneImage remembers of its scene, 4 bytes an object each.
 struct ImageMemory {

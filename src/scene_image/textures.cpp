@@ -70,10 +70,10 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene), sharing_(scene
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {}, Place::root);
     object_flags.push_back(
-        (traits.opaque ? object_flag::opaque : 0) | (traits.spawns ? object_flag::spawns : 0) |
-        (traits.textured ? object_flag::textured : 0) | (traits.disturbed ? object_flag::disturbed : 0) |
-        (traits.two_sided ? object_flag::two_sided : 0) | (traits.lit_behind ? object_flag::lit_behind : 0) |
-        (traits.by_surface ? object_flag::by_surface : 0));
+        (traits.opaque ? object_flag::opaque : 0) | (traits.two_sided ? object_flag::two_sided : 0) |
+        (traits.by_surface ? object_flag::by_surface : 0) | (traits.spawns ? material_word::spawns : 0) |
+        (traits.textured ? material_word::textured : 0) | (traits.disturbed ? material_word::disturbed : 0) |
+        (traits.lit_behind ? material_word::lit_behind : 0));
     by_surface = by_surface || traits.by_surface;
     filters = filters || !traits.opaque;
     filters_by_surface = filters_by_surface || (traits.by_surface && !traits.opaque);

@@ -54,8 +54,8 @@ public:
   std::vector<std::shared_ptr<const Object>> objects;
   std::vector<kernel::RainbowRecord> rainbows; ///< those that are visible
   std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
-  /// By material of the scene: what an object has that consists of it, of object_flag's opaque, spawns,
-  /// textured, disturbed, two_sided, lit_behind, by_surface.
+  /// By material of the scene: the flags of an object that consists of it. They are object_flag's opaque,
+  /// two_sided and by_surface, and those of material_word, which are below all of object_flag's but kinds.
   std::vector<std::uint32_t> object_flags;
 
 private:

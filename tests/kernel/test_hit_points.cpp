@@ -68,7 +68,7 @@ TEST_CASE("Points, normals and materials of hits") {
         const reference::Shape& shape = shapes[index];
         const reference::Ray ray = {test::at(rays.origin, l), test::at(rays.direction, l)};
         const reference::Crossings crossings = cross(shape, ray);
-        REQUIRE(found.material.lane[l] == scene.object(index).material);
+        REQUIRE(found.material.lane[l] == material_word::offset(scene.object(index).material));
         REQUIRE(found.interior.lane[l] == scene.object(index).interior);
         REQUIRE(((found.blended >> l & 1) != 0) == shape.blended);
         if (crossings.count == 0) return; // on an edge

@@ -213,7 +213,7 @@ TEST_CASE("A sealed scene image with a fault in its instances is refused") {
   refused([](H&, I* instances, O*, N*) { instances[5].kind_and_flags |= object_flag::smooth; });
   refused([](H&, I*, O* triangles, N*) { triangles[3].kind_and_flags = 0; });
   refused([](H&, I*, O* triangles, N*) { triangles[3].kind_and_flags |= object_flag::blended; });
-  refused([](H&, I*, O* triangles, N*) { triangles[3].material = 12; });
+  refused([](H&, I*, O* triangles, N*) { triangles[3].material = 32; });
   refused([](H&, I*, O* triangles, N*) { triangles[3].extra = kNoOffset; });
   refused([](H&, I* instances, O*, N* nodes) { nodes[0].child[0] = instances[0].root; });
   refused([](H& h, I*, O*, N* nodes) {

@@ -502,9 +502,9 @@ TEST_CASE("Faces and materials are flagged for what the kernel may skip") {
   const auto material = [&](std::uint32_t index) { return h.material_offset + index * 128; };
   CHECK(objects[0].kind_and_flags == (1u | object_flag::opaque | object_flag::no_shadow));
   CHECK(objects[0].material == material(1));
-  CHECK(objects[1].kind_and_flags ==
-        (1u | object_flag::blended | object_flag::spawns | object_flag::no_shadow));
-  const auto* blend = table<BlendRecord>(image, objects[1].material);
+  CHECK(objects[1].kind_and_flags == (1u | object_flag::blended | object_flag::no_shadow));
+  CHECK((objects[1].material & material_word::flags_mask) == material_word::spawns);
+  const auto* blend = table<BlendRecord>(image, material_word::offset(objects[1].material));
   CHECK(blend->material[0] == material(0));
   CHECK(blend->material[1] == material(1));
   CHECK(blend->material[2] == material(2));

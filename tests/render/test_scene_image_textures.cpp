@@ -273,7 +273,7 @@ TEST_CASE("A sealed scene image that asks for more of surfaces than is found out
     object_with(b, h, object_flag::by_surface | static_cast<std::uint32_t>(ObjectKind::triangle))->extra += 4;
   });
   refused([&](Bytes& b, ImageHeader& h) { // the sky has no surface
-    h.sky = object_with(b, h, object_flag::by_surface)->material;
+    h.sky = material_word::offset(object_with(b, h, object_flag::by_surface)->material);
   });
 }
 
@@ -333,7 +333,7 @@ TEST_CASE("Objects say whether secondary rays may leave them") {
     scene.objects = {sphere_at({0, 0, 0}, 1, scene.add(material), scene.add(Interior{}))};
     const SceneImage image(scene);
     const auto* object = table<ObjectRecord>(image, image.header().object_offset);
-    return (object->kind_and_flags & object_flag::spawns) != 0;
+    return (object->material & material_word::spawns) != 0;
   };
   const Material plain = matte({1, 0.5, 0});
   Pigment clear;

@@ -104,7 +104,7 @@ public:
     scene_.spu().compute(scalar_work::kShadow);
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t flags = object.kind_and_flags;
-    const uint32_t material = object.material;
+    const uint32_t material = material_word::offset(object.material);
     if ((flags & object_flag::no_shadow) != 0) return 0;
     // Of instances, which take long, only the rays that are asked for: they may come back for others.
     const bool all_at_once = !is_instance(flags) || segment.enter != nullptr;
@@ -225,7 +225,7 @@ private:
                                                 uint32_t self, uint32_t lanes, const FloatLanes& distance,
                                                 VectorLanes& light, const RaySegment& segment) {
     scene_.spu().run_in_module(modules::kObjects);
-    const uint32_t flags = record.kind_and_flags, material = record.material;
+    const uint32_t flags = record.kind_and_flags, material = material_word::offset(record.material);
     if (is_instance(flags))
       return occluded_by_instance(rays, record, segment.enter != nullptr ? 0xFFFF : lanes, distance);
     const bool is_opaque = (flags & object_flag::opaque) != 0;

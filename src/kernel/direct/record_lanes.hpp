@@ -62,11 +62,17 @@ template <class S, class NumberOf>
 
 /// The words of ObjectRecords besides their geometry.
 template <class S> struct ObjectWords {
-  typename S::I kind_and_flags, material, interior, extra;
+  using I = typename S::I;
+  I kind_and_flags, material, interior, extra;
 
-  uint32_t lanes_with(uint32_t flags) const {
-    using I = typename S::I;
-    const auto without = (kind_and_flags & I::splat(static_cast<int32_t>(flags))) == I::splat(0);
+  /// Returns the lanes that have some of `flags`: of object_flag, or of material_word.
+  uint32_t lanes_with(uint32_t flags) const { return lanes_with(kind_and_flags, flags); }
+  uint32_t lanes_with_material(uint32_t flags) const { return lanes_with(material, flags); }
+  I material_offset() const { return material & I::splat(static_cast<int32_t>(~material_word::flags_mask)); }
+
+private:
+  static uint32_t lanes_with(const I& words, uint32_t flags) {
+    const auto without = (words & I::splat(static_cast<int32_t>(flags))) == I::splat(0);
     return ~without.bits() & 0xFFFF;
   }
 };

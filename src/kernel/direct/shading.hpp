@@ -152,18 +152,19 @@ private:
     store_words<S>(filled, in_all);
     ObjectWords<S> words;
     load_objects(scene, filled, o.objects, words);
-    o.material = words.material;
+    o.material = words.material_offset();
     o.interior = words.interior;
     o.open = words.lanes_with(object_flag::open);
     points.blended = lanes & words.lanes_with(object_flag::blended);
-    points.spawning = lanes & words.lanes_with(object_flag::spawns);
-    points.textured = lanes & words.lanes_with(object_flag::textured);
-    points.disturbed = lanes & words.lanes_with(object_flag::disturbed);
+    points.spawning = lanes & words.lanes_with_material(material_word::spawns);
+    points.textured = lanes & words.lanes_with_material(material_word::textured);
+    points.disturbed = lanes & words.lanes_with_material(material_word::disturbed);
+    points.lit_behind = lanes & words.lanes_with_material(material_word::lit_behind);
     if ((lanes & words.lanes_with(detail::kOfSides)) != 0) {
       o.two_sided = lanes & words.lanes_with(object_flag::two_sided);
       o.inverse = lanes & words.lanes_with(object_flag::inverse);
-      points.lit_behind = lanes & words.lanes_with(object_flag::lit_behind);
       points.lit_through = lanes & words.lanes_with(object_flag::lit_through);
+      points.lit_behind |= points.lit_through;
     }
     return true;
   }

@@ -16,10 +16,10 @@ template <class S> struct HitPoints {
   WordLanes material; ///< offset of a MaterialRecord, or of a BlendRecord in lanes of `blended`
   WordLanes interior;
   uint32_t blended = 0;
-  uint32_t spawning = 0;  ///< lanes from which rays may go on, as object_flag's
+  uint32_t spawning = 0;  ///< lanes from which rays may go on, as material_word's
   uint32_t textured = 0;  ///< lanes some of whose materials are not the constants of their records alone
   uint32_t disturbed = 0; ///< of them, those some of whose materials disturb normals
-  uint32_t lit_behind = 0, lit_through = 0; ///< as object_flag's
+  uint32_t lit_behind = 0, lit_through = 0; ///< as material_word's and object_flag's
 
   uint32_t plain(uint32_t lanes) const { return lanes & ~(blended | textured); }
   /// Whether each of `lanes` has one material, and no rays go on from there.
@@ -33,7 +33,7 @@ template <class S> struct HitPoints {
 
 namespace detail {
 
-constexpr uint32_t kOfSides = object_flag::two_sided | object_flag::inverse | object_flag::lit_behind;
+constexpr uint32_t kOfSides = object_flag::two_sided | object_flag::inverse | object_flag::lit_through;
 
 template <class S>
 void surface_of_spheres(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
@@ -187,13 +187,16 @@ template <class Spu>
         put(object.geometry + 3, objects.geometry[1]);
         if (kind != static_cast<uint32_t>(ObjectKind::sphere)) put(object.geometry + 6, objects.geometry[2]);
         if (is_local) put(object.geometry + 9, objects.geometry[3]);
-        o.material = S::select(mask, I::splat(static_cast<int32_t>(object.material)), o.material);
+        const uint32_t of_material = object.material & material_word::flags_mask;
+        o.material = S::select(mask, I::splat(static_cast<int32_t>(material_word::offset(object.material))),
+                               o.material);
         o.interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), o.interior);
         objects.of_kind[kind] |= same;
         if ((flags & object_flag::blended) != 0) points.blended |= same;
-        if ((flags & object_flag::spawns) != 0) points.spawning |= same;
-        if ((flags & object_flag::textured) != 0) points.textured |= same;
-        if ((flags & object_flag::disturbed) != 0) points.disturbed |= same;
+        if ((of_material & material_word::spawns) != 0) points.spawning |= same;
+        if ((of_material & material_word::textured) != 0) points.textured |= same;
+        if ((of_material & material_word::disturbed) != 0) points.disturbed |= same;
+        if ((of_material & material_word::lit_behind) != 0) points.lit_behind |= same;
         if ((flags & object_flag::smooth) != 0) {
           objects.smooth |= same;
           const float* const n = (instanced ? &room.extra : scene.extra(extra))->value;
@@ -210,8 +213,10 @@ template <class Spu>
         if ((flags & kOfSides) != 0) {
           if ((flags & object_flag::two_sided) != 0) o.two_sided |= same;
           if ((flags & object_flag::inverse) != 0) o.inverse |= same;
-          if ((flags & object_flag::lit_behind) != 0) points.lit_behind |= same;
-          if ((flags & object_flag::lit_through) != 0) points.lit_through |= same;
+          if ((flags & object_flag::lit_through) != 0) {
+            points.lit_through |= same;
+            points.lit_behind |= same;
+          }
         }
         if ((flags & object_flag::open) != 0) o.open |= same;
       });
