@@ -3,10 +3,10 @@
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
+#include "kernel/angles.hpp"
 #include "kernel/direct/memory.hpp"
 #include "kernel/local/patterns.hpp"
 #include "kernel/math.hpp"
-#include "kernel/textures/angles.hpp"
 #include "kernel/textures/lattice.hpp"
 
 #include <algorithm>

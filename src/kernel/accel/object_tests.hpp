@@ -3,6 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
+#include "kernel/primitives/crossing_sequence.hpp"
 #include "kernel/primitives/csg.hpp"
 #include "kernel/primitives/instances_module.hpp"
 #include "kernel/primitives/list.hpp"
@@ -204,21 +205,21 @@ private:
     if (Shortcuts::test_closest_shortly(rays, record, self, hits)) return;
     const uint32_t blind = blind_lanes(flags, reflected_);
     Other other(*this, rays, record, self, kMinHitDistance, hits.distance);
-    for (uint32_t pair = 0; pair < other.pairs; ++pair) {
-      Crossings<S>& c = other.crossings[pair];
-      if ((c.near_hit | c.far_hit).bits() == 0) continue;
+    while (other.next()) {
+      Crossings<S>& c = other.crossings();
       if ((flags & object_flag::selective) != 0) {
         const M sees = M::from_bits(~blind & 0xFFFF);
         c.near_hit = c.near_hit & sees;
         c.far_hit = c.far_hit & sees;
       }
-      if (other.csg != kNoOffset) {
+      if (other.csg() != kNoOffset) {
         const F nearest = F::load(hits.distance.lane);
         const auto near = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= nearest);
         const auto far = c.far_hit & (c.far > F(kMinHitDistance)) & (c.far <= nearest);
-        accept(rays, other.csg, near, far, false, reflected_, c);
+        accept(rays, other.csg(), near, far, false, reflected_, c);
       }
       keep_closest<S>(c, self, hits);
+      other.end((c.near_hit | c.far_hit).bits()); // farther ones are farther
     }
   }
   CELLTRACE_ONE_COPY uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record,
@@ -233,14 +234,15 @@ private:
     if (is_opaque && Shortcuts::test_occlusion_shortly(rays, record, self, distance, light, dark))
       return dark;
     Other other(*this, rays, record, self, is_opaque ? kShadowEpsilon : kEveryCrossing, distance);
-    for (uint32_t pair = 0; pair < other.pairs; ++pair) {
-      Crossings<S>& c = other.crossings[pair];
-      if ((c.near_hit | c.far_hit).bits() == 0) continue;
-      if (other.csg != kNoOffset) {
+    while (other.next()) {
+      Crossings<S>& c = other.crossings();
+      if (other.csg() != kNoOffset) {
         const ShadowHits shadow = shadow_hits(c, distance);
-        accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), !is_opaque, kSeesAll, c);
+        accept(rays, other.csg(), M::from_bits(shadow.near), M::from_bits(shadow.far), !is_opaque, kSeesAll,
+               c);
       }
       dark |= occluded_by(rays, c, flags, material, lanes & ~dark, distance, light, segment);
+      other.end(dark);
     }
     return dark;
   }
@@ -266,32 +268,60 @@ private:
   }
 
   /// The crossings of a packet with an object that is not simple.
-  struct Other {
-    Crossings<S> crossings[kMaxCrossingPairs];
-    uint32_t pairs = 1;
-    uint32_t csg = kNoOffset; ///< offset of its condition
-
+  class Other {
+  public:
     /// Those up to `limit`, of which one beyond `enough` may do; not of an object that is a part of a CSG.
     Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self, float enough,
-          const FloatLanes& limit) {
+          const FloatLanes& limit)
+        : tests_(tests), rays_(rays), self_(self) {
       Kept<Spu, ObjectRecord> object = record;
       const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
       ExtraRecord room;
       if (object.extra == kNoOffset) room = {};
       const ExtraRecord& extra =
           object.extra == kNoOffset ? room : *keep<Spu>(tests.scene_.extra(object.extra), room);
-      if ((object.kind_and_flags & object_flag::csg) != 0) csg = extra.csg;
-      const AskedCrossings asked = {csg != kNoOffset ? kEveryCrossing : enough, &limit};
+      if ((object.kind_and_flags & object_flag::csg) != 0) csg_ = extra.csg;
+      asked_ = {csg_ != kNoOffset ? kEveryCrossing : enough, &limit};
       ++tests.counters_.tests[kind];
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
       Spu& spu = tests.scene_.spu();
       spu.enter_module(is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
-      pairs = is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self, asked, crossings)
-                             : module_shapes::intersect(spu, rays, object, extra, self, crossings);
-      if (kind != kPrimitiveKind<PolygonPrimitive>) return;
+      Crossings<S>* const pairs = sequence_.pairs();
+      sequence_.begin(is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self, asked_, pairs)
+                                     : module_shapes::intersect(spu, rays, object, extra, self, pairs),
+                      Primitives::goes_on(kind));
+      if (!has_edges(kind)) return;
       spu.enter_module(modules::kPolygons);
-      module_polygons::cut_out(tests.scene_, extra, crossings[0]);
+      module_polygons::cut_out(tests.scene_, extra, pairs[0]);
     }
+
+    /// Goes on to the next pair that some ray has; false: there is none.
+    bool next() {
+      return sequence_.next([this](const FloatLanes& after, Crossings<S>& c) { find_after(after, c); });
+    }
+    Crossings<S>& crossings() { return sequence_.current(); }
+    /// No more crossings of these rays are asked for.
+    void end(uint32_t lanes) { sequence_.end(lanes); }
+    /// The offset of the object's condition.
+    uint32_t csg() const { return csg_; }
+
+  private:
+    void find_after(const FloatLanes& after, Crossings<S>& c) {
+      Kept<Spu, ObjectRecord> object = *tests_.scene_.object(self_);
+      ExtraRecord room = {};
+      const ExtraRecord& extra =
+          object.extra == kNoOffset ? room : *keep<Spu>(tests_.scene_.extra(object.extra), room);
+      asked_.after = &after;
+      tests_.scene_.spu().enter_module(modules::kHeavyShapes);
+      module_heavy::intersect(tests_.scene_.spu(), rays_, object, extra, self_, asked_, &c);
+    }
+
+    ObjectTests& tests_;
+    const RayPacket& rays_;
+    uint32_t self_;
+    AskedCrossings asked_;
+    uint32_t csg_ = kNoOffset;
+    CrossingSequence<S, Primitives::kSomeGoOn> sequence_;
   };
 
   /// Leaves those of the crossings in `near` and `far` that satisfy the condition; of a ray's two the far one
@@ -328,19 +358,8 @@ private:
       if (some == 0) return;
       const PatternPoints<R> crossed = {part_of<Spu>(points, first)};
       V3<R> transmittance;
-      if ((flags & object_flag::blended) == 0) {
-        transmittance_at(scene_, material, crossed, some, transmittance);
-      } else {
-        Kept<Spu, BlendRecord> blend = *scene_.blend(material);
-        const RF u = part_of<Spu>(all_u, first), v = part_of<Spu>(all_v, first);
-        const RF weights[3] = {RF(1.0f) - u - v, u, v};
-        transmittance = {RF(0.0f), RF(0.0f), RF(0.0f)};
-        V3<R> corner;
-        for (uint32_t i = 0; i < 3; ++i) {
-          transmittance_at(scene_, blend.material[i], crossed, some, corner);
-          transmittance = transmittance + corner * weights[i];
-        }
-      }
+      surface_transmittance(scene_, material, (flags & object_flag::blended) != 0, crossed,
+                            part_of<Spu>(all_u, first), part_of<Spu>(all_v, first), some, transmittance);
       const V3<R> before = light.template load_from<R>(first), after = before * transmittance;
       light.template store_from<R>(first, select<R>(R::M::from_bits(some), after, before));
       const RF most = R::max(R::abs(after.x), R::max(R::abs(after.y), R::abs(after.z)));

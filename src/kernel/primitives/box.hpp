@@ -10,6 +10,7 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
   static constexpr bool kHasFaces = true;
+  static constexpr bool kHasCoordinates = true;
 
   /// The slab test (Kay and Kajiya 1986): where rays enter the box and where they leave it. Those that miss
   /// it leave it before they enter it.
@@ -54,6 +55,23 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     const F shift(0.298828125f);
     return {S::select(is_x, p.x + shift, zero), S::select(is_y, p.y + shift, zero),
             S::select(is_x | is_y, zero, p.z + shift)};
+  }
+
+  /// The cube from -1 to 1 unfolded: four sides around it in a row, and one above and one below the second of
+  /// them.
+  template <class S>
+  [[gnu::always_inline]] static void coordinates(const SurfacePoint<S>& at, typename S::F& u,
+                                                 typename S::F& v) {
+    using F = typename S::F;
+    const V3<S> p = to_local<S>(at.object.geometry, at.point, 1.0f);
+    const V3<S> side = gradient<S>(p, LocalParameters<S>{F(0.0f), F(0.0f), S::M::none()});
+    const F half(0.5f), zero(0.0f), one(1.0f);
+    const F x = (p.x + one) * half, y = (p.y + one) * half, z = (p.z + one) * half;
+    const auto is_x = !(side.x == zero), is_y = !(side.y == zero);
+    F across = S::select(side.z < zero, F(4.0f) - x, one + x);
+    across = S::select(is_x, S::select(side.x < zero, z, F(3.0f) - z), across);
+    u = S::select(is_y, one + x, across) * F(0.25f);
+    v = S::select(is_y, S::select(side.y < zero, z, F(3.0f) - z), one + y) * F(1.0f / 3);
   }
 
   /// Where a ray comes from millions of times a box's thickness away, its distance does not tell two faces

@@ -10,6 +10,7 @@ struct EllipsoidPrimitive : LocalPrimitive<EllipsoidPrimitive> {
   static constexpr const char* kName = "ellipsoid";
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
+  static constexpr bool kHasCoordinates = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
@@ -29,6 +30,13 @@ struct EllipsoidPrimitive : LocalPrimitive<EllipsoidPrimitive> {
   /// The point is moved to the sphere first: it may be far from it by what rounding does to long rays.
   template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
     return normalise<S>(p);
+  }
+
+  template <class S>
+  [[gnu::always_inline]] static void coordinates(const SurfacePoint<S>& at, typename S::F& u,
+                                                 typename S::F& v) {
+    if ((at.object.kind_and_flags & object_flag::flat_map) != 0) return;
+    map_sphere<S>(to_local<S>(at.object.geometry, at.point, 1.0f), u, v);
   }
 
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, false}; }

@@ -1,15 +1,12 @@
 // All shapes. The order gives each its kind, a number in its records. Kernel dialect.
 //
-// A shape P has
+// A shape P derives from ShapeTraits, or from LocalPrimitive (local_shape.hpp), and has
 //   kName            for statistics
 //   kCrossingPairs   what intersect() fills, at most kMaxCrossingPairs
 //   kHasParameters   whether it reads its ExtraRecord
-//   kIsBounded       whether it can be in the BVH by itself
-//   kIsHeavy         whether the code of its intersect() is large: it has a code module apart
-//   kHasHeavyPoints  whether that of its inside() and of its normals is: likewise
-//   kIsLocal         whether its geometry is a map to a space of its own (local_shape.hpp)
 //   intersect(rays, object, extra, self, crossings), inside(point, object, extra)
 //   bounds(object, extra), overlaps(object, extra, box)
+// and what its traits ask for.
 #pragma once
 
 #include "kernel/primitives/box.hpp"
@@ -29,8 +26,16 @@
 namespace celltrace::kernel {
 
 template <class... P> struct PrimitiveList : TypeList<P...> {
+  static constexpr bool kSomeGoOn = (P::kGoesOn || ...);
+  static_assert(((P::kIsHeavy || !P::kGoesOn) && ...), "module_heavy::intersect() says what is asked");
+  static constexpr bool goes_on(uint32_t kind) {
+    return ((P::kGoesOn ? kind == TypeList<P...>::template number<P>() : false) || ...);
+  }
   static constexpr bool is_heavy(uint32_t kind) {
     return ((P::kIsHeavy ? kind == TypeList<P...>::template number<P>() : false) || ...);
+  }
+  static constexpr bool has_edges(uint32_t kind) {
+    return ((P::kHasEdges ? kind == TypeList<P...>::template number<P>() : false) || ...);
   }
   static constexpr bool has_heavy_points(uint32_t kind) {
     return ((P::kHasHeavyPoints ? kind == TypeList<P...>::template number<P>() : false) || ...);

@@ -14,6 +14,7 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/aabb.hpp"
 #include "kernel/primitives/crossings.hpp"
+#include "kernel/primitives/shape_traits.hpp"
 #include "kernel/scalar.hpp"
 #include "records/object.hpp"
 
@@ -39,6 +40,9 @@ struct AskedCrossings {
   float enough = kEveryCrossing;
   /// By ray: crossings that are farther than this or behind the origin may be left out. nullptr: none.
   const FloatLanes* limit = nullptr;
+  /// By ray, of shapes that go on: crossings up to this are known. nullptr: all beyond the origin are asked
+  /// for.
+  const FloatLanes* after = nullptr;
 };
 inline constexpr AskedCrossings kAllCrossings;
 
@@ -198,12 +202,8 @@ LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint3
 }
 
 /// What a shape in a space of its own is to the rest of the kernel.
-template <class Shape> struct LocalPrimitive {
+template <class Shape> struct LocalPrimitive : ShapeTraits {
   static constexpr bool kIsLocal = true;
-  static constexpr bool kIsBounded = true;
-  static constexpr bool kIsHeavy = false;
-  static constexpr bool kHasHeavyPoints = false;
-  static constexpr bool kHasFaces = false; ///< flat ones: then it has off_face()
 
   template <class S>
   [[gnu::always_inline]] static V3<S> off_parallel_faces(const V3<S>& point, const V3<S>&, float) {

@@ -14,6 +14,7 @@ struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = true;
   static constexpr bool kHasFaces = true;
+  static constexpr bool kHasEdges = true;
 
   /// Puts x and y of where they cross into u and v.
   template <class S>

@@ -40,6 +40,11 @@ template <class Spu>
       });
 }
 
+/// Whether crossings with a kind count where its edges say.
+constexpr bool has_edges(uint32_t kind) {
+  return Primitives::has_edges(kind);
+}
+
 /// Whether a kind's geometry is a map to a space of its own.
 constexpr bool is_local(uint32_t kind) {
   return kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>;

@@ -3,6 +3,7 @@
 
 #include "kernel/aabb.hpp"
 #include "kernel/primitives/crossings.hpp"
+#include "kernel/primitives/surface_coordinates.hpp"
 #include "kernel/scalar.hpp"
 #include "records/object.hpp"
 
@@ -45,14 +46,11 @@ Crossings<S> intersect_sphere(const V3<S>& origin, const V3<S>& direction, const
   return detail::chord<S>(along, radius * radius - dot<S>(perpendicular, perpendicular), starts_here);
 }
 
-struct SpherePrimitive {
+struct SpherePrimitive : ShapeTraits {
   static constexpr const char* kName = "sphere";
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
-  static constexpr bool kIsLocal = false;
-  static constexpr bool kIsHeavy = false;
-  static constexpr bool kHasHeavyPoints = false;
-  static constexpr bool kIsBounded = true;
+  static constexpr bool kHasCoordinates = true;
 
   template <class S>
   static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord&, uint32_t self,
@@ -67,6 +65,15 @@ struct SpherePrimitive {
     const V3<S> from_centre = point - splat3<S>(object.geometry);
     const F radius(object.geometry[3]);
     return dot<S>(from_centre, from_centre) < radius * radius;
+  }
+
+  template <class S>
+  [[gnu::always_inline]] static void coordinates(const SurfacePoint<S>& at, typename S::F& u,
+                                                 typename S::F& v) {
+    const float(&g)[12] = at.object.geometry;
+    const V3<S> from = at.point - splat3<S>(g), x = splat3<S>(g + 4), y = splat3<S>(g + 7);
+    map_sphere<S>({dot<S>(x, from), dot<S>(y, from), dot<S>(cross<S>(x, y), from) * typename S::F(g[10])}, u,
+                  v);
   }
 
   static Aabb bounds(const ObjectRecord& object, const ExtraRecord&) {

@@ -6,6 +6,7 @@
 // quartics do not.
 #pragma once
 
+#include "kernel/angles.hpp"
 #include "kernel/primitives/local_shape.hpp"
 
 namespace celltrace::kernel {
@@ -15,6 +16,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static constexpr uint32_t kCrossingPairs = 2;
   static constexpr bool kHasParameters = true;
   static constexpr bool kIsHeavy = true;
+  static constexpr bool kHasCoordinates = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
@@ -167,6 +169,16 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     // And comes to the tube there.
     const F nearest = -(o.x * d.x + o.y * d.y) / S::max(d.x * d.x + d.y * d.y, F(1e-30f));
     return in_time & (from_axis(S::min(S::max(nearest, slab.enter), slab.leave)) <= outer * outer);
+  }
+
+  /// Around the ring, and around the tube. The axes here are z, x, y of POV-Ray's.
+  template <class S>
+  [[gnu::always_inline]] static void coordinates(const SurfacePoint<S>& at, typename S::F& u,
+                                                 typename S::F& v) {
+    using F = typename S::F;
+    const V3<S> p = to_local<S>(at.object.geometry, at.point, 1.0f);
+    u = F(0.5f) - turns_inline<S>(p.x, p.y);
+    v = F(0.5f) + turns_inline<S>(p.z, S::sqrt(p.x * p.x + p.y * p.y) - F(1.0f));
   }
 
   static LocalBounds local_bounds(float ratio) { return {-ratio, ratio, 1.0f + ratio, false}; }

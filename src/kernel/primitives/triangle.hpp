@@ -4,6 +4,7 @@
 
 #include "kernel/aabb.hpp"
 #include "kernel/primitives/crossings.hpp"
+#include "kernel/primitives/shape_traits.hpp"
 #include "kernel/scalar.hpp"
 #include "records/object.hpp"
 
@@ -143,14 +144,12 @@ inline bool triangle_overlaps(const ObjectRecord& object, const Aabb& box) {
   return true;
 }
 
-struct TrianglePrimitive {
+struct TrianglePrimitive : ShapeTraits {
   static constexpr const char* kName = "triangle";
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
-  static constexpr bool kIsLocal = false;
-  static constexpr bool kIsHeavy = false;
-  static constexpr bool kHasHeavyPoints = false;
-  static constexpr bool kIsBounded = true;
+  static constexpr bool kHasCoordinates = true;
+  static constexpr bool kReadsExtraForCoordinates = true;
 
   template <class S>
   static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord&, uint32_t self,
@@ -162,6 +161,19 @@ struct TrianglePrimitive {
   /// A triangle alone has no inside; that of a mesh is found by its inside_vector.
   template <class S> static typename S::M inside(const V3<S>&, const ObjectRecord&, const ExtraRecord&) {
     return S::M::none();
+  }
+
+  /// Interpolates those of its vertices.
+  template <class S>
+  [[gnu::always_inline]] static void coordinates(const SurfacePoint<S>& at, typename S::F& u,
+                                                 typename S::F& v) {
+    using F = typename S::F;
+    u = v = F(0.0f);
+    if (at.extra == nullptr) return;
+    const float(&uv)[6] = at.extra->bounds;
+    const F rest = F(1.0f) - at.hit_u - at.hit_v;
+    u = F(uv[0]) * rest + F(uv[2]) * at.hit_u + F(uv[4]) * at.hit_v;
+    v = F(uv[1]) * rest + F(uv[3]) * at.hit_u + F(uv[5]) * at.hit_v;
   }
 
   static Aabb bounds(const ObjectRecord& object, const ExtraRecord&) {

@@ -1,6 +1,7 @@
 // What rays pass through on their way from surface to surface: fog, and rainbows behind it. Kernel dialect.
 #pragma once
 
+#include "kernel/angles.hpp"
 #include "kernel/cameras/list.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/packet.hpp"
@@ -8,7 +9,6 @@
 #include "kernel/shading/finishes.hpp"
 #include "kernel/shading/hit_points.hpp"
 #include "kernel/shading/ray_stack.hpp"
-#include "kernel/textures/angles.hpp"
 #include "kernel/textures/noise.hpp"
 #include "kernel/textures/sky.hpp"
 #include "records/light_way.hpp"

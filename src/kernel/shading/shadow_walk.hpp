@@ -66,21 +66,15 @@ void filter_light(SceneAccess<Spu>& scene, uint32_t material, bool blended, uint
                   ShadowWalk<typename Spu::simd>& walk) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
-  BlendRecord blend = {{material, material, material}, 0};
-  if (blended) blend = *scene.blend(material);
   for_each_part<Spu>([&](uint32_t first) {
     const uint32_t some = part_of<Spu>(lanes, first);
     if (some == 0) return;
     const PatternPoints<S> points = {part_of<Spu>(walk.points.point, first), &walk.surface, first};
     const F u = F::load(walk.hits.u.lane + first), v = F::load(walk.hits.v.lane + first);
-    const F weights[3] = {F(1.0f) - u - v, u, v};
-    V3<S> all = {F(0.0f), F(0.0f), F(0.0f)}, one;
-    for (uint32_t corner = 0; corner < (blended ? 3u : 1u); ++corner) {
-      transmittance_at(scene, blend.material[corner], points, some, one);
-      all = blended ? all + one * weights[corner] : one;
-    }
+    V3<S> passes;
+    surface_transmittance(scene, material, blended, points, u, v, some, passes);
     const V3<S> before = walk.light->template load_from<S>(first);
-    walk.light->template store_from<S>(first, select<S>(S::M::from_bits(some), before * all, before));
+    walk.light->template store_from<S>(first, select<S>(S::M::from_bits(some), before * passes, before));
   });
 }
 

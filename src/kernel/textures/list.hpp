@@ -3,6 +3,7 @@
 // A pattern P has, from pattern_traits.hpp or of its own,
 //   kName
 //   kIsList        whether its value is the number of a map's entry
+//   kIsColour      whether it has colours in place of values
 //   kCode          where its code is
 //   kReadsSurface  whether its value depends on more than points
 //   kDisturbs      whether a normal of it is something else than the slope of its value; the code of that is
@@ -54,6 +55,10 @@ template <class... P> struct PatternList : TypeList<P...> {
   static constexpr bool kDisturb[] = {P::kDisturbs...};
   static constexpr bool kReadNoise[] = {P::kReadsNoise...};
   static constexpr bool kAreShifted[] = {P::kIsShifted...};
+  static constexpr bool kSomeAreColours = (P::kIsColour || ...);
+  static constexpr bool is_colour(uint32_t kind) {
+    return ((P::kIsColour ? kind == TypeList<P...>::template number<P>() : false) || ...);
+  }
   static constexpr bool kReadSurfaces[] = {P::kReadsSurface...};
 };
 
@@ -64,6 +69,9 @@ using Patterns =
                 HexagonPattern, CubicPattern, BrickPattern, DentsPattern, GranitePattern, WrinklesPattern,
                 AgatePattern, MarblePattern, WoodPattern, CellsPattern, CracklePattern, RipplesPattern,
                 WavesPattern, FractalPattern, SlopePattern, PigmentPattern, ObjectPattern>;
+constexpr bool is_colour(uint32_t kind) {
+  return Patterns::is_colour(kind);
+}
 constexpr bool disturbs(uint32_t kind) {
   return Patterns::kDisturb[kind];
 }

@@ -107,11 +107,21 @@ public:
         --depth_;
         continue;
       }
+      if (kHasColours && level.state == State::coloured) {
+        ++level.next;
+        weight = level.weight;
+        lanes = level.lanes;
+        leaf_is_coloured_ = true;
+        if (grey_ == nullptr) return true;
+        *grey_ = *grey_ + grey_of<S>(pigment(leaf).rgb) * weight;
+        continue;
+      }
       const uint32_t number = level.next++;
       leaf = *scene_.map_entry(map_entry_at(level.entries, number));
       weight = level.weight * (level.state == State::average ? F(leaf.position) : weight_of(level, number));
       lanes = level.lanes & (S::abs(weight) > F(0.0f)).bits(); // an average may take something away
       if (lanes == 0) continue;
+      leaf_is_coloured_ = false;
       const uint32_t pattern = pattern_of(leaf);
       if (pattern != kNoOffset)
         enter(pattern, weight, lanes);
@@ -121,6 +131,13 @@ public:
         *grey_ = *grey_ + F(grey_of(leaf.rgb)) * weight;
     }
     return false;
+  }
+
+  /// The colours of the leaf that next() has come to.
+  PigmentLanes<S> pigment(const MapEntryRecord& leaf) const {
+    if constexpr (kHasColours)
+      if (leaf_is_coloured_) return colours_;
+    return pigment_of<S>(leaf);
   }
 
   /// How bright a pigment is that is a map, at other points. Between two leaves: it takes the levels above
@@ -146,9 +163,12 @@ private:
   /// Only such walks go on inside patterns that are pigments. Others have them go there, part by part.
   static constexpr bool kIsPart = S::kLanes == Part::kLanes;
 
+  /// Whether leaves may be patterns that are colours.
+  static constexpr bool kHasColours = Patterns::kSomeAreColours && kIsPart && kStage == TextureStage::colours;
+
   /// Of a level: its pattern has not been asked; its pattern is a pigment, which adds up in `upper`; leaves
-  /// have weights by lane; leaves have one weight.
-  enum class State : uint32_t { fresh, waits, placed, average };
+  /// have weights by lane; leaves have one weight; it is one leaf, whose colours are `colours_`.
+  enum class State : uint32_t { fresh, waits, placed, average, coloured };
   struct Level {
     F weight;
     F upper;   ///< by lane, number of the entry above the value
@@ -165,6 +185,15 @@ private:
     level.entries = r.entries;
     level.count = r.entry_count;
     level.next = 0;
+    if constexpr (kHasColours)
+      if (is_colour(r.kind_and_flags & pattern_flag::kind_mask)) {
+        const PatternPoints<Part> points = to_pattern_space<kStage>(scene_, r, *points_, level.lanes);
+        scene_.spu().enter_module(modules::kRarePatterns);
+        module_rare::colour(scene_, r, points, colours_);
+        level.count = 1;
+        level.state = State::coloured;
+        return;
+      }
     if ((r.kind_and_flags & pattern_flag::average) != 0) {
       if (is_relative(r)) enter_space(r, level);
       level.state = State::average;
@@ -270,7 +299,10 @@ private:
   const PatternPoints<S>* points_;
   /// Of a relative map: points in its space, or the offset of its pattern.
   std::conditional_t<kIsPart, PatternPoints<S>, uint32_t> inside_;
-  F* grey_ = nullptr; ///< what leaves add to, where they are parts of a pattern
+  struct None {};
+  std::conditional_t<kHasColours, PigmentLanes<S>, None> colours_;
+  bool leaf_is_coloured_ = false; ///< the leaf that next() has come to
+  F* grey_ = nullptr;             ///< what leaves add to, where they are parts of a pattern
   uint32_t depth_ = 0;
   uint32_t ground_ = 0; ///< the depth at which next() ends
   Level levels_[kDeepestMapWalk];

@@ -10,6 +10,7 @@ enum class PatternCode : uint32_t { resident, plain, noise, rare };
 /// A number at every point, which a map blends by.
 struct BlendPattern {
   static constexpr bool kIsList = false;
+  static constexpr bool kIsColour = false;
   static constexpr PatternCode kCode = PatternCode::plain;
   static constexpr bool kDisturbs = false;
   static constexpr bool kReadsNoise = false;
@@ -39,6 +40,12 @@ struct ShiftedPattern : BlendPattern {
 /// Few scenes have it; it may read a table of the scene image. Its functions are inlined always.
 struct RarePattern : BlendPattern {
   static constexpr PatternCode kCode = PatternCode::rare;
+};
+
+/// A colour at every point, with its transparency, in place of a number and a map: colour(scene, points,
+/// record). It is a pigment, or an entry of a pigment's map, or the pattern of a pigment_pattern.
+struct ColourPattern : RarePattern {
+  static constexpr bool kIsColour = true;
 };
 
 } // namespace celltrace::kernel

@@ -11,6 +11,7 @@
 #include "kernel/textures/gradient_noise.hpp"
 #include "kernel/textures/list.hpp"
 #include "kernel/textures/pattern_points.hpp"
+#include "kernel/textures/pigment_lanes.hpp"
 #include "kernel/textures/warps.hpp"
 #include "kernel/textures/wave.hpp"
 
@@ -146,7 +147,7 @@ CELLTRACE_ONE_COPY typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, con
     using Pattern = decltype(pattern);
     if constexpr (Pattern::kReadsSurface)
       value = Pattern::template value<Spu>(scene, points, r);
-    else if constexpr (Pattern::kCode == PatternCode::rare)
+    else if constexpr (Pattern::kCode == PatternCode::rare && !Pattern::kIsColour)
       value = Pattern::template value<Spu>(scene, p, r);
     if constexpr (Pattern::kIsShifted)
       value = Pattern::template value<S>(q, r);
@@ -154,6 +155,18 @@ CELLTRACE_ONE_COPY typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, con
       value = Pattern::template value<S>(q, r, source);
   });
   return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
+}
+
+/// The colours of patterns of which is_colour() is true, and black of others.
+template <class Spu>
+CELLTRACE_ONE_COPY void colour(SceneAccess<Spu>& scene, const PatternRecord& r,
+                               const PatternPoints<typename Spu::rare_simd>& points,
+                               PigmentLanes<typename Spu::rare_simd>& pigment) {
+  scene.spu().run_in_module(modules::kRarePatterns);
+  Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
+    using Pattern = decltype(pattern);
+    if constexpr (Pattern::kIsColour) pigment = Pattern::template colour<Spu>(scene, points, r);
+  });
 }
 
 /// As that of the noise.

@@ -1,6 +1,7 @@
 // How bright a pigment is. Kernel dialect.
 #pragma once
 
+#include "kernel/math.hpp"
 #include "kernel/textures/pattern_traits.hpp"
 #include "records/pattern.hpp"
 
@@ -20,6 +21,11 @@ struct PigmentPattern : RarePattern {
 /// Red, green and blue as they count.
 inline float grey_of(const float (&rgb)[3]) {
   return 0.297f * rgb[0] + 0.589f * rgb[1] + 0.114f * rgb[2];
+}
+
+template <class S> typename S::F grey_of(const V3<S>& rgb) {
+  using F = typename S::F;
+  return F(0.297f) * rgb.x + F(0.589f) * rgb.y + F(0.114f) * rgb.z;
 }
 
 } // namespace celltrace::kernel

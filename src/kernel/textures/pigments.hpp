@@ -6,30 +6,6 @@
 
 namespace celltrace::kernel {
 
-/// Colours with their transparency.
-template <class S> struct PigmentLanes {
-  V3<S> rgb;
-  typename S::F filter, transmit;
-
-  V3<S> transmittance() const { return rgb * filter + V3<S>{transmit, transmit, transmit}; }
-};
-
-template <class S> PigmentLanes<S> pigment_of(const MapEntryRecord& entry) {
-  using F = typename S::F;
-  return {splat3<S>(entry.rgb), F(entry.filter), F(entry.transmit)};
-}
-template <class S> PigmentLanes<S> operator*(const PigmentLanes<S>& pigment, const typename S::F& weight) {
-  return {pigment.rgb * weight, pigment.filter * weight, pigment.transmit * weight};
-}
-template <class S> PigmentLanes<S> operator+(const PigmentLanes<S>& a, const PigmentLanes<S>& b) {
-  return {a.rgb + b.rgb, a.filter + b.filter, a.transmit + b.transmit};
-}
-template <class S>
-PigmentLanes<S> select(const typename S::M& lanes, const PigmentLanes<S>& a, const PigmentLanes<S>& b) {
-  return {select<S>(lanes, a.rgb, b.rgb), S::select(lanes, a.filter, b.filter),
-          S::select(lanes, a.transmit, b.transmit)};
-}
-
 namespace detail {
 
 /// Of a pattern whose map has colours only: the entries on both sides of its values, blended.
@@ -70,7 +46,7 @@ CELLTRACE_ONE_COPY void add_up_leaves(SceneAccess<Spu>& scene, uint32_t pattern,
   F weight;
   uint32_t some;
   while (walk.next(entry, weight, some))
-    pigment = pigment + pigment_of<S>(entry) * weight;
+    pigment = pigment + walk.pigment(entry) * weight;
 }
 
 } // namespace detail
@@ -81,8 +57,9 @@ void pigment_at(SceneAccess<Spu>& scene, uint32_t pattern,
                 const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
                 PigmentLanes<typename Spu::rare_simd>& pigment) {
   const uint32_t flags = scene.pattern(pattern)->kind_and_flags;
-  if ((flags & (pattern_flag::nested | pattern_flag::average)) == 0 &&
-      !Patterns::kAreLists[flags & pattern_flag::kind_mask])
+  const uint32_t kind = flags & pattern_flag::kind_mask;
+  if ((flags & (pattern_flag::nested | pattern_flag::average)) == 0 && !Patterns::kAreLists[kind] &&
+      !is_colour(kind))
     detail::blend_colours(scene, pattern, points, lanes, pigment);
   else
     detail::add_up_leaves(scene, pattern, points, lanes, pigment);

@@ -1,7 +1,7 @@
 // Once around the y axis, from the side of -z on. Kernel dialect.
 #pragma once
 
-#include "kernel/textures/angles.hpp"
+#include "kernel/angles.hpp"
 #include "kernel/textures/pattern_traits.hpp"
 #include "records/pattern.hpp"
 

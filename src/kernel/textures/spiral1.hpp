@@ -1,7 +1,7 @@
 // Arms that wind around the z axis. Kernel dialect.
 #pragma once
 
-#include "kernel/textures/angles.hpp"
+#include "kernel/angles.hpp"
 #include "kernel/textures/pattern_traits.hpp"
 #include "records/pattern.hpp"
 

@@ -68,4 +68,25 @@ void transmittance_at(SceneAccess<Spu>& scene, uint32_t material,
   detail::filter_of_texture(scene, material, points, lanes, transmittance);
 }
 
+/// The same of a surface, whose material is at `material`, or whose three are in the BlendRecord there: then
+/// their weights are those of the barycentric coordinates u and v.
+template <class Spu>
+[[gnu::always_inline]] inline void
+surface_transmittance(SceneAccess<Spu>& scene, uint32_t material, bool blended,
+                      const PatternPoints<typename Spu::rare_simd>& points,
+                      const typename Spu::rare_simd::F& u, const typename Spu::rare_simd::F& v,
+                      uint32_t lanes, V3<typename Spu::rare_simd>& transmittance) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  if (!blended) return transmittance_at(scene, material, points, lanes, transmittance);
+  Kept<Spu, BlendRecord> blend = *scene.blend(material);
+  const F weights[3] = {F(1.0f) - u - v, u, v};
+  transmittance = {F(0.0f), F(0.0f), F(0.0f)};
+  V3<S> of_corner;
+  for (uint32_t corner = 0; corner < 3; ++corner) {
+    transmittance_at(scene, blend.material[corner], points, lanes, of_corner);
+    transmittance = transmittance + of_corner * weights[corner];
+  }
+}
+
 } // namespace celltrace::kernel

@@ -1,7 +1,7 @@
 // How space is bent before a pattern is asked, but for turbulence. Kernel dialect.
 #pragma once
 
-#include "kernel/textures/angles.hpp"
+#include "kernel/angles.hpp"
 #include "kernel/textures/features.hpp"
 
 namespace celltrace::kernel::warps {

@@ -1,0 +1,82 @@
+// The crossings of rays with an object, however many there are. Kernel dialect.
+#pragma once
+
+#include "kernel/primitives/crossings.hpp"
+
+#include <type_traits>
+
+namespace celltrace::kernel {
+
+/// Hands out the crossings of a packet's rays with one object in the order of their distance, one pair of
+/// each ray at a time. Shapes whose crossings are roots of a polynomial find all at once. If it `kGoesOn`,
+/// the shape finds the first ones, and is asked for the next ones beyond those that were handed out, until
+/// there are none.
+template <class S, bool kGoesOn> class CrossingSequence {
+public:
+  using F = typename S::F;
+
+  /// Where the shape puts pairs.
+  Crossings<S>* pairs() { return pairs_; }
+  /// The shape has put so many there, and it may `go_on`.
+  void begin(uint32_t count, bool goes_on) {
+    count_ = count;
+    next_ = 0;
+    goes_on_ = kGoesOn && goes_on;
+    if constexpr (kGoesOn) further_.found = 0;
+  }
+
+  /// Goes on to the next pair that some ray has; false: there is none. `find_after(after, crossings)` finds
+  /// each ray's next pair beyond `after`.
+  template <class FindAfter> bool next(const FindAfter& find_after) {
+    while (next_ < count_) {
+      const Crossings<S>& c = pairs_[next_++];
+      if ((c.near_hit | c.far_hit).bits() == 0) continue;
+      if constexpr (kGoesOn) remember(c);
+      return true;
+    }
+    if constexpr (kGoesOn) return goes_on_ && find_next(find_after);
+    return false;
+  }
+  /// The pair that next() has gone on to, which the caller may change.
+  Crossings<S>& current() { return pairs_[next_ - 1]; }
+  /// No more crossings of these rays are asked for.
+  void end(uint32_t lanes) {
+    if constexpr (kGoesOn) further_.lanes &= ~lanes;
+  }
+
+private:
+  /// Rays that cross an object more often are taken to leave it.
+  static constexpr uint32_t kMostPairs = 256;
+
+  struct Further {
+    uint32_t lanes = 0; ///< rays that may have more
+    uint32_t found = 0; ///< pairs, after the first ones
+    FloatLanes after;   ///< by ray, the farthest crossing that was handed out
+  };
+  struct Nothing {};
+
+  void remember(const Crossings<S>& c) {
+    further_.lanes = (c.near_hit | c.far_hit).bits();
+    S::select(c.far_hit, c.far, c.near).store(further_.after.lane);
+  }
+  template <class FindAfter> bool find_next(const FindAfter& find_after) {
+    if (further_.lanes == 0 || ++further_.found == kMostPairs) return false;
+    Crossings<S>& c = pairs_[0];
+    find_after(further_.after, c);
+    const F after = F::load(further_.after.lane);
+    const auto asked = S::M::from_bits(further_.lanes);
+    c.near_hit = c.near_hit & asked & (c.near > after); // whatever the shape finds, this ends
+    c.far_hit = c.far_hit & asked & (c.far > after);
+    next_ = 1;
+    if ((c.near_hit | c.far_hit).bits() == 0) return false;
+    remember(c);
+    return true;
+  }
+
+  Crossings<S> pairs_[kMaxCrossingPairs];
+  uint32_t count_ = 0, next_ = 0;
+  bool goes_on_ = false;
+  std::conditional_t<kGoesOn, Further, Nothing> further_;
+};
+
+} // namespace celltrace::kernel
