@@ -121,17 +121,17 @@ constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
 //   TextureStage(1)
 
 /// The maps of textures: which of them count where.
-constexpr CodeModule kMaps = {"maps", 27, 1, 7168};
+constexpr CodeModule kMaps = {"maps", 27, 1, 7232};
 //   TextureStage(2)
 
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 7104};
+constexpr CodeModule kTextures = {"textures", 9, 1, 7168};
 //   TextureStage(0), pigment_at, blend_colours, add_up_leaves, add_pigments, filter_of_texture,
 //   filter_of_layers
 
 /// What few finishes do with light, light from behind, and the materials of surfaces that look different from
 /// inside.
-constexpr CodeModule kFinishes = {"finishes", 19, 1, 5248};
+constexpr CodeModule kFinishes = {"finishes", 19, 1, 5312};
 //   *change_special, light_of_both_sides, film_factors, random_at, cosine_of_turns, take_inside_materials
 
 /// Rays that go on from surfaces.
@@ -147,7 +147,7 @@ constexpr CodeModule kHits = {"hits", 5, 2, 7808};
 //   kernel::find_hit_points, detail::surface_of, kernel::local_normal
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 6784};
+constexpr CodeModule kObjects = {"objects", 12, 2, 7424};
 //   test_closest_of_other, occluded_by_other, occluded_by_instance, test_instance, ObjectTests<>::accept,
 //   ObjectTests<>::accepted, csg_accepted
 

@@ -106,8 +106,9 @@ Vec3 filter_of(const PreparedScene& scene, const ObjectRecord& object, double u,
     const auto& m = scene.record<MaterialRecord>(offset);
     return Vec3(m.pigment[0], m.pigment[1], m.pigment[2]) * double{m.filter} + double{m.transmit};
   };
-  if ((object.kind_and_flags & object_flag::blended) == 0) return filter(object.material);
-  const auto& blend = scene.record<BlendRecord>(object.material);
+  if ((object.kind_and_flags & object_flag::blended) == 0)
+    return filter(material_word::offset(object.material));
+  const auto& blend = scene.record<BlendRecord>(material_word::offset(object.material));
   return filter(blend.material[0]) * (1 - u - v) + filter(blend.material[1]) * u +
          filter(blend.material[2]) * v;
 }

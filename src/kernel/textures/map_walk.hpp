@@ -121,7 +121,7 @@ public:
       weight = level.weight * (level.state == State::average ? F(leaf.position) : weight_of(level, number));
       lanes = level.lanes & (S::abs(weight) > F(0.0f)).bits(); // an average may take something away
       if (lanes == 0) continue;
-      leaf_is_coloured_ = false;
+      if constexpr (kHasColours) leaf_is_coloured_ = false;
       const uint32_t pattern = pattern_of(leaf);
       if (pattern != kNoOffset)
         enter(pattern, weight, lanes);
