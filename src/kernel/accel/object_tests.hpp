@@ -219,7 +219,8 @@ private:
         accept(rays, other.csg(), near, far, false, reflected_, c);
       }
       keep_closest<S>(c, self, hits);
-      other.end((c.near_hit | c.far_hit).bits()); // farther ones are farther
+      const F least(kMinHitDistance); // other crossings of rays that have a hit are farther
+      other.end(((c.near_hit & (c.near > least)) | (c.far_hit & (c.far > least))).bits());
     }
   }
   CELLTRACE_ONE_COPY uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record,

@@ -26,7 +26,7 @@ public:
   }
 
   /// Goes on to the next pair that some ray has; false: there is none. `find_after(after, crossings)` finds
-  /// each ray's next pair beyond `after`.
+  /// each ray's next pair beyond `after`, which is kEveryCrossing of rays that want none.
   template <class FindAfter> bool next(const FindAfter& find_after) {
     while (next_ < count_) {
       const Crossings<S>& c = pairs_[next_++];
@@ -62,9 +62,10 @@ private:
   template <class FindAfter> bool find_next(const FindAfter& find_after) {
     if (further_.lanes == 0 || ++further_.found == kMostPairs) return false;
     Crossings<S>& c = pairs_[0];
+    const auto asked = S::M::from_bits(further_.lanes);
+    S::select(asked, F::load(further_.after.lane), F(kEveryCrossing)).store(further_.after.lane);
     find_after(further_.after, c);
     const F after = F::load(further_.after.lane);
-    const auto asked = S::M::from_bits(further_.lanes);
     c.near_hit = c.near_hit & asked & (c.near > after); // whatever the shape finds, this ends
     c.far_hit = c.far_hit & asked & (c.far > after);
     next_ = 1;

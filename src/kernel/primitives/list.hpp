@@ -28,6 +28,7 @@ namespace celltrace::kernel {
 template <class... P> struct PrimitiveList : TypeList<P...> {
   static constexpr bool kSomeGoOn = (P::kGoesOn || ...);
   static_assert(((P::kIsHeavy || !P::kGoesOn) && ...), "module_heavy::intersect() says what is asked");
+  static_assert(((P::kCrossingPairs == 1 || !P::kGoesOn) && ...), "CrossingSequence asks for one at a time");
   static constexpr bool goes_on(uint32_t kind) {
     return ((P::kGoesOn ? kind == TypeList<P...>::template number<P>() : false) || ...);
   }

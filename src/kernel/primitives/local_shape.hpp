@@ -51,6 +51,16 @@ template <class S> struct LocalRays {
   V3<S> origin, direction;
   typename S::M starts_here; ///< rays that start on this object
   const AskedCrossings* asked = &kAllCrossings;
+  uint32_t first = 0; ///< lane of the packet that the rays begin with
+
+  /// asked->after of these rays, 0 without one; and asked->limit, kEveryCrossing without one.
+  typename S::F after() const { return of_these(asked->after, 0.0f); }
+  typename S::F limit() const { return of_these(asked->limit, kEveryCrossing); }
+
+private:
+  typename S::F of_these(const FloatLanes* of_packet, float otherwise) const {
+    return of_packet == nullptr ? typename S::F(otherwise) : S::F::load(of_packet->lane + first);
+  }
 };
 
 /// Around a shape: along the third axis from `low` to `high`; across it `radius` to all sides of a disc, or
@@ -198,7 +208,7 @@ LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint3
                         const AskedCrossings& asked = kAllCrossings) {
   return {to_local<S>(object.geometry, rays.origin.template load_from<S>(first), 1.0f),
           to_local<S>(object.geometry, rays.direction.template load_from<S>(first), 0.0f),
-          lanes_that_start_on<S>(rays, self, first), &asked};
+          lanes_that_start_on<S>(rays, self, first), &asked, first};
 }
 
 /// What a shape in a space of its own is to the rest of the kernel.

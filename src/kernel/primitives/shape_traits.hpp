@@ -22,8 +22,8 @@ struct ShapeTraits {
       false; ///< the code of its intersect() is large: it has a code module apart
   static constexpr bool kHasHeavyPoints = false; ///< that of its inside() and of its normals is: likewise
   static constexpr bool kHasFaces = false;       ///< flat ones: then it has off_face()
-  /// It finds a ray's first crossings, and the next ones beyond rays.asked->after when it is asked again
-  /// (crossing_sequence.hpp). Such shapes are heavy.
+  /// It finds a ray's first pair of crossings, and the next one beyond rays.after() when it is asked again,
+  /// as rays.asked->after says (crossing_sequence.hpp). Such shapes are heavy.
   static constexpr bool kGoesOn = false;
   /// Crossings of its plane count where its edges say (polygons_module.hpp).
   static constexpr bool kHasEdges = false;
