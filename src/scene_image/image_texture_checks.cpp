@@ -158,6 +158,7 @@ private:
   std::uint32_t depth_of(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
     if (r.entry_count == 0 || !inside_is_sound(pattern)) return 0;
+    if (is_of_colours(r)) return 1;
     std::uint32_t deepest = depth_inside(pattern);
     if (deepest == kDeepestMapWalk) return 0;
     for (std::uint32_t i = 0; i < r.entry_count; ++i) {
@@ -171,6 +172,11 @@ private:
       deepest = std::max(deepest, pigment_depth_[nested]);
     }
     return deepest + 1;
+  }
+  /// Then it is a pigment's, and what its entries are is its own business.
+  static bool is_of_colours(const PatternRecord& r) {
+    return (r.kind_and_flags & pattern_flag::average) == 0 &&
+           is_colour(r.kind_and_flags & pattern_flag::kind_mask);
   }
   /// Then it is in no other map.
   bool is_relative(std::uint32_t pattern) const {
@@ -187,6 +193,7 @@ private:
     std::uint32_t depth = 0;
     if (pattern == patterns_.count) return false;
     if (!inside_is_sound(pattern) || is_relative(pattern)) return false;
+    if (is_of_colours(patterns_[pattern])) return false;
     bool asks = pattern_asks(pattern);
     depth = depth_inside(pattern);
     if (r.is_mapped != 0)
@@ -215,6 +222,7 @@ private:
       const std::uint32_t pattern = patterns_.find(r.pattern);
       if (pattern == patterns_.count) return false;
       if (mapped ? !inside_is_sound(pattern) : pigment_depth_[pattern] == 0) return false;
+      if (mapped && is_of_colours(patterns_[pattern])) return false;
       asks = pattern_asks_[pattern];
       if (mapped) material_depth_[material] = depth_inside(pattern) + 1;
       for (std::uint32_t i = 0; mapped && i < patterns_[pattern].entry_count; ++i) {

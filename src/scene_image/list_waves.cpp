@@ -10,8 +10,20 @@ namespace celltrace {
 
 using namespace kernel;
 
+namespace {
+
+std::uint32_t kind_of(const Pattern& pattern) {
+  return pattern_words(pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask;
+}
+
+} // namespace
+
 bool is_list(const Pattern& pattern) {
-  return Patterns::kAreLists[pattern_words(pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask];
+  return Patterns::kAreLists[kind_of(pattern)];
+}
+
+bool is_colour(const Pattern& pattern) {
+  return Patterns::is_colour(kind_of(pattern));
 }
 
 bool blends_list(const Pattern& pattern) {

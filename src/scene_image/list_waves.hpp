@@ -17,6 +17,9 @@ constexpr std::size_t kMostListEntries = 6;
 /// Whether a pattern chooses an entry of its map by a number, as checker does.
 bool is_list(const Pattern& pattern);
 
+/// Whether a pattern is a colour at every point, for which the entries of its map are what it is made of.
+bool is_colour(const Pattern& pattern);
+
 /// Whether the numbers of a list become others, between which its entries are blended.
 bool blends_list(const Pattern& pattern);
 

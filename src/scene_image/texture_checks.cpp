@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -74,6 +75,7 @@ private:
     if (n.map) return map(*n.map, depth, [&](const Normal& entry, int inside) { normal(entry, inside); });
     numbers({n.amount, n.accuracy});
     if (!(n.accuracy > 0)) fail("has a normal whose accuracy is not greater than 0");
+    if (is_colour(n.pattern)) fail("has a pattern of colours that is no pigment's");
     if (n.slopes.size() > kMostMapEntries)
       fail("has a slope map of more than " + std::to_string(kMostMapEntries) + " entries");
     for (const SlopePoint& point : n.slopes)
@@ -98,7 +100,9 @@ private:
     if (deepest >= depth) return;
     deepest = depth;
     if (map.entries.empty()) fail("has a map without entries");
-    if (map.entries.size() > kMostMapEntries)
+    const bool is_of_colours = !map.is_average && is_colour(map.pattern);
+    if (is_of_colours && !std::is_same_v<T, Pigment>) fail("has a pattern of colours that is no pigment's");
+    if (map.entries.size() > kMostMapEntries && !is_of_colours)
       fail("has a map of more than " + std::to_string(kMostMapEntries) + " entries");
     pattern(map.pattern, depth + 1);
     int inside = depth + 1;

@@ -163,8 +163,8 @@ private:
   /// Only such walks go on inside patterns that are pigments. Others have them go there, part by part.
   static constexpr bool kIsPart = S::kLanes == Part::kLanes;
 
-  /// Whether leaves may be patterns that are colours.
-  static constexpr bool kHasColours = Patterns::kSomeAreColours && kIsPart && kStage == TextureStage::colours;
+  /// Whether leaves may be patterns that are colours, be they only those of a pigment that is a pattern.
+  static constexpr bool kHasColours = Patterns::kSomeAreColours && kIsPart;
 
   /// Of a level: its pattern has not been asked; its pattern is a pigment, which adds up in `upper`; leaves
   /// have weights by lane; leaves have one weight; it is one leaf, whose colours are `colours_`.
@@ -188,6 +188,7 @@ private:
     if constexpr (kHasColours)
       if (is_colour(r.kind_and_flags & pattern_flag::kind_mask)) {
         const PatternPoints<Part> points = to_pattern_space<kStage>(scene_, r, *points_, level.lanes);
+        scene_.spu().compute(scalar_work::kPattern);
         scene_.spu().enter_module(modules::kRarePatterns);
         module_rare::colour(scene_, r, points, colours_);
         level.count = 1;
