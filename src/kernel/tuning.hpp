@@ -7,7 +7,8 @@
 //
 // MEASURE and SCENE are said with each number; "rays of the models" is 'rays/(bunny|head|legocar|suzanne)$'.
 // A number stays as it is unless another is better by more than the runs of one program differ. The numbers
-// are for memory that is direct, where they do not say otherwise.
+// are for memory that is direct, where they do not say otherwise. bench/sweep-thresholds tries those that
+// scenes can tell of at half, double and off, and writes as a table what each is worth.
 #pragma once
 
 #include <stdint.h>
