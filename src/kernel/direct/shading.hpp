@@ -2,8 +2,8 @@
 // shortcuts for what is frequent. Kernel dialect.
 #pragma once
 
+#include "kernel/direct/bundle_queues.hpp"
 #include "kernel/direct/node_stack.hpp"
-#include "kernel/direct/ray_pool.hpp"
 #include "kernel/direct/record_lanes.hpp"
 #include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
@@ -14,7 +14,7 @@ struct DirectShading {
   // --- the tree ---
 
   template <class Spu, uint32_t kResident> using RayStack = NodeStack;
-  template <class Spu> using RayPooling = kernel::RayPooling<Spu>;
+  template <class Spu> using RayPooling = kernel::RayPooling;
 
   // --- surfaces ---
 
