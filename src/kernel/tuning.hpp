@@ -44,11 +44,6 @@ constexpr uint32_t kMostObjectsOfMixedRays = 40000;
 /// 'trace time' of scenes with mirrors and glass.
 constexpr uint32_t kMostObjectsWithoutFrusta = 64;
 
-/// Such packets are tested against all leaves of the BVH, if these are few, where they would expand more than
-/// one node for so many leaves. Larger: leaves are tested whose nodes would have been missed; smaller:
-/// traversals wait for nodes. 'trace time' of scenes of 20 to 30 objects with mirrors and glass.
-constexpr uint32_t kLeavesPerVisit = 6;
-
 /// A packet with so many rays of one tree goes on by itself, and so do so many hits and shadow rays from
 /// there; those of others are gathered into full packets. Larger: fewer lanes are empty; smaller: more
 /// packets have rays that are close to each other. 'trace time' of scenes with mirrors and glass, at 320x240.

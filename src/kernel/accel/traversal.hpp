@@ -92,10 +92,7 @@ public:
 
   ObjectTests<Spu>& objects() { return objects_; }
   const TraversalCounters& counters() const { return objects_.counters(); }
-  void begin_frame() {
-    objects_.begin_frame();
-    if constexpr (kHasBvh) bvh_.begin_frame();
-  }
+  void begin_frame() { objects_.begin_frame(); }
 
 private:
   static constexpr bool kHasGrid = (kAccelerators & kGridOnly) != 0,

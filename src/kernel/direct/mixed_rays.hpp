@@ -43,31 +43,26 @@ public:
     return cross(bounds, i, tfar, from).bits();
   }
 
+private:
   /// Where the rays are within one slab of a box.
   struct Range {
     F from, to;
   };
-  /// Of the slab between two planes perpendicular to an axis (0 to 2).
-  [[gnu::always_inline]] Range slab(uint32_t axis, float low, float high) const {
-    const F& origin = axis == 0 ? origin_.x : axis == 1 ? origin_.y : origin_.z;
-    const F& inverse = axis == 0 ? inverse_.x : axis == 1 ? inverse_.y : inverse_.z;
+  /// Of the slab between two planes perpendicular to an axis.
+  [[gnu::always_inline]] static Range slab(float low, float high, const F& origin, const F& inverse) {
     const F a = (F(low) - origin) * inverse, b = (F(high) - origin) * inverse;
     return {S::min(a, b), S::max(a, b)};
   }
-  /// The lanes that hit a box from `from` up to their own `tfar`; `from` grows to where they do.
-  [[gnu::always_inline]] static typename S::M hit_box(const Range& x, const Range& y, const Range& z,
-                                                      const F& tfar, F& from) {
+  /// The lanes that hit child `i` of a node from `from` up to their own `tfar`; `from` grows to where they
+  /// do.
+  [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
+                                             F& from) const {
+    const Range x = slab(bounds[0][i], bounds[1][i], origin_.x, inverse_.x);
+    const Range y = slab(bounds[2][i], bounds[3][i], origin_.y, inverse_.y);
+    const Range z = slab(bounds[4][i], bounds[5][i], origin_.z, inverse_.z);
     from = S::max(S::max(S::max(from, x.from), y.from), z.from);
     const F to = S::min(S::min(S::min(tfar, x.to), y.to), z.to);
     return from <= to * F(detail::kRoundedUp);
-  }
-
-private:
-  /// hit_box() of child `i` of a node.
-  [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
-                                             F& from) const {
-    return hit_box(slab(0, bounds[0][i], bounds[1][i]), slab(1, bounds[2][i], bounds[3][i]),
-                   slab(2, bounds[4][i], bounds[5][i]), tfar, from);
   }
   static F inverse_of(const F& direction) {
     const F tiny(detail::kTinyDirection);
