@@ -6,8 +6,18 @@
 namespace celltrace::kernel {
 
 struct DirectPackets {
-  /// Whether there are shortcuts for what is frequent, and every accelerator in a program: code is free.
-  static constexpr bool kHasShortcuts = true;
+  /// Whether all lanes of a packet are of one sort, for which there may be a shortcut.
+  static bool are_all(uint32_t lanes) { return lanes == 0xFFFF; }
+  /// Returns where a search for hits of some lanes begins. Others hit nothing: instances take long to find
+  /// out what.
+  template <class S> static typename S::F farthest(uint32_t lanes) {
+    using F = typename S::F;
+    return S::select(S::M::from_bits(lanes), F(kMaxHitDistance), F(-1.0f));
+  }
+  /// Returns a number that is not negative raised to a power, which is mostly 2.
+  template <class S> static typename S::F raised(const typename S::F& number, float power) {
+    return power == 2.0f ? number * number : pow<S>(number, typename S::F(power));
+  }
 
   template <class S>
   [[gnu::always_inline]] static void put_in_lanes(bool all, const typename S::M& lanes, const float* values,

@@ -26,20 +26,8 @@ struct DirectShading {
     if (!load_several_objects(scene, offsets, lanes, o, points))
       detail::gather_objects(scene, offsets, lanes, o, points);
   }
-  /// The normals of objects that are no spheres, triangles or planes. Points on flat faces move there.
-  template <class Spu>
-  [[gnu::always_inline]] static void find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
-                                                  const V3<typename Spu::simd>& way, uint32_t others,
-                                                  uint32_t heavy, V3<typename Spu::simd>& point,
-                                                  V3<typename Spu::simd>& normal) {
-    using S = typename Spu::simd;
-    static_assert(kOnePart<Spu>);
-    const V3<S> along_ray = point;
-    normal = along_ray;
-    if (others != 0) normal = local_normal<S>(o, way, point);
-    if (heavy != 0)
-      normal = select<S>(S::M::from_bits(heavy), module_heavy_points::normal(spu, o, along_ray), normal);
-  }
+  /// Ends of trees are shaded without what it takes to let rays go on.
+  static constexpr bool kShadesEndsApart = true;
   /// The first material fills all lanes.
   template <class Spu>
   [[gnu::always_inline]] static void gather_material(const MaterialRecord& r, bool first, uint32_t lanes,

@@ -7,7 +7,11 @@
 namespace celltrace::kernel {
 
 struct LocalPackets {
-  static constexpr bool kHasShortcuts = false;
+  static constexpr bool are_all(uint32_t) { return false; }
+  template <class S> static typename S::F farthest(uint32_t) { return typename S::F(kMaxHitDistance); }
+  template <class S> static typename S::F raised(const typename S::F& number, float power) {
+    return pow<S>(number, typename S::F(power));
+  }
 
   template <class S>
   [[gnu::always_inline]] static void put_in_lanes(bool, const typename S::M& lanes, const float* values,
