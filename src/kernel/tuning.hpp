@@ -128,11 +128,6 @@ constexpr double kMostDecay = 1.5;
 constexpr int kMostRaysByLeaf = 4;
 constexpr uint32_t kLeastTrianglesByLeaf = 4;
 
-/// So few rays of a packet that come near a torus wait for those of others (TorusPairs). Larger: packets with
-/// many rays are taken apart; smaller: the quartic is solved for few lanes. 'trace time' of scenes whose rays
-/// scatter among tori.
-constexpr uint32_t kMostRaysThatWait = 8;
-
 // --- lights with an area ---
 
 /// Objects that are remembered to be between a packet and such a light; with more, rays toward its places are

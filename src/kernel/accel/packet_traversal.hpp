@@ -68,10 +68,8 @@ public:
     PacketVisitor<false> visitor = {
         *this, slot, order, *task.group, *task.query, begin(slot, task, floor), task.lanes, floor};
     NodeRef ref = task.ref;
-    objects_.begin_traversal(*task.query);
     traverse_nodes(visitor, ref);
     visitor.end();
-    objects_.end_traversal();
   }
 
   /// The same for several tasks, each of a different packet, interleaved: while the node that one traversal

@@ -91,13 +91,11 @@ protected:
       const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
       if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
     }
-    search().objects_.begin_traversal(query);
     MixedStack<S> stack;
     MixedVisitor<Spu> visitor = {
         search().packet_traversal_, search().objects_, query, MixedRays<S>(rays), stack, query.lanes};
     NodeRef ref = search().root();
     traverse_nodes(visitor, ref);
-    search().objects_.end_traversal();
     return true;
   }
 
