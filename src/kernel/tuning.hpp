@@ -151,9 +151,6 @@ constexpr uint32_t kMostAreaPackets = 16;
 constexpr uint32_t kMostCellsOfFeatures = 2;
 /// The same where points that were gathered are kept for points beside these.
 constexpr uint32_t kMostCellsInCache = 8;
-/// Up to so many lanes in one of these cells are compared with the points around it one lane after the other,
-/// all points at once; more lanes one point after the other.
-constexpr int kMostLanesByFeatures = 6;
 
 // --- building the BVH ---
 
