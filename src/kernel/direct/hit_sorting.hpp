@@ -2,7 +2,8 @@
 // dialect, where memory is direct.
 //
 // A packet is shaded once for each of its materials; and what one material is on is mostly close together, so
-// that the shadow rays from there are coherent.
+// that the shadow rays from there are coherent. No lane waits, so that this is no WavefrontQueue: all are
+// there at once, and change places by counting.
 #pragma once
 
 #include "kernel/packet.hpp"
