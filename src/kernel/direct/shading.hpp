@@ -4,7 +4,6 @@
 
 #include "kernel/direct/bundle_queues.hpp"
 #include "kernel/direct/node_stack.hpp"
-#include "kernel/direct/record_lanes.hpp"
 #include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
 
@@ -18,14 +17,6 @@ struct DirectShading {
 
   // --- surfaces ---
 
-  /// Several objects at once, or one by one.
-  template <class Spu>
-  [[gnu::always_inline]] static void gather_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                                    uint32_t lanes, detail::HitObjects<typename Spu::simd>& o,
-                                                    HitPoints<typename Spu::simd>& points) {
-    if (!load_several_objects(scene, offsets, lanes, o, points))
-      detail::gather_objects(scene, offsets, lanes, o, points);
-  }
   /// Ends of trees are shaded without what it takes to let rays go on.
   static constexpr bool kShadesEndsApart = true;
   /// The first material fills all lanes.
@@ -121,39 +112,6 @@ struct DirectShading {
     store_words<S>(ray.interior_depth,
                    S::select(outside, I::splat(1), S::select(inside, I::splat(0), depth)));
     return lanes & ~crossing;
-  }
-
-private:
-  /// Loads several objects at once. False: there is only one, or some are triangles of instances.
-  template <class Spu>
-  [[gnu::always_inline]] static bool
-  load_several_objects(SceneAccess<Spu>& scene, const WordLanes& offsets, uint32_t lanes,
-                       detail::HitObjects<typename Spu::simd>& o, HitPoints<typename Spu::simd>& points) {
-    using S = typename Spu::simd;
-    using I = typename S::I;
-    const I all = load_words<S>(offsets);
-    const I first = I::splat(static_cast<int32_t>(offsets.lane[__builtin_ctz(lanes)]));
-    if ((lanes & ~(all == first).bits()) == 0) return false;
-    const I in_all = S::select(S::M::from_bits(lanes), all, first);
-    if ((in_all < I::splat(0)).bits() != 0) return false;
-    WordLanes filled;
-    store_words<S>(filled, in_all);
-    ObjectWords<S> words;
-    load_objects(scene, filled, o.objects, words);
-    o.material = words.material;
-    o.interior = words.interior;
-    o.open = words.lanes_with(object_flag::open);
-    points.blended = lanes & words.lanes_with(object_flag::blended);
-    points.spawning = lanes & words.lanes_with(object_flag::spawns);
-    points.textured = lanes & words.lanes_with(object_flag::textured);
-    points.disturbed = lanes & words.lanes_with(object_flag::disturbed);
-    if ((lanes & words.lanes_with(detail::kOfSides)) != 0) {
-      o.two_sided = lanes & words.lanes_with(object_flag::two_sided);
-      o.inverse = lanes & words.lanes_with(object_flag::inverse);
-      points.lit_behind = lanes & words.lanes_with(object_flag::lit_behind);
-      points.lit_through = lanes & words.lanes_with(object_flag::lit_through);
-    }
-    return true;
   }
 };
 

@@ -18,12 +18,6 @@ struct LocalShading {
 
   // --- surfaces ---
 
-  template <class Spu>
-  [[gnu::always_inline]] static void gather_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                                    uint32_t lanes, detail::HitObjects<typename Spu::simd>& o,
-                                                    HitPoints<typename Spu::simd>& points) {
-    detail::gather_objects(scene, offsets, lanes, o, points);
-  }
   static constexpr bool kShadesEndsApart = false;
   template <class Spu>
   [[gnu::always_inline]] static void gather_material(const MaterialRecord& r, bool first, uint32_t lanes,

@@ -260,7 +260,7 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   points.blended = points.spawning = points.textured = points.disturbed = 0;
   points.lit_behind = points.lit_through = 0;
   detail::HitObjects<S> o;
-  Strategy<Spu>::gather_objects(scene, hits.object, lanes, o, points);
+  detail::gather_objects(scene, hits.object, lanes, o, points);
   scene.spu().compute(scalar_work::kHitSurfaces);
   store_words<S>(points.material, o.material);
   store_words<S>(points.interior, o.interior);
