@@ -146,8 +146,8 @@ constexpr uint32_t kMostAreaPackets = 16;
 // --- patterns ---
 
 /// The points around up to so many cells of crackle are gathered for a packet cell by cell; if its points are
-/// in more, each lane is compared with the points around its own cell. 'trace time' of scenes with crackle near
-/// by and as far as the horizon.
+/// in more, each lane is compared with the points around its own cell. 'trace time' of scenes with crackle
+/// near by and as far as the horizon.
 constexpr uint32_t kMostCellsOfFeatures = 2;
 /// The same where points that were gathered are kept for points beside these.
 constexpr uint32_t kMostCellsInCache = 8;
@@ -194,9 +194,5 @@ constexpr uint32_t kTreeletObjects = 64;
 constexpr uint32_t kFewReferences = 32;
 constexpr uint32_t kFewBins = 4;
 constexpr uint32_t kManyBins = 8;
-/// Up to so many references become the children of a node by clustering in place of splits. Larger: better
-/// nodes near the leaves; the time grows with the square. 'rebuilt every frame' of the models, and their
-/// rays.
-constexpr uint32_t kMostClusteredReferences = 8;
 
 } // namespace celltrace::kernel::tuning
