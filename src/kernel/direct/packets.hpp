@@ -6,8 +6,6 @@
 namespace celltrace::kernel {
 
 struct DirectPackets {
-  /// Whether all lanes of a packet are of one sort, for which there may be a shortcut.
-  static bool are_all(uint32_t lanes) { return lanes == 0xFFFF; }
   /// Returns where a search for hits of some lanes begins. Others hit nothing: instances take long to find
   /// out what.
   template <class S> static typename S::F farthest(uint32_t lanes) {
@@ -27,21 +25,6 @@ struct DirectPackets {
   template <class Packet> [[gnu::always_inline]] static void copy_packet(const Packet& from, Packet& to) {
     to = from;
   }
-
-  /// Changes words of some lanes, in a register until finish(): whoever loads them next would wait for stores
-  /// by lane.
-  template <class S> class WordChanges {
-  public:
-    explicit WordChanges(WordLanes& words) : words_(words), all_(load_words<S>(words)) {}
-    [[gnu::always_inline]] void set(uint32_t lanes, uint32_t value) {
-      all_ = S::select(S::M::from_bits(lanes), S::I::splat(static_cast<int32_t>(value)), all_);
-    }
-    void finish() { store_words<S>(words_, all_); }
-
-  private:
-    WordLanes& words_;
-    typename S::I all_;
-  };
 };
 
 } // namespace celltrace::kernel

@@ -94,11 +94,9 @@ template <class Spu>
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
-  const bool only_triangles = Strategy<Spu>::are_all(triangles);
   uint32_t others = 0, heavy = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
-    if (!only_triangles && kind > kPrimitiveKind<PlanePrimitive>)
-      (has_heavy_points(kind) ? heavy : others) |= o.of_kind[kind];
+    if (kind > kPrimitiveKind<PlanePrimitive>) (has_heavy_points(kind) ? heavy : others) |= o.of_kind[kind];
   if (spheres != 0) surface_of_spheres<S>(o, along_ray, point, normal);
   const auto add = [&](uint32_t lanes, const V3<S>& p, const V3<S>& n) {
     const auto mask = S::M::from_bits(lanes);
@@ -120,12 +118,7 @@ template <class Spu>
   }
   if (triangles != 0) {
     surface_of_triangles<S>(o, hits, p, n);
-    if (only_triangles) {
-      point = p;
-      normal = n;
-    } else {
-      add(triangles, p, n);
-    }
+    add(triangles, p, n);
   }
 }
 
@@ -135,12 +128,11 @@ CELLTRACE_ONE_COPY void take_inside_materials(SceneAccess<Spu>& scene, uint32_t 
                                               HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   scene.spu().run_in_module(modules::kFinishes);
-  typename Strategy<Spu>::template WordChanges<S> materials(points.material);
   for_each_value<S>(points.material, lanes, [&](uint32_t outside, uint32_t same) {
     if ((same & points.blended) != 0) outside = scene.blend(outside)->material[0];
-    materials.set(same, scene.material(outside)->inside);
+    const uint32_t inside = scene.material(outside)->inside;
+    for_each_lane(same, [&](uint32_t lane) { points.material.lane[lane] = inside; });
   });
-  materials.finish();
   points.blended &= ~lanes;
 }
 
