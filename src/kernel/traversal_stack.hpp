@@ -56,20 +56,6 @@ public:
     entries_[place] = entry;
   }
 
-  /// Likewise the children of a node, without a branch: those with lanes, by the distance `key`. The others'
-  /// is less than any.
-  [[gnu::always_inline]] void push_all(const float (&key)[4], const uint32_t (&lanes)[4],
-                                       const uint32_t (&child)[4], const uint32_t (&leaf)[4]) {
-    uint32_t place[4];
-    rank_descending(key, place);
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < 4; ++i) {
-      entries_[size_ + place[i]] = {{child[i], leaf[i]}, lanes[i], key[i], 0};
-      count += lanes[i] != 0 ? 1 : 0;
-    }
-    size_ += count;
-  }
-
 private:
   /// A node has four children, each with an entry for every packet that splits. One of these entries is
   /// popped before the next level is pushed.

@@ -45,11 +45,6 @@ constexpr uint32_t kMostObjectsOfMixedRays = 40000;
 /// 'trace time' of scenes with mirrors and glass.
 constexpr uint32_t kMostObjectsWithoutFrusta = 64;
 
-/// Such packets are tested against all leaves of the BVH, if these are few, where they would expand more than
-/// one node for so many leaves. Larger: leaves are tested whose nodes would have been missed; smaller:
-/// traversals wait for nodes. 'trace time' of scenes of 20 to 30 objects with mirrors and glass.
-constexpr uint32_t kLeavesPerVisit = 6;
-
 /// A packet with so many rays of one tree goes on by itself, and so do so many hits and shadow rays from
 /// there; those of others are gathered into full packets. Larger: fewer lanes are empty; smaller: more
 /// packets have rays that are close to each other. 'trace time' of scenes with mirrors and glass, at 320x240.
@@ -134,11 +129,6 @@ constexpr double kMostDecay = 1.5;
 constexpr int kMostRaysByLeaf = 4;
 constexpr uint32_t kLeastTrianglesByLeaf = 4;
 
-/// So few rays of a packet that come near a torus wait for those of others (TorusPairs). Larger: packets with
-/// many rays are taken apart; smaller: the quartic is solved for few lanes. 'trace time' of scenes whose rays
-/// scatter among tori.
-constexpr uint32_t kMostRaysThatWait = 8;
-
 // --- lights with an area ---
 
 /// Objects that are remembered to be between a packet and such a light; with more, rays toward its places are
@@ -157,14 +147,11 @@ constexpr uint32_t kMostAreaPackets = 16;
 // --- patterns ---
 
 /// The points around up to so many cells of crackle are gathered for a packet cell by cell; if its points are
-/// in more, each lane is compared with the points around its own cell. 'trace time' of scenes with crackle near
-/// by and as far as the horizon.
+/// in more, each lane is compared with the points around its own cell. 'trace time' of scenes with crackle
+/// near by and as far as the horizon.
 constexpr uint32_t kMostCellsOfFeatures = 2;
 /// The same where points that were gathered are kept for points beside these.
 constexpr uint32_t kMostCellsInCache = 8;
-/// Up to so many lanes in one of these cells are compared with the points around it one lane after the other,
-/// all points at once; more lanes one point after the other.
-constexpr int kMostLanesByFeatures = 6;
 
 // --- building the BVH ---
 
@@ -208,9 +195,5 @@ constexpr uint32_t kTreeletObjects = 64;
 constexpr uint32_t kFewReferences = 32;
 constexpr uint32_t kFewBins = 4;
 constexpr uint32_t kManyBins = 8;
-/// Up to so many references become the children of a node by clustering in place of splits. Larger: better
-/// nodes near the leaves; the time grows with the square. 'rebuilt every frame' of the models, and their
-/// rays.
-constexpr uint32_t kMostClusteredReferences = 8;
 
 } // namespace celltrace::kernel::tuning

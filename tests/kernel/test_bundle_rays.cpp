@@ -1,11 +1,8 @@
-// Rays that leave the packets that they began in: pools of secondary rays, queues of hits and shadow rays,
-// and hits sorted by materials.
+// Rays that leave the packets that they began in: the kinds of work that they wait for, and hits sorted by
+// materials.
 #include "direct_spu.hpp"
-#include "kernel/direct/hit_queue.hpp"
+#include "kernel/direct/bundle_queues.hpp"
 #include "kernel/direct/hit_sorting.hpp"
-#include "kernel/direct/ray_pool.hpp"
-#include "kernel/direct/shadow_queue.hpp"
-#include "kernel/direct/sky_queue.hpp"
 #include "lanes.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -45,7 +42,7 @@ RayNode node_of(Random& random, std::uint32_t lanes, WordLanes& pixels) {
   return node;
 }
 
-void check_ray(const PooledPacket& packet, std::uint32_t lane) {
+void check_ray(const PooledRays& packet, std::uint32_t lane) {
   const RayNode& node = packet.node;
   const std::uint32_t number = packet.pixels.lane[lane];
   const auto value = static_cast<float>(number);
@@ -61,230 +58,163 @@ void check_ray(const PooledPacket& packet, std::uint32_t lane) {
   REQUIRE((node.reflected >> lane & 1) == (number & 1));
 }
 
-} // namespace
+/// Stands for the trees that do the work: checks it, and notes which numbers it was of.
+struct Worker {
+  bool with_interiors = true;
+  std::set<std::uint32_t> seen;
+  int full = 0;
 
-TEST_CASE("A pool of rays gives back each of them once, with all that belongs to it") {
-  DirectSpu spu;
-  RayPool<DirectSpu> pool(spu);
-  Random random(5);
-  for (int round = 0; round < 20; ++round) {
-    std::set<std::uint32_t> inside;
-    for (int step = 0; step < 400; ++step) {
-      if (random.below(3) != 0) {
-        WordLanes pixels = {};
-        std::uint32_t lanes = 0;
-        for (unsigned i = random.below(11) + 1; i != 0; --i)
-          lanes |= 1u << random.below(kSimdLanes);
-        const RayNode node = node_of(random, lanes, pixels);
-        if (!pool.add(node, pixels)) continue;
-        for_each_lane(lanes, [&](std::uint32_t lane) { REQUIRE(inside.insert(pixels.lane[lane]).second); });
-      } else if (!pool.empty()) {
-        const PooledPacket& packet = pool.take();
-        REQUIRE(packet.node.lanes != 0);
-        for_each_lane(packet.node.lanes, [&](std::uint32_t lane) {
-          check_ray(packet, lane);
-          REQUIRE(inside.erase(packet.pixels.lane[lane]) == 1);
-        });
-      }
-    }
-    if (round % 4 == 3) {
-      pool.clear();
-      REQUIRE(pool.empty());
-      continue;
-    }
-    while (!pool.empty()) {
-      const PooledPacket& packet = pool.take();
-      for_each_lane(packet.node.lanes,
-                    [&](std::uint32_t lane) { REQUIRE(inside.erase(packet.pixels.lane[lane]) == 1); });
-    }
-    REQUIRE(inside.empty());
-  }
-}
+  void note(std::uint32_t number) { REQUIRE(seen.insert(number).second); }
+  void note_packet(std::uint32_t lanes) { full += lanes == 0xFFFF ? 1 : 0; }
 
-TEST_CASE("A queue of hits gives each of them once, with its ray, in full packets") {
-  DirectSpu spu;
-  HitQueue<DirectSpu> queue(spu);
-  Random random(11);
-  std::set<std::uint32_t> inside;
-  int refused = 0;
-  const auto take = [&] {
-    const auto left = static_cast<unsigned>(inside.size());
-    const QueuedHits& queued = queue.take();
-    const std::uint32_t lanes = queued.packet.node.lanes;
-    REQUIRE(lanes == (left < kSimdLanes ? (1u << left) - 1 : 0xFFFF));
+  bool trace_pooled(const PooledRays& rays, std::uint32_t lanes, int) {
+    REQUIRE(rays.node.lanes == lanes);
+    REQUIRE(rays.node.target == 0);
+    note_packet(lanes);
     for_each_lane(lanes, [&](std::uint32_t lane) {
-      check_ray(queued.packet, lane);
-      const std::uint32_t number = queued.packet.pixels.lane[lane];
+      check_ray(rays, lane);
+      note(rays.pixels.lane[lane]);
+    });
+    std::set<std::uint32_t> octants;
+    for_each_lane(lanes, [&](std::uint32_t lane) { octants.insert(octant_of(rays.node.rays, lane)); });
+    return octants.size() == 1;
+  }
+  void shade_ending(const EndingHits& ending, std::uint32_t lanes) {
+    REQUIRE(ending.rays.node.lanes == lanes);
+    note_packet(lanes);
+    for_each_lane(lanes, [&](std::uint32_t lane) {
+      check_ray(ending.rays, lane);
+      const std::uint32_t number = ending.rays.pixels.lane[lane];
       const auto value = static_cast<float>(number);
-      REQUIRE(inside.erase(number) == 1);
-      REQUIRE(queued.hits.object.lane[lane] == 2 * number);
-      REQUIRE(queued.hits.distance.lane[lane] == value);
-      REQUIRE(queued.hits.u.lane[lane] == value + 1);
-      REQUIRE(queued.hits.v.lane[lane] == value + 2);
+      REQUIRE(ending.hits.object.lane[lane] == 2 * number);
+      REQUIRE(ending.hits.distance.lane[lane] == value);
+      REQUIRE(ending.hits.u.lane[lane] == value + 1);
+      REQUIRE(ending.hits.v.lane[lane] == value + 2);
+      note(number);
     });
-  };
-  for (int step = 0; step < 600; ++step) {
-    const std::uint32_t lanes = random.word() & random.word() & 0xFFFF;
-    WordLanes pixels = {};
-    HitPacket hits = {};
-    const RayNode node = node_of(random, lanes, pixels);
+  }
+  void light_points(std::uint32_t light, const ShadowPoints& points, std::uint32_t lanes) {
+    note_packet(lanes);
     for_each_lane(lanes, [&](std::uint32_t lane) {
-      const auto value = static_cast<float>(pixels.lane[lane]);
-      hits.object.lane[lane] = 2 * pixels.lane[lane];
-      hits.distance.lane[lane] = value;
-      hits.u.lane[lane] = value + 1;
-      hits.v.lane[lane] = value + 2;
+      const std::uint32_t number = points.pixels.lane[lane];
+      const auto value = static_cast<float>(number);
+      REQUIRE(number % 3 == light);
+      REQUIRE(points.point.z.lane[lane] == value);
+      REQUIRE(points.object.lane[lane] == number);
+      REQUIRE(points.light.x.lane[lane] == value + 1);
+      REQUIRE(points.light.z.lane[lane] == value + 3);
+      note(number);
+      if (!with_interiors) return;
+      REQUIRE(points.interiors.interior_depth.lane[lane] == number % 3);
+      for (std::uint32_t i = 0; i < number % 3; ++i)
+        REQUIRE(points.interiors.interiors[i].lane[lane] == number + i);
     });
-    if (queue.add(node, pixels, hits, lanes))
-      for_each_lane(lanes, [&](std::uint32_t lane) { inside.insert(pixels.lane[lane]); });
-    else
-      ++refused;
-    REQUIRE(queue.full() == (inside.size() >= kSimdLanes));
-    REQUIRE(queue.empty() == inside.empty());
-    if (queue.full() && random.below(6) == 0) take();
-    if (step % 100 != 99) continue;
-    queue.clear();
-    inside.clear();
-    REQUIRE(queue.empty());
   }
-  while (!queue.empty())
-    take();
-  CHECK(inside.empty());
-  CHECK(refused > 10);
-  WordLanes pixels = {};
-  const RayNode node = node_of(random, 0xFFFF, pixels);
-  CHECK_FALSE(queue.add(node, pixels, {}, 0xFFFF));
-}
-
-TEST_CASE("A queue of shadow rays gives each point once, with all that belongs to it, in full packets") {
-  using S = DirectSpu::simd;
-  DirectSpu spu;
-  ShadowQueue<DirectSpu> queue(spu);
-  Random random(8);
-  for (const bool with_interiors : {false, true}) {
-    std::set<std::uint32_t> inside[3];
-    const auto check = [&](std::uint32_t light, const QueuedPoints& points, std::uint32_t lanes) {
-      for_each_lane(lanes, [&](std::uint32_t lane) {
-        const std::uint32_t number = points.pixels.lane[lane];
-        const auto value = static_cast<float>(number);
-        REQUIRE(inside[light].erase(number) == 1);
-        REQUIRE(points.point.z.lane[lane] == value);
-        REQUIRE(points.object.lane[lane] == number);
-        REQUIRE(points.light.x.lane[lane] == value + 1);
-        REQUIRE(points.light.z.lane[lane] == value + 3);
-        if (!with_interiors) return;
-        REQUIRE(points.interiors.interior_depth.lane[lane] == number % 3);
-        for (std::uint32_t i = 0; i < number % 3; ++i)
-          REQUIRE(points.interiors.interiors[i].lane[lane] == number + i);
-      });
-    };
-    for (int step = 0; step < 400; ++step) {
-      const std::uint32_t light = random.below(3), lanes = random.below(0x10000);
-      if (!queue.takes(light, lanes)) continue;
-      WordLanes pixels = {};
-      const RayNode node = node_of(random, lanes, pixels);
-      for_each_lane(lanes, [&](std::uint32_t lane) { inside[light].insert(pixels.lane[lane]); });
-      queue.add(light, lanes, node.rays.origin.load<S>(), node.rays.start_object, node.throughput, pixels,
-                with_interiors ? &node : nullptr,
-                [&](const QueuedPoints& points) { check(light, points, 0xFFFF); });
-      REQUIRE(inside[light].size() < kSimdLanes);
-    }
-    queue.finish(check);
-    for (const auto& left : inside)
-      REQUIRE(left.empty());
-    queue.finish([](std::uint32_t, const QueuedPoints&, std::uint32_t) { FAIL("nothing is left"); });
-  }
-}
-
-TEST_CASE("A queue of shadow rays refuses packets with many, lights of high numbers, and forgets all") {
-  DirectSpu spu;
-  ShadowQueue<DirectSpu> queue(spu);
-  Random random(9);
-  CHECK(queue.takes(0, 0x00FF));
-  CHECK_FALSE(queue.takes(0, 0xFFFF));
-  CHECK_FALSE(queue.takes(1000, 1));
-  WordLanes pixels = {};
-  const RayNode node = node_of(random, 0xFF, pixels);
-  const auto none = [](const QueuedPoints&) { FAIL("no packet is full"); };
-  queue.add(2, 0xFF, node.rays.origin.load<DirectSpu::simd>(), node.rays.start_object, node.throughput,
-            pixels, nullptr, none);
-  queue.clear();
-  queue.finish([](std::uint32_t, const QueuedPoints&, std::uint32_t) { FAIL("nothing is left"); });
-}
-
-TEST_CASE("A queue of rays to the sky gives each of them once, in full packets") {
-  DirectSpu spu;
-  SkyQueue<DirectSpu> queue(spu);
-  Random random(10);
-  CHECK(queue.takes(0x00FF));
-  CHECK_FALSE(queue.takes(0xFFFF));
-  std::set<std::uint32_t> inside;
-  const auto check = [&](const SkyRays& rays, std::uint32_t lanes) {
+  void see_sky(const SkyRays& rays, std::uint32_t lanes) {
+    note_packet(lanes);
     for_each_lane(lanes, [&](std::uint32_t lane) {
       const std::uint32_t number = rays.pixels.lane[lane];
-      REQUIRE(inside.erase(number) == 1);
       REQUIRE(rays.throughput.x.lane[lane] == static_cast<float>(number) + 1);
       REQUIRE(rays.throughput.z.lane[lane] == static_cast<float>(number) + 3);
       REQUIRE(glm::length(at(rays.direction, lane)) == Approx(1));
+      note(number);
     });
-  };
-  for (int step = 0; step < 400; ++step) {
-    WordLanes pixels = {};
-    const std::uint32_t lanes = random.below(0x10000);
-    const RayNode node = node_of(random, lanes, pixels);
-    for_each_lane(lanes, [&](std::uint32_t lane) { inside.insert(pixels.lane[lane]); });
-    queue.add(node, pixels, lanes, [&](const SkyRays& rays) { check(rays, 0xFFFF); });
-    REQUIRE(inside.size() < kSimdLanes);
-    if (step % 50 != 49) continue;
-    queue.clear();
-    inside.clear();
   }
-  WordLanes pixels = {};
-  const RayNode node = node_of(random, 0x0413, pixels);
-  for_each_lane(0x0413, [&](std::uint32_t lane) { inside.insert(pixels.lane[lane]); });
-  queue.add(node, pixels, 0x0413, [](const SkyRays&) { FAIL("no packet is full"); });
-  queue.finish(check);
-  CHECK(inside.empty());
-  queue.finish([](const SkyRays&, std::uint32_t) { FAIL("nothing is left"); });
+};
+
+template <class Kind> struct Queue : WavefrontQueue<Kind> {
+  explicit Queue(DirectSpu& spu) : WavefrontQueue<Kind>(spu.allocate<Kind>(Kind::kPackets)) {}
+};
+
+} // namespace
+
+TEST_CASE("Rays that wait bring all that belongs to them, and full packets are of one octant") {
+  DirectSpu spu;
+  Queue<PooledRays> queue(spu);
+  RayPooling pooling = {&queue, {}};
+  Random random(5);
+  Worker worker;
+  std::uint32_t taken = 0;
+  next_number = 0;
+  for (int step = 0; step < 2000; ++step) {
+    std::uint32_t lanes = 0;
+    for (unsigned i = random.below(11) + 1; i != 0; --i)
+      lanes |= 1u << random.below(kSimdLanes);
+    const RayNode node = node_of(random, lanes, pooling.pixels);
+    REQUIRE(pooling.takes(node));
+    taken += static_cast<std::uint32_t>(__builtin_popcount(lanes));
+    while (queue.has_full())
+      REQUIRE(queue.run_next(worker, 0));
+  }
+  queue.flush(worker, 0);
+  CHECK(worker.seen.size() == taken);
+  CHECK(worker.full > 500);
 }
 
-TEST_CASE("Full packets of a pool have rays of one octant and come first") {
+TEST_CASE("Rays stay that fill a packet by themselves, and those for which there is no room") {
   DirectSpu spu;
-  RayPool<DirectSpu> pool(spu);
-  Random random(6);
-  WordLanes pixels = {};
-  for (int i = 0; i < 40; ++i)
-    REQUIRE(pool.add(node_of(random, 0x1248u << (i % 4), pixels), pixels));
-  bool only_rest = false;
-  while (!pool.empty()) {
-    const PooledPacket& packet = pool.take();
-    std::set<std::uint32_t> octants;
-    for_each_lane(packet.node.lanes,
-                  [&](std::uint32_t lane) { octants.insert(octant_of(packet.node.rays, lane)); });
-    if (packet.node.lanes == 0xFFFF && octants.size() == 1) {
-      CHECK_FALSE(only_rest);
-      continue;
-    }
-    only_rest = true;
-  }
-}
-
-TEST_CASE("A pool refuses rays that fill a packet by themselves, and those that it has no room for") {
-  DirectSpu spu;
-  RayPool<DirectSpu> pool(spu);
+  Queue<PooledRays> queue(spu);
+  RayPooling pooling = {&queue, {}};
   Random random(7);
-  WordLanes pixels = {};
-  CHECK_FALSE(pool.add(node_of(random, 0xFFFF, pixels), pixels));
-  CHECK(pool.empty());
-  std::uint32_t taken = 0, added = 0;
-  while (pool.add(node_of(random, 0xFF, pixels), pixels))
+  Worker worker;
+  CHECK_FALSE(pooling.takes(node_of(random, 0xFFFF, pooling.pixels)));
+  CHECK(queue.empty());
+  std::uint32_t added = 0;
+  while (pooling.takes(node_of(random, 0xFF, pooling.pixels)))
     added += 8;
   CHECK(added > 40 * kSimdLanes);
-  CHECK_FALSE(pool.add(node_of(random, 1, pixels), pixels));
-  while (!pool.empty())
-    taken += static_cast<std::uint32_t>(__builtin_popcount(pool.take().node.lanes));
-  CHECK(taken == added);
-  CHECK(pool.add(node_of(random, 1, pixels), pixels));
+  CHECK_FALSE(pooling.takes(node_of(random, 1, pooling.pixels)));
+  queue.flush(worker, 0);
+  CHECK(worker.seen.size() == added);
+  CHECK(pooling.takes(node_of(random, 1, pooling.pixels)));
+  CHECK_FALSE(RayPooling().takes(node_of(random, 1, pooling.pixels)));
+}
+
+TEST_CASE("Hits, points and rays to the sky that wait bring all that belongs to them") {
+  DirectSpu spu;
+  Queue<EndingHits> hits(spu);
+  Queue<ShadowPoints> shadows(spu);
+  Queue<SkyRays> skies(spu);
+  Random random(11);
+  Worker of_hits, of_shadows, of_skies;
+  of_shadows.with_interiors = GENERATE(false, true);
+  next_number = 0;
+  for (int step = 0; step < 600; ++step) {
+    const std::uint32_t lanes = random.word() & random.word() & 0xFFFF;
+    WordLanes pixels = {};
+    HitPacket hit = {};
+    const RayNode node = node_of(random, lanes, pixels);
+    std::uint32_t of_light[3] = {};
+    for_each_lane(lanes, [&](std::uint32_t lane) {
+      const auto value = static_cast<float>(pixels.lane[lane]);
+      hit.object.lane[lane] = 2 * pixels.lane[lane];
+      hit.distance.lane[lane] = value;
+      hit.u.lane[lane] = value + 1;
+      hit.v.lane[lane] = value + 2;
+      of_light[pixels.lane[lane] % 3] |= 1u << lane;
+    });
+    hits.push(0, lanes, {{node, pixels}, hit});
+    while (hits.has_full())
+      hits.run_next(of_hits);
+    skies.push(0, lanes, {node, pixels}, of_skies);
+    for (std::uint32_t light = 0; light < 3; ++light)
+      shadows.push(light, of_light[light],
+                   {node.rays.origin, node.rays.start_object, node.throughput, pixels,
+                    of_shadows.with_interiors ? &node : nullptr},
+                   of_shadows);
+  }
+  hits.flush(of_hits);
+  shadows.flush(of_shadows);
+  skies.flush(of_skies);
+  for (const Worker* worker : {&of_hits, &of_shadows, &of_skies}) {
+    CHECK(worker->seen.size() == next_number);
+    CHECK(worker->full >= static_cast<int>(next_number / kSimdLanes) - 2);
+  }
+}
+
+TEST_CASE("Twelve lanes of a packet do not wait") {
+  CHECK(had_better_wait(0x07FF));
+  CHECK_FALSE(had_better_wait(0x0FFF));
 }
 
 namespace {

@@ -14,7 +14,6 @@ namespace celltrace::kernel {
 
 /// Traverses the BVH with bundles. A strategy's BundleSteps have:
 ///
-///   begin_frame()                       the nodes may be others from now on
 ///   intersect_mixed(query)              whether a packet has been traversed with rays of several octants
 ///   end_view()                          the rays of the bundle do not pass through one point
 ///   view()                              the BundleView of a bundle whose rays do, or null

@@ -52,11 +52,6 @@ struct SlabOrder {
   uint32_t near[3], far[3];
 };
 
-/// Rays that hit each of four nodes.
-struct Lanes4 {
-  uint32_t lanes[4];
-};
-
 /// The rays of one octant, prepared for slab tests. Results of lanes of other octants are undefined.
 template <class S> class OctantRays {
 public:
@@ -81,13 +76,6 @@ public:
     const F t_exit = S::min(S::min((far(0) - origin_.x) * inverse_.x, (far(1) - origin_.y) * inverse_.y),
                             S::min((far(2) - origin_.z) * inverse_.z, tfar));
     return (t_enter <= t_exit * F(detail::kRoundedUp)).bits();
-  }
-
-  /// The same of all four children.
-  [[gnu::always_inline]] Lanes4 intersect_all(const float (&bounds)[6][4], const SlabOrder& order,
-                                              const F& tfar, float tnear) const {
-    return {intersect(bounds, order, 0, tfar, tnear), intersect(bounds, order, 1, tfar, tnear),
-            intersect(bounds, order, 2, tfar, tnear), intersect(bounds, order, 3, tfar, tnear)};
   }
 
 private:

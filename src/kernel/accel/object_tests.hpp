@@ -61,8 +61,6 @@ struct RaySegment {
 
 /// Tests packets against objects of the scene, and merges the results. A strategy's ObjectShortcuts have:
 ///
-///   begin_traversal(query)              from now on rays of a query may wait for each other
-///   end_traversal()                     tests those that still wait
 ///   begin_occlusion(self)               shadow rays are about to be tested against an object
 ///   end_occlusion(self, flags, dark)    an object has occluded lanes
 ///   dims_at_once(at, crossings, lanes, light, dark)   whether a translucent surface that is crossed dims

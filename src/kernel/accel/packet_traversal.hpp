@@ -28,8 +28,6 @@ template <class S> struct RayGroup {
 ///   Deferred                            leaves that wait until there `are_enough()`
 ///   defer(slot, state, leaf, query)     whether a leaf waits
 ///   test_deferred(slot, state, query)   tests those that wait
-///   push_hit(slot, state, rays, order, query, node, hit, enter)   pushes children that rays hit, of those in
-///                                       `hit`
 template <class Spu>
 class PacketTraversal : public Strategy<Spu>::template PacketSteps<PacketTraversal<Spu>, Spu> {
   using Steps = typename Strategy<Spu>::template PacketSteps<PacketTraversal, Spu>;
@@ -68,10 +66,8 @@ public:
     PacketVisitor<false> visitor = {
         *this, slot, order, *task.group, *task.query, begin(slot, task, floor), task.lanes, floor};
     NodeRef ref = task.ref;
-    objects_.begin_traversal(*task.query);
     traverse_nodes(visitor, ref);
     visitor.end();
-    objects_.end_traversal();
   }
 
   /// The same for several tasks, each of a different packet, interleaved: while the node that one traversal
@@ -261,7 +257,21 @@ private:
       ref = {node.child[i], node.leaf[i]};
       return true;
     }
-    Steps::push_hit(slot, state, rays, order, query, node, hit, enter);
+    const uint32_t group = state.group;
+    const F each_tfar = tfar(query);
+    const uint32_t first = slot.stack.size();
+    do {
+      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(hit));
+      hit &= hit - 1;
+      objects_.scene().spu().compute(scalar_work::kBvhChild);
+      // For a single ray, the frustum is the ray.
+      const uint32_t lanes =
+          is_single(group) ? group : rays.intersect(node.bounds, order, i, each_tfar, tnear(query)) & group;
+      if (lanes == 0) continue;
+      const NodeRef child = {node.child[i], node.leaf[i]};
+      objects_.scene().hint(child);
+      slot.stack.push(first, {child, lanes, enter[i], 0});
+    } while (hit != 0);
     return false;
   }
 

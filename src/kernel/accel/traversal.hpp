@@ -16,6 +16,7 @@ constexpr uint32_t kAnyAccelerator = kGridOnly | kBvhOnly;
 /// Answers ray queries with the uniform grid or the BVH. A strategy's BundleQueries have:
 ///
 ///   intersect_toward(queries, count, light)   whether the queries toward a light have been answered together
+///   lists_all()                         whether all objects are tested, without an accelerator
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 class Traversal : public Strategy<Spu>::template BundleQueries<Traversal<Spu, kAccelerators>, Spu> {
   using Bundles = typename Strategy<Spu>::template BundleQueries<Traversal, Spu>;
@@ -26,8 +27,7 @@ public:
   using F = typename S::F;
 
   Traversal(SceneAccess<Spu>& scene, const FrameBlock& frame)
-      : frame_(frame), objects_(scene), grid_(objects_, frame.grid), bvh_(objects_, frame),
-        lists_all_(uses_bvh() && frame.object_count <= tuning::kMostListedObjects) {}
+      : Bundles(frame), frame_(frame), objects_(scene), grid_(objects_, frame.grid), bvh_(objects_, frame) {}
 
   /// Finds the closest hit of each ray in `lanes`, of which `reflected` come from a mirror. The results of
   /// other lanes are undefined.
@@ -92,10 +92,7 @@ public:
 
   ObjectTests<Spu>& objects() { return objects_; }
   const TraversalCounters& counters() const { return objects_.counters(); }
-  void begin_frame() {
-    objects_.begin_frame();
-    if constexpr (kHasBvh) bvh_.begin_frame();
-  }
+  void begin_frame() { objects_.begin_frame(); }
 
 private:
   static constexpr bool kHasGrid = (kAccelerators & kGridOnly) != 0,
@@ -115,20 +112,16 @@ private:
     for (uint32_t i = 0; i < count; ++i) {
       HitPacket* const hits = queries[i].hits;
       if (hits == nullptr) continue;
-      // Where there is room for it, other rays hit nothing: instances take long to find out what.
-      const F farthest(kMaxHitDistance);
-      (Strategy<Spu>::kHasShortcuts ? S::select(S::M::from_bits(queries[i].lanes), farthest, F(-1.0f))
-                                    : farthest)
-          .store(hits->distance.lane);
+      Strategy<Spu>::template farthest<S>(queries[i].lanes).store(hits->distance.lane);
       store_words<S>(hits->object, S::I::splat(-1));
     }
   }
   /// Tests the objects that no accelerator has, and all others if they are few.
   void intersect_listed(RayQuery* queries, uint32_t count) {
-    if (frame_.unbounded_count != 0 || lists_all()) test_listed(queries, count);
+    if (frame_.unbounded_count != 0 || Bundles::lists_all()) test_listed(queries, count);
   }
   CELLTRACE_ONE_COPY void test_listed(RayQuery* queries, uint32_t count) {
-    const uint32_t others = lists_all() ? frame_.object_count : 0;
+    const uint32_t others = Bundles::lists_all() ? frame_.object_count : 0;
     for (uint32_t i = 0; i < count; ++i)
       objects_.test_unbounded(frame_, queries[i], others);
   }
@@ -143,9 +136,7 @@ private:
           select<S>(S::M::from_bits(query.lanes), query.light->template load<S>(), dark));
     }
   }
-  /// Whether no accelerator is asked. Where there is no room for more code, one always is.
-  bool lists_all() const { return Strategy<Spu>::kHasShortcuts && lists_all_; }
-  bool asks_bvh() const { return uses_bvh() && !lists_all(); }
+  bool asks_bvh() const { return uses_bvh() && !Bundles::lists_all(); }
   bool uses_bvh() const {
     if constexpr (kAccelerators != kAnyAccelerator) return kHasBvh;
     return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh;
@@ -155,7 +146,6 @@ private:
   ObjectTests<Spu> objects_;
   Present<GridTraversal<Spu>, kHasGrid> grid_;
   Present<BvhTraversal<Spu>, kHasBvh> bvh_;
-  const bool lists_all_;
 };
 
 } // namespace celltrace::kernel

@@ -3,7 +3,9 @@
 //
 // Of the small quads of the light's grid only few surfaces of a packet ask for a place, each for others. So
 // all that the quads of one size ask for is gathered. Pairs of a surface and a place fill packets, which are
-// tested together: an object is read once for many of them, and none waits for the result of another.
+// tested together: an object is read once for many of them, and none waits for the result of another. That is
+// why these pairs are not the lanes of a WavefrontQueue, whose body has one packet at a time (soft.pov takes
+// 0.82 of its time by sixteen).
 #pragma once
 
 #include "kernel/lights/area_shadow.hpp"

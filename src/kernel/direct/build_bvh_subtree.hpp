@@ -1,11 +1,11 @@
 // Builds the nodes of a subtree above references, top down. Kernel dialect.
 #pragma once
 
-#include "kernel/direct/build_bvh_clusters.hpp"
 #include "kernel/direct/build_bvh_split.hpp"
 
 namespace celltrace::kernel::bvh {
 
+constexpr uint32_t kChildren = 4; ///< of a node
 /// The greatest depth of a node; the root is at 0.
 constexpr uint32_t kMaxDepth = 48;
 
@@ -109,8 +109,6 @@ private:
   void split(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
     if (range.count() <= kChildren)
       one_per_child(range, children);
-    else if (range.count() <= Clusters<S>::kMaxReferences)
-      Clusters<S>::make(references_, range, children);
     else
       split_largest(range, depth, children);
   }

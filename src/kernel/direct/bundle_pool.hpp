@@ -5,11 +5,8 @@
 // those of them that hit nothing are gathered into full packets.
 #pragma once
 
-#include "kernel/direct/hit_queue.hpp"
+#include "kernel/direct/bundle_queues.hpp"
 #include "kernel/direct/hit_sorting.hpp"
-#include "kernel/direct/ray_pool.hpp"
-#include "kernel/direct/shadow_queue.hpp"
-#include "kernel/direct/sky_queue.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/lighting.hpp"
 #include "records/light_way.hpp"
@@ -23,14 +20,15 @@ public:
 
   /// `samples`: becomes how clear the way is of each; null: that is not asked.
   BundlePool(Spu& spu, SampleBundle<Spu>* samples)
-      : rays(spu), hits(spu), shadows(spu), skies(spu), samples_(samples), sorter_(spu),
+      : rays(room_for<PooledRays>(spu)), hits(room_for<EndingHits>(spu)),
+        shadows(room_for<ShadowPoints>(spu)), skies(room_for<SkyRays>(spu)), samples_(samples), sorter_(spu),
         light_(spu.template allocate<VectorLanes>(kPackets)) {}
 
-  RayPool<Spu> rays;        ///< that are to be traced
-  HitQueue<Spu> hits;       ///< of such rays, from which none go on
-  ShadowQueue<Spu> shadows; ///< of what such rays have hit
-  SkyQueue<Spu> skies;      ///< of those that have hit nothing
-  FloatLanes clear;         ///< how clear the way of the rays is that are being traced
+  WavefrontQueue<PooledRays> rays;
+  WavefrontQueue<EndingHits> hits;
+  WavefrontQueue<ShadowPoints> shadows;
+  WavefrontQueue<SkyRays> skies;
+  FloatLanes clear; ///< how clear the way of the rays is that are being traced
 
   /// Whether rays stay in the lanes of their pixels.
   static constexpr bool has_own_lanes(const FrameBlock& frame) {
@@ -121,6 +119,9 @@ public:
 private:
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
 
+  template <class Kind> static Kind* room_for(Spu& spu) {
+    return spu.template allocate<Kind>(Kind::kPackets);
+  }
   /// Whether the rays of a member are those of other pixels.
   bool is_sorted(uint32_t member) const { return (sorted_ >> member & 1) != 0; }
   void set_dark(uint32_t member) { light_[member].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }

@@ -31,7 +31,7 @@ public:
     using Known = typename AreaOccluders<Spu>::Known;
     if (!traversal().uses_bvh()) return Known::nothing;
     const Known known = occluders.gather(traversal().objects_, traversal().frame_, rays, lanes, light);
-    return known == Known::nodes && traversal().lists_all() ? Known::nothing : known;
+    return known == Known::nodes && lists_all() ? Known::nothing : known;
   }
   /// As transmittance(), where it is known in which nodes rays may hit something.
   void transmittance_of(const AreaOccluders<Spu>& occluders, const RayPacket& rays, uint32_t lanes,
@@ -60,7 +60,7 @@ public:
   /// `hits`, where no object is yet. Each query has some lanes. `bundle`: of these packets, and entered last.
   void find_closest_within(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
     traversal().intersect_listed(queries, count);
-    if (!traversal().lists_all()) traversal().bvh_.intersect_from_origin(queries, count, bundle);
+    if (!lists_all()) traversal().bvh_.intersect_from_origin(queries, count, bundle);
   }
 
   /// As intersect(), of rays that may all start at one point. May change the order of the queries.
@@ -83,8 +83,8 @@ public:
   template <class Bundle> bool enter(const Bundle& bundle) {
     if constexpr (Traversal::kHasBvh)
       return !traversal().uses_bvh() || bundle.packets == 0 ||
-             (traversal().lists_all() && traversal().frame_.unbounded_count != 0) ||
-             traversal().bvh_.enter(bundle) || traversal().frame_.unbounded_count != 0;
+             (lists_all() && traversal().frame_.unbounded_count != 0) || traversal().bvh_.enter(bundle) ||
+             traversal().frame_.unbounded_count != 0;
     else
       return true;
   }
@@ -113,10 +113,17 @@ protected:
     return false;
   }
 
+protected:
+  explicit DirectBundleQueries(const FrameBlock& frame)
+      : has_few_(frame.object_count <= tuning::kMostListedObjects) {}
+
+  bool lists_all() const { return has_few_ && traversal().uses_bvh(); }
+
 private:
   using Translucency = typename ObjectTests<Spu>::Translucency;
 
   Traversal& traversal() { return static_cast<Traversal&>(*this); }
+  const Traversal& traversal() const { return static_cast<const Traversal&>(*this); }
 
   template <class Run> void keep(bool lists, Run run) {
     traversal().objects_.set_translucency(lists ? Translucency::is_listed : Translucency::is_kept);
@@ -135,6 +142,8 @@ private:
     }
     return with_rays;
   }
+
+  const bool has_few_; ///< objects that are bounded
 };
 
 } // namespace celltrace::kernel

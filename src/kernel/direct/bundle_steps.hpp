@@ -4,7 +4,6 @@
 
 #include "kernel/accel/bvh_traversal.hpp"
 #include "kernel/direct/bundle_leaf_tests.hpp"
-#include "kernel/direct/leaf_list.hpp"
 #include "kernel/direct/light_bundle.hpp"
 #include "kernel/direct/mixed_rays.hpp"
 #include "kernel/direct/origin_bundle.hpp"
@@ -17,9 +16,6 @@ template <class Search, class Spu> class DirectBundleSteps {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
-
-  /// The nodes may be others from now on.
-  void begin_frame() { leaves_.begin_frame(); }
 
   /// Finds the closest hits of the primary rays of a bundle that has just been entered; query i is that of
   /// its packet i.
@@ -95,19 +91,11 @@ protected:
       const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
       if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
     }
-    search().objects_.begin_traversal(query);
-    if (mixes_always_ && leaves_.pays(search().objects_.scene(), search().root())) {
-      leaves_.intersect(search().packet_traversal_, query);
-    } else {
-      MixedStack<S> stack;
-      MixedVisitor<Spu> visitor = {
-          search().packet_traversal_, search().objects_, query, MixedRays<S>(rays), stack, query.lanes};
-      NodeRef ref = search().root();
-      const uint64_t visits = search().objects_.counters().visits;
-      traverse_nodes(visitor, ref);
-      leaves_.count_visits(search().objects_.counters().visits - visits);
-    }
-    search().objects_.end_traversal();
+    MixedStack<S> stack;
+    MixedVisitor<Spu> visitor = {
+        search().packet_traversal_, search().objects_, query, MixedRays<S>(rays), stack, query.lanes};
+    NodeRef ref = search().root();
+    traverse_nodes(visitor, ref);
     return true;
   }
 
@@ -206,7 +194,6 @@ private:
   };
 
   const bool mixes_octants_, mixes_always_;
-  LeafList<Spu> leaves_;
   const BundleView<S>* view_ = nullptr; ///< of the bundle, if its rays pass through one point
   uint32_t wide_ = 0;                   ///< ViewBundle::wide; undefined without a view
   bool reversed_ = false;               ///< the frusta are those of reversed rays

@@ -3,7 +3,8 @@
 //
 // Near the edge of the Mandelbrot set one point stays for ten rounds and the one beside it for ten thousand:
 // a packet goes on until its last lane has ended, and each round waits for the one before. Here those of all
-// packets go on in lanes that are filled again, two vectors at a time.
+// packets go on in lanes that are filled again, two vectors at a time. A WavefrontQueue has a body that ends
+// for all lanes of a packet: here each lane is followed by another.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"

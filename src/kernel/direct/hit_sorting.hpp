@@ -2,7 +2,8 @@
 // dialect, where memory is direct.
 //
 // A packet is shaded once for each of its materials; and what one material is on is mostly close together, so
-// that the shadow rays from there are coherent.
+// that the shadow rays from there are coherent. No lane waits, so that this is no WavefrontQueue: all are
+// there at once, and change places by counting.
 #pragma once
 
 #include "kernel/packet.hpp"
@@ -29,17 +30,17 @@ public:
     for (uint32_t i = 0; i < kPackets; ++i)
       classify(scene, packets[i].hits, packets[i].lanes, i);
     if (!pays()) return 0;
-    const Differing differing = find_differing(packets);
     for (uint32_t n = 0; n < sorted_count_; ++n) {
       const Packet& packet = packets[number_[n]];
-      move(packet.rays, packet.hits, packet.lanes, number_[n], differing);
+      move(packet.rays, packet.hits, packet.lanes, number_[n]);
     }
     uint32_t sorted = 0;
     for (uint32_t n = 0; n < sorted_count_; ++n) {
       const uint32_t first = n * kSimdLanes, left = rays_ > first ? rays_ - first : 0;
       Packet& packet = packets[number_[n]];
       packet.lanes = left < kSimdLanes ? (1u << left) - 1 : 0xFFFF;
-      put_back(sorted_[number_[n]], differing, packet.rays, packet.hits);
+      packet.rays = sorted_[number_[n]].rays;
+      packet.hits = sorted_[number_[n]].hits;
       sorted |= 1u << number_[n];
     }
     return sorted;
@@ -116,63 +117,15 @@ private:
     return 4 * mixed_ > 5 * least;
   }
 
-  /// What is not the same for all rays: those of most cameras start at one point, and only what is on
-  /// triangles has coordinates. What is the same need not be moved ray by ray.
-  struct Differing {
-    bool starts, coordinates;
-    VectorLanes origin;     ///< all the same, unless starts are not
-    WordLanes start_object; ///< likewise
-  };
-  template <class Packet> Differing find_differing(const Packet* packets) const {
-    Differing all = {};
-    const Packet& some = packets[number_[0]];
-    const auto lane = static_cast<uint32_t>(__builtin_ctz(some.lanes));
-    const V3<S> origin = some.rays.origin.template of<S>(lane);
-    const I object = I::splat(static_cast<int32_t>(some.rays.start_object.lane[lane]));
-    for (uint32_t n = 0; n < sorted_count_; ++n) {
-      const Packet& packet = packets[number_[n]];
-      const V3<S> start = packet.rays.origin.template load<S>();
-      const auto same = (start.x == origin.x) & (start.y == origin.y) & (start.z == origin.z) &
-                        (load_words<S>(packet.rays.start_object) == object);
-      const auto none = (F::load(packet.hits.u.lane) == F(0.0f)) & (F::load(packet.hits.v.lane) == F(0.0f));
-      all.starts = all.starts || (packet.lanes & ~same.bits()) != 0;
-      all.coordinates = all.coordinates || (packet.lanes & ~none.bits()) != 0;
-    }
-    all.origin.template store<S>(origin);
-    store_words<S>(all.start_object, object);
-    return all;
-  }
-
-  void move(const RayPacket& rays, const HitPacket& hits, uint32_t lanes, uint32_t number,
-            const Differing& differing) {
+  void move(const RayPacket& rays, const HitPacket& hits, uint32_t lanes, uint32_t number) {
     for_each_lane(lanes, [&](uint32_t lane) {
       const uint32_t place = next_[class_[number][lane]]++;
       Sorted& sorted = sorted_[number_[place / kSimdLanes]];
       const uint32_t to = place % kSimdLanes;
-      if (differing.starts) {
-        copy_lane(rays.origin, lane, sorted.rays.origin, to);
-        copy_lane(rays.start_object, lane, sorted.rays.start_object, to);
-      }
-      copy_lane(rays.direction, lane, sorted.rays.direction, to);
-      if (differing.coordinates) {
-        copy_lane(hits.u, lane, sorted.hits.u, to);
-        copy_lane(hits.v, lane, sorted.hits.v, to);
-      }
-      copy_lane(hits.distance, lane, sorted.hits.distance, to);
-      copy_lane(hits.object, lane, sorted.hits.object, to);
+      copy_lane(rays, lane, sorted.rays, to);
+      copy_lane(hits, lane, sorted.hits, to);
       sorted.places.lane[to] = number * kSimdLanes + lane;
     });
-  }
-
-  static void put_back(const Sorted& sorted, const Differing& differing, RayPacket& rays, HitPacket& hits) {
-    rays.origin = differing.starts ? sorted.rays.origin : differing.origin;
-    rays.start_object = differing.starts ? sorted.rays.start_object : differing.start_object;
-    rays.direction = sorted.rays.direction;
-    hits.distance = sorted.hits.distance;
-    hits.object = sorted.hits.object;
-    const F none(0.0f);
-    (differing.coordinates ? F::load(sorted.hits.u.lane) : none).store(hits.u.lane);
-    (differing.coordinates ? F::load(sorted.hits.v.lane) : none).store(hits.v.lane);
   }
 
   Sorted* sorted_;

@@ -51,37 +51,23 @@ private:
     if ((S::M::from_bits(lanes) & (nearest.power[0] < F(Crackle::kFar))).bits() != 0) return;
     FeatureNeighbours<S> room;
     const FeatureNeighbours<S>& neighbours = neighbours_of(cell, features, room);
-    if (__builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
-      const auto here = S::M::from_bits(lanes);
-      const auto take_all = [&](float of_metric) __attribute__((always_inline)) {
-        Nearest found = nearest;
-        for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
-          const V3<S> d = neighbours.way_to(i, from);
-          Crackle::take<S>(S::select(here, Crackle::power<S>(d, of_metric), F(Crackle::kFar)), d, p, found);
-        }
-        return found;
-      };
-      if (metric == 2.0f && wanted.last <= 1 && !wanted.point) {
-        // Compilers leave out what is not assigned here.
-        const Nearest found = take_all(2.0f);
-        nearest.power[0] = found.power[0];
-        nearest.power[1] = found.power[1];
-      } else {
-        nearest = take_all(metric);
+    const auto here = S::M::from_bits(lanes);
+    const auto take_all = [&](float of_metric) __attribute__((always_inline)) {
+      Nearest found = nearest;
+      for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
+        const V3<S> d = neighbours.way_to(i, from);
+        Crackle::take<S>(S::select(here, Crackle::power<S>(d, of_metric), F(Crackle::kFar)), d, p, found);
       }
-      return;
+      return found;
+    };
+    if (metric == 2.0f && wanted.last <= 1 && !wanted.point) {
+      // Compilers leave out what is not assigned here.
+      const Nearest found = take_all(2.0f);
+      nearest.power[0] = found.power[0];
+      nearest.power[1] = found.power[1];
+    } else {
+      nearest = take_all(metric);
     }
-    VectorLanes of_lane;
-    of_lane.template store<S>(from);
-    for_each_lane(lanes, [&](uint32_t lane) {
-      const float at[3] = {of_lane.x.lane[lane], of_lane.y.lane[lane], of_lane.z.lane[lane]};
-      const auto found = neighbours.nearest_to(at, wanted.last,
-                                               [&](const V3<S>& d) { return Crackle::power<S>(d, metric); });
-      const auto here = S::M::from_bits(1u << lane);
-      for (uint32_t i = 0; i <= wanted.last; ++i)
-        nearest.power[i] = S::select(here, F(found.power[i]), nearest.power[i]);
-      nearest.point = select<S>(here, p + splat3<S>(found.way), nearest.point);
-    });
   }
 
   /// Takes the points of all lanes at once; false: they are in few cells.

@@ -1,9 +1,7 @@
-// Rays in the space of an instance's mesh: packets whose rays are of one octant are tested against the
-// children of a node by their frustum first; rays that go alone are tested against these, and against the
-// triangles of a leaf, in lanes. Kernel dialect.
+// Rays in the space of an instance's mesh that go alone: each is tested against the children of a node, and
+// against the triangles of a leaf, in lanes. Kernel dialect.
 #pragma once
 
-#include "kernel/accel/frustum.hpp"
 #include "kernel/direct/record_lanes.hpp"
 #include "kernel/primitives/instances_module.hpp"
 #include "kernel/traversal_stack.hpp"
@@ -18,37 +16,13 @@ public:
   using M = typename S::M;
   using Stack = TraversalStack<1, kMaxMeshLevels>;
 
-  /// Of a packet and its rays in the mesh's space; `inverse` is that of their direction. `lanes`: those that
-  /// are traversed together.
+  /// Of a packet and its rays in the mesh's space; `inverse` is that of their direction.
   [[gnu::always_inline]] InstanceRays(const RayPacket& world, const V3<S>& origin, const V3<S>& direction,
-                                      const V3<S>& inverse, uint32_t lanes)
+                                      const V3<S>& inverse)
       : world_(world) {
-    local_.origin.template store<S>(origin);
-    local_.direction.template store<S>(direction);
+    origin_.template store<S>(origin);
+    direction_.template store<S>(direction);
     inverse_.template store<S>(inverse);
-    if (is_single(lanes)) return;
-    octant_ = octant_of(local_, static_cast<uint32_t>(__builtin_ctz(lanes)));
-    has_frustum_ = (lanes & ~lanes_in_octant<S>(local_, octant_)) == 0;
-    if (!has_frustum_) return;
-    frustum_.set(bounds_of<S>(local_, lanes), octant_);
-    octant_rays_.set(local_, octant_);
-  }
-
-  /// If they are several, and of one octant: pushes the children of a node that some of `lanes` enter before
-  /// `reach`. Otherwise false.
-  [[gnu::always_inline]] bool expand(const NodeRecord& node, uint32_t lanes, const F& reach,
-                                     Stack& stack) const {
-    if (!has_frustum_) return false;
-    const SlabOrder order(octant_);
-    alignas(16) float enter[4];
-    const uint32_t siblings = stack.size();
-    for_each_lane(frustum_.intersect(node.bounds, order, kMaxHitDistance, enter), [&](uint32_t i) {
-      const NodeRef child = {node.child[i], node.leaf[i]};
-      if ((child.child | child.leaf) == 0) return;
-      const uint32_t hit = octant_rays_.intersect(node.bounds, order, i, reach) & lanes;
-      if (hit != 0) stack.push(siblings, {child, hit, enter[i], 0});
-    });
-    return true;
   }
 
   /// Traverses the subtree below `ref` with those of `lanes`, one after the other, if they are few. Otherwise
@@ -95,14 +69,14 @@ private:
     [[gnu::always_inline]] Slabs(const InstanceRays& rays, uint32_t lane) {
       for (uint32_t axis = 0; axis < 3; ++axis) {
         const float inverse_of_lane = rays.inverse_[axis].lane[lane];
-        origin[axis] = F4::splat(rays.local_.origin[axis].lane[lane]);
+        origin[axis] = F4::splat(rays.origin_[axis].lane[lane]);
         inverse[axis] = F4::splat(inverse_of_lane);
         near[axis] = 2 * axis + (inverse_of_lane < 0.0f ? 1 : 0);
       }
     }
   };
 
-  /// As expand(), of one ray.
+  /// As MeshRays::expand(), of one ray.
   [[gnu::always_inline]] static void expand(const NodeRecord& node, const Slabs& slabs, float reach,
                                             Stack& stack) {
     F4 enter = F4::splat(0.0f), leave = F4::splat(reach);
@@ -131,8 +105,7 @@ private:
       return records[i < count ? i : 0].geometry;
     });
     const uint32_t start = world_.start_object.lane[lane] - first;
-    const Crossings<S> c =
-        SeenTriangle<S>(of(local_.origin, lane), sides).crossed(of(local_.direction, lane), M::none());
+    const Crossings<S> c = SeenTriangle<S>(of(origin_, lane), sides).crossed(of(direction_, lane), M::none());
     const M valid = c.near_hit & (c.near > F(test.nearest)) & (c.near <= F(hits.distance.lane[lane]));
     uint32_t hit = valid.bits() & ((1u << count) - 1);
     if (start < count) hit &= ~(1u << start);
@@ -145,12 +118,7 @@ private:
   }
 
   const RayPacket& world_;
-  RayPacket local_; ///< start objects are those of `world_`
-  VectorLanes inverse_;
-  uint32_t octant_ = 0;
-  bool has_frustum_ = false;
-  Frustum<S> frustum_;
-  OctantRays<S> octant_rays_;
+  VectorLanes origin_, direction_, inverse_;
 };
 
 } // namespace celltrace::kernel

@@ -43,31 +43,26 @@ public:
     return cross(bounds, i, tfar, from).bits();
   }
 
+private:
   /// Where the rays are within one slab of a box.
   struct Range {
     F from, to;
   };
-  /// Of the slab between two planes perpendicular to an axis (0 to 2).
-  [[gnu::always_inline]] Range slab(uint32_t axis, float low, float high) const {
-    const F& origin = axis == 0 ? origin_.x : axis == 1 ? origin_.y : origin_.z;
-    const F& inverse = axis == 0 ? inverse_.x : axis == 1 ? inverse_.y : inverse_.z;
+  /// Of the slab between two planes perpendicular to an axis.
+  [[gnu::always_inline]] static Range slab(float low, float high, const F& origin, const F& inverse) {
     const F a = (F(low) - origin) * inverse, b = (F(high) - origin) * inverse;
     return {S::min(a, b), S::max(a, b)};
   }
-  /// The lanes that hit a box from `from` up to their own `tfar`; `from` grows to where they do.
-  [[gnu::always_inline]] static typename S::M hit_box(const Range& x, const Range& y, const Range& z,
-                                                      const F& tfar, F& from) {
+  /// The lanes that hit child `i` of a node from `from` up to their own `tfar`; `from` grows to where they
+  /// do.
+  [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
+                                             F& from) const {
+    const Range x = slab(bounds[0][i], bounds[1][i], origin_.x, inverse_.x);
+    const Range y = slab(bounds[2][i], bounds[3][i], origin_.y, inverse_.y);
+    const Range z = slab(bounds[4][i], bounds[5][i], origin_.z, inverse_.z);
     from = S::max(S::max(S::max(from, x.from), y.from), z.from);
     const F to = S::min(S::min(S::min(tfar, x.to), y.to), z.to);
     return from <= to * F(detail::kRoundedUp);
-  }
-
-private:
-  /// hit_box() of child `i` of a node.
-  [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
-                                             F& from) const {
-    return hit_box(slab(0, bounds[0][i], bounds[1][i]), slab(1, bounds[2][i], bounds[3][i]),
-                   slab(2, bounds[4][i], bounds[5][i]), tfar, from);
   }
   static F inverse_of(const F& direction) {
     const F tiny(detail::kTinyDirection);
@@ -143,7 +138,6 @@ template <class Spu> struct MixedVisitor {
   [[gnu::always_inline]] bool expand(NodeRef& ref) {
     ++objects.counters().visits;
     const NodeRecord& node = *objects.scene().node(ref.child);
-    if (test_leaves(node)) return false;
     uint32_t hit[4];
     typename S::F enter[4];
     rays.intersect(node.bounds, Traversal::tnear(query), Traversal::tfar(query), hit, enter);
@@ -153,22 +147,6 @@ template <class Spu> struct MixedVisitor {
       hit[i] &= lanes & (0u - (present >> i & 1));
     if (lanes != 0) stack.push(node, static_cast<uint32_t>(__builtin_ctz(lanes)), hit, enter);
     return false;
-  }
-  /// Tests the leaves of a node that has nothing else, one after the other: they are too few for an order to
-  /// pay. False: it has inner nodes.
-  [[gnu::always_inline]] bool test_leaves(const NodeRecord& node) {
-    const uint32_t present = MixedRays<S>::children_of(node.bounds);
-    uint32_t inner = 0;
-    for (uint32_t i = 0; i < 4; ++i)
-      inner |= static_cast<uint32_t>(node.leaf[i] == 0) << i;
-    if ((present & inner) != 0) return false;
-    for (uint32_t left = present; left != 0; left &= left - 1) {
-      const auto i = static_cast<uint32_t>(__builtin_ctz(left));
-      const uint32_t hit = rays.hit_child(node.bounds, i, Traversal::tnear(query), Traversal::tfar(query));
-      if (const uint32_t group = hit & lanes & query.lanes; group != 0)
-        traversal.test_objects({node.child[i], node.leaf[i]}, group, query);
-    }
-    return true;
   }
   [[gnu::always_inline]] void test(const NodeRef& leaf) { traversal.test_objects(leaf, lanes, query); }
   [[gnu::always_inline]] bool next(NodeRef& ref) {

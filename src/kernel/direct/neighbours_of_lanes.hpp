@@ -8,6 +8,7 @@
 #pragma once
 
 #include "kernel/direct/record_lanes.hpp"
+#include "kernel/direct/wavefront_queue.hpp"
 #include "kernel/math.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/textures/features.hpp"
@@ -67,6 +68,7 @@ public:
   template <class Along, class Reaching, class Take>
   void for_each_far(const Along& along, const Reaching& reaching, const Take& take) const {
     Pairs pairs;
+    WavefrontQueue<Pairs> queue(&pairs);
     F gaps[3][kSteps];
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const F low = from_[axis], high = F(1.0f) - low;
@@ -76,29 +78,37 @@ public:
     }
     for (uint32_t x = 0; x < kSteps; ++x)
       for (uint32_t y = 0; y < kSteps; ++y)
-        for (uint32_t z = x == kFar || y == kFar ? 0 : kFar; z < kSteps; ++z)
-          for_each_lane(reaching(gaps[0][x] + gaps[1][y] + gaps[2][z]), [&](uint32_t lane) {
-            constexpr float kFactor[kSteps] = {0.0f, 1.0f, -1.0f};
-            const uint32_t i = pairs.count++;
-            pairs.lane[i] = static_cast<int32_t>(lane);
-            pairs.factor[0][i] = kFactor[x];
-            pairs.factor[1][i] = kFactor[y];
-            pairs.factor[2][i] = kFactor[z];
-            if (pairs.count == S::kLanes) take_all(pairs, take);
-          });
-    if (pairs.count != 0) take_all(pairs, take);
+        for (uint32_t z = x == kFar || y == kFar ? 0 : kFar; z < kSteps; ++z) {
+          constexpr float kFactor[kSteps] = {0.0f, 1.0f, -1.0f};
+          queue.push(0, reaching(gaps[0][x] + gaps[1][y] + gaps[2][z]), {kFactor[x], kFactor[y], kFactor[z]},
+                     *this, take);
+        }
+    queue.flush(*this, take);
   }
 
 private:
   static constexpr uint32_t kStay = 0, kNear = 1, kFar = 2, kSteps = 3;
-  /// Of lanes and cells, which are as many steps to the near side as `factor` says.
-  struct Pairs {
-    alignas(64) int32_t lane[S::kLanes] = {};
-    alignas(64) float factor[3][S::kLanes] = {};
-    uint32_t count = 0;
+  /// Lanes and cells, which are as many steps to the near side as `factor` says. Vectors are stored from any
+  /// lane on.
+  struct Pairs : WorkKind {
+    struct Source {
+      float factor[3];
+    };
+    alignas(64) int32_t lane[2 * S::kLanes] = {};
+    alignas(64) float factor[3][2 * S::kLanes] = {};
+
+    void put(const Source& from, uint32_t lanes, uint32_t to) {
+      S::lane_numbers(lanes).store_unaligned(lane + to);
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        F(from.factor[axis]).store_unaligned(factor[axis] + to);
+    }
+    template <class Take>
+    void run(uint32_t, uint32_t lanes, const NeighboursOfLanes& neighbours, const Take& take) const {
+      neighbours.take_all(*this, static_cast<uint32_t>(__builtin_popcount(lanes)), take);
+    }
   };
 
-  template <class Take> void take_all(Pairs& pairs, const Take& take) const {
+  template <class Take> void take_all(const Pairs& pairs, uint32_t count, const Take& take) const {
     const I lanes = I::load(pairs.lane);
     F step[3], from[3];
     I number = I::splat(0);
@@ -107,8 +117,7 @@ private:
       step[axis] = to_near(from[axis]) * F::load(pairs.factor[axis]);
       number = hash_at(number ^ (S::pick(cell_[axis], lanes) + S::to_int(step[axis])));
     }
-    take(way_to(number, {step[0], step[1], step[2]}, from), pairs.lane, pairs.count);
-    pairs.count = 0;
+    take(way_to(number, {step[0], step[1], step[2]}, from), pairs.lane, count);
   }
 
   /// Along an axis to the neighbour that is nearer: 1 or -1.

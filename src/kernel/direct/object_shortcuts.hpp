@@ -6,7 +6,6 @@
 #include "kernel/direct/clipping.hpp"
 #include "kernel/direct/kept_crossings.hpp"
 #include "kernel/direct/recent_occluders.hpp"
-#include "kernel/direct/torus_pairs.hpp"
 #include "kernel/direct/torus_shadows.hpp"
 
 namespace celltrace::kernel {
@@ -17,8 +16,6 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
   using M = typename S::M;
-
-  DirectObjectShortcuts() : torus_pairs_(recent_) {}
 
   /// Tests several packets as test_closest().
   void test_closest_of_all(RayQuery* queries, uint32_t packets, uint32_t self) {
@@ -126,9 +123,6 @@ public:
     is_listed   ///< the same, but what surfaces let through is still to be found
   };
   void set_translucency(Translucency translucency) { translucency_ = translucency; }
-  /// Rays of a query may wait at tori for each other until end_traversal().
-  void begin_traversal(RayQuery& query) { torus_pairs_.begin_traversal(query); }
-  void end_traversal() { torus_pairs_.end_traversal(); }
 
 protected:
   void begin_occlusion(uint32_t self) { crossed_ = self; }
@@ -147,8 +141,7 @@ protected:
   [[gnu::always_inline]] bool test_closest_shortly(const RayPacket& rays, const ObjectRecord& record,
                                                    uint32_t self, HitPacket& hits) {
     RayQuery query = {&rays, &hits, nullptr, nullptr, 0xFFFF};
-    return test_plain(&query, 1, record, self) ||
-           (may_wait(record.kind_and_flags) && torus_waits(rays, record, self, hits.distance));
+    return test_plain(&query, 1, record, self);
   }
   [[gnu::always_inline]] bool test_occlusion_shortly(const RayPacket& rays, const ObjectRecord& record,
                                                      uint32_t self, const FloatLanes& distance,
@@ -159,7 +152,6 @@ protected:
       dark = ~query.lanes & 0xFFFF;
       return true;
     }
-    if (may_wait(flags) && torus_waits(rays, record, self, distance)) return true;
     return (flags & object_flag::kind_mask) == kPrimitiveKind<TorusPrimitive> &&
            lanes_that_start_on<S>(rays, self).bits() == 0 &&
            occluded_by_torus(rays, record, self, distance, dark);
@@ -215,21 +207,6 @@ private:
     }
   }
 
-  /// Whether an object is a torus at which rays may wait.
-  bool may_wait(uint32_t flags) const {
-    constexpr uint32_t kAsked = object_flag::kind_mask | object_flag::csg | object_flag::selective;
-    return (flags & kAsked) == kPrimitiveKind<TorusPrimitive> && torus_pairs_.may_wait();
-  }
-  /// False: it has to be tested at once.
-  bool torus_waits(const RayPacket& rays, const ObjectRecord& torus, uint32_t self, const FloatLanes& limit) {
-    const AskedCrossings asked = {kEveryCrossing, &limit};
-    if (!torus_pairs_.add(local_rays<S>(rays, torus, self, 0, asked), scene().extra(torus.extra)->value[0],
-                          self))
-      return false;
-    ++counters().tests[kPrimitiveKind<TorusPrimitive>];
-    return true;
-  }
-
   /// Finds the lanes that an opaque torus occludes, off which none of them starts. False: its CSG's condition
   /// is none that is known before the crossings are.
   [[gnu::noinline]] bool occluded_by_torus(const RayPacket& rays, const ObjectRecord& torus, uint32_t self,
@@ -278,7 +255,6 @@ private:
   Translucency translucency_ = Translucency::attenuates;
   uint32_t crossed_ = kNoOffset; ///< the object that shadow rays are tested against
   RecentOccluders recent_;
-  TorusPairs<Spu> torus_pairs_;
 };
 
 } // namespace celltrace::kernel

@@ -52,26 +52,6 @@ protected:
     traversal().update_state(slot, state, query);
   }
 
-  /// Without a branch: which children are hit and in what order can hardly be predicted.
-  template <class Slot, class State, class Rays, class Order>
-  [[gnu::always_inline]] void push_hit(Slot& slot, const State& state, const Rays& rays, const Order& order,
-                                       const RayQuery& query, const NodeRecord& node, uint32_t hit,
-                                       const float (&enter)[4]) {
-    const uint32_t group = state.group;
-    const Lanes4 hit_by = is_single(group)
-                              ? Lanes4{group, group, group, group}
-                              : rays.intersect_all(node.bounds, order, Traversal::tfar(query), tnear(query));
-    uint32_t lanes[4];
-    float key[4];
-    for (uint32_t i = 0; i < 4; ++i) {
-      lanes[i] = hit_by.lanes[i] & group & (0u - (hit >> i & 1));
-      key[i] = lanes[i] != 0 ? enter[i] : -1.0f;
-    }
-    slot.stack.push_all(key, lanes, node.child, node.leaf);
-    for (uint32_t i = 0; i < 4; ++i)
-      if (lanes[i] != 0) traversal().objects_.scene().hint({node.child[i], node.leaf[i]});
-  }
-
 private:
   Traversal& traversal() { return static_cast<Traversal&>(*this); }
 

@@ -6,8 +6,16 @@
 namespace celltrace::kernel {
 
 struct DirectPackets {
-  /// Whether there are shortcuts for what is frequent, and every accelerator in a program: code is free.
-  static constexpr bool kHasShortcuts = true;
+  /// Returns where a search for hits of some lanes begins. Others hit nothing: instances take long to find
+  /// out what.
+  template <class S> static typename S::F farthest(uint32_t lanes) {
+    using F = typename S::F;
+    return S::select(S::M::from_bits(lanes), F(kMaxHitDistance), F(-1.0f));
+  }
+  /// Returns a number that is not negative raised to a power, which is mostly 2.
+  template <class S> static typename S::F raised(const typename S::F& number, float power) {
+    return power == 2.0f ? number * number : pow<S>(number, typename S::F(power));
+  }
 
   template <class S>
   [[gnu::always_inline]] static void put_in_lanes(bool all, const typename S::M& lanes, const float* values,
@@ -17,21 +25,6 @@ struct DirectPackets {
   template <class Packet> [[gnu::always_inline]] static void copy_packet(const Packet& from, Packet& to) {
     to = from;
   }
-
-  /// Changes words of some lanes, in a register until finish(): whoever loads them next would wait for stores
-  /// by lane.
-  template <class S> class WordChanges {
-  public:
-    explicit WordChanges(WordLanes& words) : words_(words), all_(load_words<S>(words)) {}
-    [[gnu::always_inline]] void set(uint32_t lanes, uint32_t value) {
-      all_ = S::select(S::M::from_bits(lanes), S::I::splat(static_cast<int32_t>(value)), all_);
-    }
-    void finish() { store_words<S>(words_, all_); }
-
-  private:
-    WordLanes& words_;
-    typename S::I all_;
-  };
 };
 
 } // namespace celltrace::kernel

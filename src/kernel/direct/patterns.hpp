@@ -13,36 +13,27 @@ struct DirectPatterns {
     NeighbourCache<S>* neighbours = nullptr; ///< random points for points that are close together; or null
     FractalValues<S, kBundlePackets<Spu>>* fractals = nullptr; ///< at points that will be asked for; or null
   };
-  /// As long as it lives, random points are kept.
-  template <class Spu> class KeptNeighbours {
+  /// As long as it lives, a KnownPatterns has values that are kept in it.
+  template <class Spu, class Values, Values* KnownPatterns<Spu>::*kMember> class KeptValues {
   public:
-    explicit KeptNeighbours(SceneAccess<Spu>& scene) : scene_(scene) { begin(); }
-    ~KeptNeighbours() { scene_.known_patterns().neighbours = nullptr; }
-    KeptNeighbours(const KeptNeighbours&) = delete;
-    KeptNeighbours& operator=(const KeptNeighbours&) = delete;
+    explicit KeptValues(SceneAccess<Spu>& scene) : scene_(scene) { begin(); }
+    ~KeptValues() { scene_.known_patterns().*kMember = nullptr; }
+    KeptValues(const KeptValues&) = delete;
+    KeptValues& operator=(const KeptValues&) = delete;
 
   private:
-    /// Not inlined: GCC 12 would say that the pointer outlives the cache, whatever the destructor does.
-    [[gnu::noinline]] void begin() { scene_.known_patterns().neighbours = &cache_; }
+    /// Not inlined: GCC 12 would say that the pointer outlives the values, whatever the destructor does.
+    [[gnu::noinline]] void begin() { scene_.known_patterns().*kMember = &values_; }
 
     SceneAccess<Spu>& scene_;
-    NeighbourCache<typename Spu::rare_simd> cache_;
+    Values values_;
   };
-  /// As long as it lives, values of fractals are.
-  template <class Spu> class KeptFractals {
-  public:
-    explicit KeptFractals(SceneAccess<Spu>& scene) : scene_(scene) { begin(); }
-    ~KeptFractals() { scene_.known_patterns().fractals = nullptr; }
-    KeptFractals(const KeptFractals&) = delete;
-    KeptFractals& operator=(const KeptFractals&) = delete;
-
-  private:
-    /// Not inlined, for the same reason.
-    [[gnu::noinline]] void begin() { scene_.known_patterns().fractals = &values_; }
-
-    SceneAccess<Spu>& scene_;
-    FractalValues<typename Spu::rare_simd, kBundlePackets<Spu>> values_;
-  };
+  template <class Spu>
+  using KeptNeighbours =
+      KeptValues<Spu, NeighbourCache<typename Spu::rare_simd>, &KnownPatterns<Spu>::neighbours>;
+  template <class Spu>
+  using KeptFractals = KeptValues<Spu, FractalValues<typename Spu::rare_simd, kBundlePackets<Spu>>,
+                                  &KnownPatterns<Spu>::fractals>;
 
   template <class S> using InnerCells = kernel::InnerCells<S>;
 

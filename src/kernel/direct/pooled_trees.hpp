@@ -56,7 +56,7 @@ protected:
   // --- surfaces ---
 
   void begin_trees() {
-    tracer().pooling().pool = BundlePool<Spu>::has_own_lanes(all().frame_) ? nullptr : &pool_.rays;
+    tracer().pooling().queue = BundlePool<Spu>::has_own_lanes(all().frame_) ? nullptr : &pool_.rays;
     pool_.begin();
     tracer().add_clear_to(pool_.clear);
     if (auto* const fractals = all().scene_.known_patterns().fractals;
@@ -92,54 +92,48 @@ protected:
   uint32_t take_hits() {
     return tracer().take_hits([&](uint32_t missed) { return leave_sky(missed); });
   }
-  /// Leaves hits from which no rays go on to shade_left(), if they are few.
+  /// Leaves hits from which no rays go on to shade_ending(), if they are few.
   uint32_t leave_ends(uint32_t hit) {
     const HitPoints<S>& points = all().store_.points;
     const uint32_t ends = hit & ~(points.spawning | points.blended);
-    if (ends == 0 || !may_wait()) return 0;
-    return pool_.hits.add(tracer().node(), tracer().pooling().pixels, tracer().hits(), ends) ? ends : 0;
+    if (ends == 0 || !may_wait(ends) || !pool_.hits.has_room()) return 0;
+    pool_.hits.push(0, ends, {waiting_rays(), tracer().hits()});
+    return ends;
   }
   template <class Member> void keep_tree(const Member& member) {
     pool_.put_tree(member.number, member.lanes, tracer().light());
   }
   void end_tree() {
-    while (pool_.hits.full())
-      shade_left();
+    while (pool_.hits.has_full())
+      pool_.hits.run_next(*this);
   }
   /// Traces the rays that have left their packets.
   template <class Stopped> bool finish(Stopped stopped) {
     while (!pool_.rays.empty() || !pool_.hits.empty()) {
       if (stopped()) return false;
-      if (pool_.hits.full() || pool_.rays.empty()) {
-        shade_left();
-        continue;
-      }
-      tracer().begin(pool_.rays.take());
-      const uint32_t lanes = tracer().node().lanes;
-      pool_.clear_lanes();
-      all().find_closest();
-      all().shade_node(nullptr);
-      if (!all().trace_tree(stopped)) return false;
-      pool_.add_tree(tracer().pooling().pixels, lanes, tracer().light());
+      if (pool_.hits.has_full() || pool_.rays.empty())
+        pool_.hits.run_next(*this);
+      else if (!pool_.rays.run_next(*this, stopped))
+        return false;
     }
-    pool_.skies.finish([&](const SkyRays& rays, uint32_t lanes) { see_sky(rays, lanes); });
-    pool_.shadows.finish([&](uint32_t number, QueuedPoints& points, uint32_t lanes) {
-      for_each_light(all().scene_, all().frame_, number, 1,
-                     [&](uint32_t, const LightRecord& light) { light_left(light, points, lanes); });
-    });
+    pool_.skies.flush(*this);
+    pool_.shadows.flush(*this);
     return true;
   }
   void drop() { pool_.drop(); }
 
   // --- light ---
 
-  /// Leaves light of a few lanes of the node that is being traced to light_left(). False: it has to come now,
-  /// as what it goes to is no pixel's or its rays have a packet of their own.
-  bool leave_light(uint32_t number, const LightRecord& light, uint32_t lanes, const VectorLanes& colour) {
-    if (lanes == 0 || !may_wait() || !pool_.shadows.takes(number, lanes)) return false;
-    pool_.shadows.add(number, lanes, all().store_.points.point, tracer().hits().object, colour,
-                      tracer().pooling().pixels, all().shadows_.asks_interiors() ? &tracer().node() : nullptr,
-                      [&](QueuedPoints& points) { light_left(light, points, 0xFFFF); });
+  /// Leaves light of a few lanes of the node that is being traced to light_points(). False: it has to come
+  /// now, as what it goes to is no pixel's or its rays have a packet of their own.
+  bool leave_light(uint32_t number, uint32_t lanes, const VectorLanes& colour) {
+    if (lanes == 0 || !may_wait(lanes) || number >= ShadowPoints::kKeys) return false;
+    VectorLanes point;
+    point.template store<S>(all().store_.points.point);
+    pool_.shadows.push(number, lanes,
+                       {point, tracer().hits().object, colour, tracer().pooling().pixels,
+                        all().shadows_.asks_interiors() ? &tracer().node() : nullptr},
+                       *this);
     return true;
   }
   template <class Member> void add_left_light(Member& member) {
@@ -153,6 +147,43 @@ protected:
   }
   template <class Member> V3<S> light_of(Member& member) {
     return pool_.light_of(member.number, member.hit, LightRound::from(all().frame_, 0, member.light));
+  }
+
+public:
+  // --- the bodies of the kinds that wait ---
+
+  /// False: it was stopped on the way.
+  template <class Stopped> bool trace_pooled(const PooledRays& rays, uint32_t lanes, const Stopped& stopped) {
+    tracer().begin(rays);
+    pool_.clear_lanes();
+    all().find_closest();
+    all().shade_node(nullptr);
+    if (!all().trace_tree(stopped)) return false;
+    pool_.add_tree(tracer().pooling().pixels, lanes, tracer().light());
+    return true;
+  }
+  /// Shades hits between trees.
+  void shade_ending(const EndingHits& ending, uint32_t lanes) {
+    tracer().begin(ending.rays);
+    tracer().hits() = ending.hits;
+    find_hit_points(all().scene_, tracer().node().rays, tracer().hits(), lanes, all().store_.points);
+    all().shade_points(nullptr, lanes);
+    pool_.add(tracer().pooling().pixels, lanes, tracer().light());
+  }
+  /// Takes to their pixels what rays see of the sky.
+  void see_sky(const SkyRays& rays, uint32_t lanes) {
+    VectorLanes light;
+    light.template store<S>(tracer().behind(rays.direction, lanes) * rays.throughput.template load<S>());
+    pool_.add(rays.pixels, lanes, light);
+  }
+  /// Takes to their pixels what comes of a light to points.
+  void light_points(uint32_t number, ShadowPoints& points, uint32_t lanes) {
+    for_each_light(all().scene_, all().frame_, number, 1, [&](uint32_t, const LightRecord& light) {
+      all().shadows_.set_interiors(&points.interiors);
+      all().shadows_.trace(light, all().store_.lit.to_light, points.point.template load<S>(), points.object,
+                           false, lanes, points.light);
+    });
+    pool_.add(points.pixels, lanes, points.light);
   }
 
 private:
@@ -180,37 +211,17 @@ private:
     fractals.run();
   }
 
-  /// Whether light of the node that is being traced goes to pixels, whatever packet its rays are in.
-  bool may_wait() { return tracer().pooling().pool != nullptr && tracer().node().target == 0; }
-  /// Shades hits that have waited, between trees.
-  void shade_left() {
-    const QueuedHits& queued = pool_.hits.take();
-    tracer().begin(queued.packet);
-    tracer().hits() = queued.hits;
-    const uint32_t lanes = tracer().node().lanes;
-    find_hit_points(all().scene_, tracer().node().rays, tracer().hits(), lanes, all().store_.points);
-    all().shade_points(nullptr, lanes);
-    pool_.add(tracer().pooling().pixels, lanes, tracer().light());
+  /// Whether light of the node that is being traced goes to pixels, whatever packet its rays are in, and
+  /// these are few.
+  bool may_wait(uint32_t lanes) {
+    return tracer().pooling().queue != nullptr && tracer().node().target == 0 && had_better_wait(lanes);
   }
+  PooledRays::Source waiting_rays() { return {tracer().node(), tracer().pooling().pixels}; }
   /// Leaves what a few lanes of the node see that hit nothing to see_sky(). False: it has to come now.
   bool leave_sky(uint32_t missed) {
-    if (all().frame_.sky == kNoOffset || !may_wait() || !pool_.skies.takes(missed)) return false;
-    pool_.skies.add(tracer().node(), tracer().pooling().pixels, missed,
-                    [&](const SkyRays& rays) { see_sky(rays, 0xFFFF); });
+    if (all().frame_.sky == kNoOffset || !may_wait(missed)) return false;
+    pool_.skies.push(0, missed, waiting_rays(), *this);
     return true;
-  }
-  /// Takes to their pixels what rays see that have waited.
-  void see_sky(const SkyRays& rays, uint32_t lanes) {
-    VectorLanes light;
-    light.template store<S>(tracer().behind(rays.direction, lanes) * rays.throughput.template load<S>());
-    pool_.add(rays.pixels, lanes, light);
-  }
-  /// Takes to their pixels what comes of a light to points that have waited.
-  void light_left(const LightRecord& light, QueuedPoints& points, uint32_t lanes) {
-    all().shadows_.set_interiors(&points.interiors);
-    all().shadows_.trace(light, all().store_.lit.to_light, points.point.template load<S>(), points.object,
-                         false, lanes, points.light);
-    pool_.add(points.pixels, lanes, points.light);
   }
 
   BundlePool<Spu> pool_;

@@ -2,9 +2,8 @@
 // shortcuts for what is frequent. Kernel dialect.
 #pragma once
 
+#include "kernel/direct/bundle_queues.hpp"
 #include "kernel/direct/node_stack.hpp"
-#include "kernel/direct/ray_pool.hpp"
-#include "kernel/direct/record_lanes.hpp"
 #include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
 
@@ -14,32 +13,12 @@ struct DirectShading {
   // --- the tree ---
 
   template <class Spu, uint32_t kResident> using RayStack = NodeStack;
-  template <class Spu> using RayPooling = kernel::RayPooling<Spu>;
+  template <class Spu> using RayPooling = kernel::RayPooling;
 
   // --- surfaces ---
 
-  /// Several objects at once, or one by one.
-  template <class Spu>
-  [[gnu::always_inline]] static void gather_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                                    uint32_t lanes, detail::HitObjects<typename Spu::simd>& o,
-                                                    HitPoints<typename Spu::simd>& points) {
-    if (!load_several_objects(scene, offsets, lanes, o, points))
-      detail::gather_objects(scene, offsets, lanes, o, points);
-  }
-  /// The normals of objects that are no spheres, triangles or planes. Points on flat faces move there.
-  template <class Spu>
-  [[gnu::always_inline]] static void find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
-                                                  const V3<typename Spu::simd>& way, uint32_t others,
-                                                  uint32_t heavy, V3<typename Spu::simd>& point,
-                                                  V3<typename Spu::simd>& normal) {
-    using S = typename Spu::simd;
-    static_assert(kOnePart<Spu>);
-    const V3<S> along_ray = point;
-    normal = along_ray;
-    if (others != 0) normal = local_normal<S>(o, way, point);
-    if (heavy != 0)
-      normal = select<S>(S::M::from_bits(heavy), module_heavy_points::normal(spu, o, along_ray), normal);
-  }
+  /// Ends of trees are shaded without what it takes to let rays go on.
+  static constexpr bool kShadesEndsApart = true;
   /// The first material fills all lanes.
   template <class Spu>
   [[gnu::always_inline]] static void gather_material(const MaterialRecord& r, bool first, uint32_t lanes,
@@ -133,40 +112,6 @@ struct DirectShading {
     store_words<S>(ray.interior_depth,
                    S::select(outside, I::splat(1), S::select(inside, I::splat(0), depth)));
     return lanes & ~crossing;
-  }
-
-private:
-  /// Loads several objects at once. False: there is only one, or some are triangles of instances.
-  template <class Spu>
-  [[gnu::always_inline]] static bool
-  load_several_objects(SceneAccess<Spu>& scene, const WordLanes& offsets, uint32_t lanes,
-                       detail::HitObjects<typename Spu::simd>& o, HitPoints<typename Spu::simd>& points) {
-    using S = typename Spu::simd;
-    using I = typename S::I;
-    const I all = load_words<S>(offsets);
-    const I first = I::splat(static_cast<int32_t>(offsets.lane[__builtin_ctz(lanes)]));
-    if ((lanes & ~(all == first).bits()) == 0) return false;
-    const I in_all = S::select(S::M::from_bits(lanes), all, first);
-    if ((in_all < I::splat(0)).bits() != 0) return false;
-    WordLanes filled;
-    store_words<S>(filled, in_all);
-    ObjectWords<S> words;
-    load_objects(scene, filled, o.objects, words);
-    o.material = words.material_offset();
-    o.interior = words.interior;
-    o.open = words.lanes_with(object_flag::open);
-    points.blended = lanes & words.lanes_with(object_flag::blended);
-    points.spawning = lanes & words.lanes_with_material(material_word::spawns);
-    points.textured = lanes & words.lanes_with_material(material_word::textured);
-    points.disturbed = lanes & words.lanes_with_material(material_word::disturbed);
-    points.lit_behind = lanes & words.lanes_with_material(material_word::lit_behind);
-    if ((lanes & words.lanes_with(detail::kOfSides)) != 0) {
-      o.two_sided = lanes & words.lanes_with(object_flag::two_sided);
-      o.inverse = lanes & words.lanes_with(object_flag::inverse);
-      points.lit_through = lanes & words.lanes_with(object_flag::lit_through);
-      points.lit_behind |= points.lit_through;
-    }
-    return true;
   }
 };
 

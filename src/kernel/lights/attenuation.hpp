@@ -27,9 +27,8 @@ typename Spu::simd::F fade_share(const LightRecord& light, const typename Spu::s
   using S = typename Spu::simd;
   using F = typename S::F;
   const F ratio = distance * F(light.inverse_fade_distance), one(1.0f);
-  if (Strategy<Spu>::kHasShortcuts && light.fade_power == 2.0f) return F(2.0f) / (one + ratio * ratio);
   const F behind = S::select(ratio < F(0.0f), F(light.fade_behind), one);
-  return F(2.0f) / (one + pow<S>(S::abs(ratio), F(light.fade_power)) * behind);
+  return F(2.0f) / (one + Strategy<Spu>::template raised<S>(S::abs(ratio), light.fade_power) * behind);
 }
 
 } // namespace celltrace::kernel

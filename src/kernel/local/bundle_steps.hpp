@@ -10,8 +10,6 @@ template <class Search, class Spu> class LocalBundleSteps {
 public:
   using S = typename Spu::simd;
 
-  static void begin_frame() {}
-
 protected:
   struct LeafTests {
     template <class Objects> LeafTests(const Objects&, const void*) {}

@@ -6,10 +6,6 @@
 namespace celltrace::kernel {
 
 template <class Tests, class Spu> class LocalObjectShortcuts {
-public:
-  static void begin_traversal(const RayQuery&) {}
-  static void end_traversal() {}
-
 protected:
   using S = typename Spu::simd;
 

@@ -43,9 +43,7 @@ protected:
   template <class Stopped> static constexpr bool finish(const Stopped&) { return true; }
   static void drop() {}
 
-  static constexpr bool leave_light(uint32_t, const LightRecord&, uint32_t, const VectorLanes&) {
-    return false;
-  }
+  static constexpr bool leave_light(uint32_t, uint32_t, const VectorLanes&) { return false; }
   template <class Member> void add_left_light(Member& member) {
     const LightRound round = LightRound::from(all().frame_, 0, member.light);
     round.template add_to<S>(member.shaded.seen, member.hit);

@@ -7,7 +7,10 @@
 namespace celltrace::kernel {
 
 struct LocalPackets {
-  static constexpr bool kHasShortcuts = false;
+  template <class S> static typename S::F farthest(uint32_t) { return typename S::F(kMaxHitDistance); }
+  template <class S> static typename S::F raised(const typename S::F& number, float power) {
+    return pow<S>(number, typename S::F(power));
+  }
 
   template <class S>
   [[gnu::always_inline]] static void put_in_lanes(bool, const typename S::M& lanes, const float* values,
@@ -18,19 +21,6 @@ struct LocalPackets {
   template <class Packet> [[gnu::always_inline]] static void copy_packet(const Packet& from, Packet& to) {
     copy_bytes(&to, &from, sizeof(Packet));
   }
-
-  /// Changes words of some lanes, one by one.
-  template <class S> class WordChanges {
-  public:
-    explicit WordChanges(WordLanes& words) : words_(words) {}
-    [[gnu::always_inline]] void set(uint32_t lanes, uint32_t value) {
-      for_each_lane(lanes, [&](uint32_t lane) { words_.lane[lane] = value; });
-    }
-    void finish() {}
-
-  private:
-    WordLanes& words_;
-  };
 
 private:
   template <class S>

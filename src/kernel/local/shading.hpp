@@ -18,35 +18,7 @@ struct LocalShading {
 
   // --- surfaces ---
 
-  template <class Spu>
-  [[gnu::always_inline]] static void gather_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                                    uint32_t lanes, detail::HitObjects<typename Spu::simd>& o,
-                                                    HitPoints<typename Spu::simd>& points) {
-    detail::gather_objects(scene, offsets, lanes, o, points);
-  }
-  /// Part by part; points stay where they are unless a packet is one part.
-  template <class Spu>
-  [[gnu::always_inline]] static void
-  find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
-               [[maybe_unused]] const V3<typename Spu::simd>& way, uint32_t others, uint32_t heavy,
-               V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
-    using R = typename Spu::rare_simd;
-    const V3<typename Spu::simd> along_ray = point;
-    for_each_part<Spu>([&](uint32_t first) {
-      const auto& part = part_of<Spu>(o, first);
-      const V3<R> at = part_of<Spu>(along_ray, first);
-      V3<R> of_part = at;
-      if constexpr (kOnePart<Spu>) {
-        if (others != 0) of_part = local_normal<R>(part, way, point);
-      } else {
-        if (others != 0) of_part = local_normal<R>(part, at);
-      }
-      if (heavy != 0)
-        of_part = select<R>(R::M::from_bits(part_of<Spu>(heavy, first)),
-                            module_heavy_points::normal(spu, part, at), of_part);
-      set_part<Spu>(normal, first, of_part);
-    });
-  }
+  static constexpr bool kShadesEndsApart = false;
   template <class Spu>
   [[gnu::always_inline]] static void gather_material(const MaterialRecord& r, bool first, uint32_t lanes,
                                                      uint32_t wanted, MaterialLanes<typename Spu::simd>& m) {

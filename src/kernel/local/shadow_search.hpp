@@ -7,6 +7,7 @@ namespace celltrace::kernel {
 
 template <class Tracer, class Spu> class LocalShadowSearch {
 protected:
+  static constexpr bool is_at_pinhole(const LightRecord&) { return false; }
   static constexpr bool walks(const LightRecord&) { return true; }
   static constexpr bool trace_crossings(const LightRecord&, const RayQuery*, uint32_t) { return false; }
   static void trace_crossings(const LightRecord&, const RayPacket&, uint32_t, const FloatLanes&,

@@ -16,10 +16,7 @@ struct LocalShapes {
     using S = typename Spu::simd;
     using Stack = TraversalStack<1, kMaxMeshLevels>;
 
-    InstanceRays(const RayPacket&, const V3<S>&, const V3<S>&, const V3<S>&, uint32_t) {}
-    static constexpr bool expand(const NodeRecord&, uint32_t, const typename S::F&, const Stack&) {
-      return false;
-    }
+    InstanceRays(const RayPacket&, const V3<S>&, const V3<S>&, const V3<S>&) {}
     static constexpr bool traverse(const SceneAccess<Spu>&, uint32_t, const NodeRef&, const InstanceTest&,
                                    const Stack&, const HitPacket&, const InstanceWork&) {
       return false;

@@ -122,11 +122,9 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
   const InstanceRecord& instance = *scene.instance(instance_of(*scene.extra(object.extra)));
   const uint32_t first_triangle = instance.first_triangle, first = kInstancedBit + instance.first_number;
   NodeRef ref = {instance.root, 0};
-  uint32_t lanes = (F::load(hits.distance.lane) > F(0.0f)).bits();
   const InstanceTest test = {first, first_triangle, nearest, any};
-  // Where any hit will do, most rays end before a frustum pays.
   const typename Strategy<Spu>::template InstanceRays<Spu> few(rays, local.origin, local.direction,
-                                                               local.inverse, any ? 0u : lanes);
+                                                               local.inverse);
   TraversalStack<1, kMaxMeshLevels> stack;
   InstanceWork work = {0, 0};
   for (;;) {
@@ -152,14 +150,15 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
       ++work.nodes;
       const F reach = F::load(hits.distance.lane);
       const NodeRecord& node = *scene.node(ref.child);
-      if (!few.expand(node, lanes, reach, stack)) local.expand(node, reach, any, stack);
+      local.expand(node, reach, any, stack);
     }
     for (;;) {
       if (stack.size() == 0) return work;
       const auto& next = stack.pop();
       ref = next.ref;
       // What has been hit since then may be nearer.
-      lanes = next.lanes & (F(next.enter) <= F::load(hits.distance.lane) * F(kLongerBox)).bits();
+      const uint32_t lanes =
+          next.lanes & (F(next.enter) <= F::load(hits.distance.lane) * F(kLongerBox)).bits();
       if (few.traverse(scene, lanes, ref, test, stack, hits, work)) continue;
       if (lanes != 0) break;
     }

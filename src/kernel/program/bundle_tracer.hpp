@@ -45,7 +45,7 @@ template <class S, class PrimaryRays> struct BundleMember : LitPoints, PrimaryRa
 //   take_hits()                       as RayTracer's
 //   knows_points(root)                whether the points that a node has hit are known; null: it is no root
 //   leave_ends(hit)                   hits that are left for later
-//   leave_light(number, light, lanes, colour)   whether light at the node is left for later
+//   leave_light(number, lanes, colour)  whether light at the node is left for later
 //   keep_tree(member)                 what a member sees is complete, but for what has been left
 //   end_tree()
 //   finish(stopped)                   works off what has been left; false: it was stopped on the way
@@ -328,7 +328,7 @@ private:
       if (!is_asked_for(light)) return;
       VectorLanes& colour = round.gathered[number - round.first];
       uint32_t lanes = tracer_.lanes_that_count(colour, hit);
-      if (Trees::leave_light(number, light, lanes, colour)) lanes = 0;
+      if (Trees::leave_light(number, lanes, colour)) lanes = 0;
       shadows_.set_interiors(&tracer_.node());
       shadows_.trace(light, store_.lit.to_light, store_.points.point, tracer_.hits().object,
                      Strategy<Spu>::is_aimed(number, round.first), lanes, colour);

@@ -36,9 +36,7 @@ template <class Spu>
         const auto of = [&](float colour) { return exp2<S>(way * F((colour - 1.0f) * kToBinary)); };
         left = {of(r.fade_colour[0]), of(r.fade_colour[1]), of(r.fade_colour[2])};
       } else {
-        const F power =
-            Strategy<Spu>::kHasShortcuts && r.fade_power == 2.0f ? way * way : pow<S>(way, F(r.fade_power));
-        const F share = one / (one + power);
+        const F share = one / (one + Strategy<Spu>::template raised<S>(way, r.fade_power));
         const V3<S> colour = splat3<S>(r.fade_colour);
         left = colour + (V3<S>{one, one, one} - colour) * share;
       }

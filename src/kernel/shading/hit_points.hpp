@@ -60,6 +60,31 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
   normal = normalise<S>(normal);
 }
 
+/// Finds the normals of objects that are no spheres, triangles or planes, part by part. Points on flat faces
+/// move there if a packet is one part; others stay where they are.
+template <class Spu>
+[[gnu::always_inline]] inline void
+find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
+             [[maybe_unused]] const V3<typename Spu::simd>& way, uint32_t others, uint32_t heavy,
+             V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
+  using R = typename Spu::rare_simd;
+  const V3<typename Spu::simd> along_ray = point;
+  for_each_part<Spu>([&](uint32_t first) {
+    const auto& part = part_of<Spu>(o, first);
+    const V3<R> at = part_of<Spu>(along_ray, first);
+    V3<R> of_part = at;
+    if constexpr (kOnePart<Spu>) {
+      if (others != 0) of_part = local_normal<R>(part, way, point);
+    } else {
+      if (others != 0) of_part = local_normal<R>(part, at);
+    }
+    if (heavy != 0)
+      of_part = select<R>(R::M::from_bits(part_of<Spu>(heavy, first)),
+                          module_heavy_points::normal(spu, part, at), of_part);
+    set_part<Spu>(normal, first, of_part);
+  });
+}
+
 template <class Spu>
 [[gnu::always_inline]] inline void surface_of(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
                                               const V3<typename Spu::simd>& way,
@@ -69,11 +94,9 @@ template <class Spu>
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
-  const bool only_triangles = Strategy<Spu>::kHasShortcuts && triangles == 0xFFFF;
   uint32_t others = 0, heavy = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
-    if (!only_triangles && kind > kPrimitiveKind<PlanePrimitive>)
-      (has_heavy_points(kind) ? heavy : others) |= o.of_kind[kind];
+    if (kind > kPrimitiveKind<PlanePrimitive>) (has_heavy_points(kind) ? heavy : others) |= o.of_kind[kind];
   if (spheres != 0) surface_of_spheres<S>(o, along_ray, point, normal);
   const auto add = [&](uint32_t lanes, const V3<S>& p, const V3<S>& n) {
     const auto mask = S::M::from_bits(lanes);
@@ -84,7 +107,7 @@ template <class Spu>
   if ((others | heavy) != 0) {
     if (heavy != 0) spu.enter_module(modules::kHeavyPoints);
     p = along_ray;
-    Strategy<Spu>::template find_normals<Spu>(spu, o, way, others, heavy, p, n);
+    find_normals(spu, o, way, others, heavy, p, n);
     add(others | heavy, p, n);
   }
   if (planes != 0) {
@@ -95,12 +118,7 @@ template <class Spu>
   }
   if (triangles != 0) {
     surface_of_triangles<S>(o, hits, p, n);
-    if (only_triangles) {
-      point = p;
-      normal = n;
-    } else {
-      add(triangles, p, n);
-    }
+    add(triangles, p, n);
   }
 }
 
@@ -110,12 +128,11 @@ CELLTRACE_ONE_COPY void take_inside_materials(SceneAccess<Spu>& scene, uint32_t 
                                               HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   scene.spu().run_in_module(modules::kFinishes);
-  typename Strategy<Spu>::template WordChanges<S> materials(points.material);
   for_each_value<S>(points.material, lanes, [&](uint32_t outside, uint32_t same) {
     if ((same & points.blended) != 0) outside = scene.blend(outside)->material[0];
-    materials.set(same, scene.material(outside)->inside);
+    const uint32_t inside = scene.material(outside)->inside;
+    for_each_lane(same, [&](uint32_t lane) { points.material.lane[lane] = inside; });
   });
-  materials.finish();
   points.blended &= ~lanes;
 }
 
@@ -240,7 +257,7 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   points.blended = points.spawning = points.textured = points.disturbed = 0;
   points.lit_behind = points.lit_through = 0;
   detail::HitObjects<S> o;
-  Strategy<Spu>::gather_objects(scene, hits.object, lanes, o, points);
+  detail::gather_objects(scene, hits.object, lanes, o, points);
   scene.spu().compute(scalar_work::kHitSurfaces);
   store_words<S>(points.material, o.material);
   store_words<S>(points.interior, o.interior);

@@ -13,6 +13,9 @@ namespace celltrace::kernel {
 
 /// Traces rays to lights. A strategy's ShadowSearch has:
 ///
+///   is_at_pinhole(light)                whether a light is known to be where primary rays begin, so that
+///   nothing
+///                                       is between it and what they have hit
 ///   walks(light)                        whether rays toward a light are walked, in scenes where some have to
 ///   be trace_crossings(light, queries, count)   whether a bundle has been taken through what it crosses
 ///   trace_crossings(light, rays, lanes, distance, colour)   the same of a packet that is not walked
@@ -49,17 +52,7 @@ public:
     return (light.kind_and_flags & (light_flag::area | light_flag::projected)) != 0 || walks_all(light);
   }
 
-  /// Whether a light is where primary rays begin, and so nothing is between it and what they have hit.
-  bool is_at_pinhole(const LightRecord& light) const {
-    if (!Strategy<Spu>::kHasShortcuts) return false;
-    constexpr uint32_t kOtherWays =
-        light_flag::area | light_flag::parallel | light_flag::projected | light_flag::dimmed;
-    if ((light.kind_and_flags & kOtherWays) != 0 || !is_pinhole(frame_.camera) ||
-        (frame_.light_ways & light_way::unseen) != 0 || frame_.camera_interior_count != 0)
-      return false;
-    const float(&eye)[3] = frame_.camera.origin;
-    return light.location[0] == eye[0] && light.location[1] == eye[1] && light.location[2] == eye[2];
-  }
+  using Search::is_at_pinhole;
   /// Leaves in `colour`, which has been gathered, what comes of a light to which nothing is in the way.
   void take_unoccluded(uint32_t lanes, VectorLanes& colour) {
     counters_.shadow += static_cast<uint32_t>(__builtin_popcount(lanes));

@@ -29,7 +29,7 @@ public:
   /// from there.
   [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
     round_ = round;
-    if (Strategy<Spu>::kHasShortcuts && ends(points, hit)) return shade_last(points, hit);
+    if (Strategy<Spu>::kShadesEndsApart && ends(points, hit)) return shade_last(points, hit);
     const uint32_t plain = points.plain(hit);
     if (plain != 0) shade_plain(points, plain);
     if (plain == hit) return;

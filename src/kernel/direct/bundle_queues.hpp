@@ -1,0 +1,146 @@
+// The kinds of work that lanes of a bundle's ray trees wait for: rays to trace, hits to shade, points to
+// light, and rays that hit nothing. Kernel dialect, where memory is direct.
+//
+// Behind surfaces that mirror or bend rays most packets of a tree have few rays each, of which some end, some
+// go to the sky, and few send on light of a lamp. Lanes of all trees of a bundle wait for each other here.
+// The bodies are PooledTrees's.
+#pragma once
+
+#include "kernel/accel/frustum.hpp"
+#include "kernel/direct/wavefront_queue.hpp"
+#include "kernel/shading/ray_stack.hpp"
+#include "kernel/tuning.hpp"
+
+namespace celltrace::kernel {
+
+/// Whether so few lanes of a packet had better wait for others.
+inline bool had_better_wait(uint32_t lanes) {
+  return __builtin_popcount(lanes) < tuning::kLeastRaysByThemselves;
+}
+
+/// Rays to trace, by the octants of their directions. The youngest packet comes first, so that few rays wait
+/// at any time.
+struct PooledRays : WorkKind {
+  struct Source {
+    const RayNode& node;
+    const WordLanes& pixels;
+  };
+  static constexpr uint32_t kKeys = 8;
+  /// Those that fill, some for each packet of a bundle, and those that wait on the way down the trees.
+  static constexpr uint32_t kPackets = 58;
+  static constexpr bool kMixesKeys = true;
+
+  RayNode node;
+  WordLanes pixels; ///< of the bundle, by lane, whose own light the rays go to
+
+  void begin() { node.begin(); }
+  void put(const Source& from, uint32_t lanes, uint32_t to) {
+    for_each_lane(lanes, [&](uint32_t lane) {
+      copy_lane(from.node.rays, lane, node.rays, to);
+      copy_lane(from.node.throughput, lane, node.throughput, to);
+      copy_lane(from.node.weight, lane, node.weight, to);
+      copy_lane(from.node.level, lane, node.level, to);
+      copy_lane(from.node.power, lane, node.power, to);
+      copy_lane(static_cast<const RayInteriors&>(from.node), lane, static_cast<RayInteriors&>(node), to);
+      copy_lane(from.pixels, lane, pixels, to);
+      node.lanes |= 1u << to;
+      node.reflected |= (from.node.reflected >> lane & 1) << to++;
+    });
+  }
+  Source source() const { return {node, pixels}; }
+  template <class Trees, class Stopped>
+  bool run(uint32_t, uint32_t lanes, Trees& trees, const Stopped& stopped) const {
+    return trees.trace_pooled(*this, lanes, stopped);
+  }
+};
+
+/// Hits from which no rays go on. They run between trees, the oldest first.
+struct EndingHits : WorkKind {
+  struct Source {
+    PooledRays::Source rays;
+    const HitPacket& hits;
+  };
+  static constexpr uint32_t kPackets = 5; ///< what a tree may leave until it is complete
+  static constexpr bool kOldestFirst = true;
+
+  PooledRays rays;
+  HitPacket hits;
+
+  void begin() { rays.begin(); }
+  void put(const Source& from, uint32_t lanes, uint32_t to) {
+    rays.put(from.rays, lanes, to);
+    for_each_lane(lanes, [&](uint32_t lane) { copy_lane(from.hits, lane, hits, to++); });
+  }
+  template <class Trees> void run(uint32_t, uint32_t lanes, Trees& trees) const {
+    trees.shade_ending(*this, lanes);
+  }
+};
+
+/// Points that send on a light if nothing is in the way, by the light's number.
+struct ShadowPoints : WorkKind {
+  struct Source {
+    const VectorLanes& point;
+    const WordLanes& object;
+    const VectorLanes& light;
+    const WordLanes& pixels;
+    const RayInteriors* interiors; ///< null: they are not wanted
+  };
+  static constexpr uint32_t kKeys = 8, kPackets = kKeys; ///< lights of a frame that have a queue
+
+  VectorLanes point;
+  WordLanes object;       ///< that each lies on
+  VectorLanes light;      ///< that they send on
+  WordLanes pixels;       ///< of the bundle, by lane
+  RayInteriors interiors; ///< of the rays that have hit them
+
+  void put(const Source& from, uint32_t lanes, uint32_t to) {
+    for_each_lane(lanes, [&](uint32_t lane) {
+      copy_lane(from.point, lane, point, to);
+      copy_lane(from.object, lane, object, to);
+      copy_lane(from.light, lane, light, to);
+      copy_lane(from.pixels, lane, pixels, to);
+      if (from.interiors != nullptr) copy_lane(*from.interiors, lane, interiors, to);
+      ++to;
+    });
+  }
+  template <class Trees> void run(uint32_t number, uint32_t lanes, Trees& trees) {
+    trees.light_points(number, *this, lanes);
+  }
+};
+
+/// Rays that hit nothing, whose sky has patterns, which take as long for one lane as for all.
+struct SkyRays : WorkKind {
+  using Source = PooledRays::Source;
+
+  VectorLanes direction;
+  VectorLanes throughput; ///< what the sky's colour is multiplied by on its way into the pixel
+  WordLanes pixels;       ///< of the bundle, by lane
+
+  void put(const Source& from, uint32_t lanes, uint32_t to) {
+    for_each_lane(lanes, [&](uint32_t lane) {
+      copy_lane(from.node.rays.direction, lane, direction, to);
+      copy_lane(from.node.throughput, lane, throughput, to);
+      copy_lane(from.pixels, lane, pixels, to++);
+    });
+  }
+  template <class Trees> void run(uint32_t, uint32_t lanes, Trees& trees) const {
+    trees.see_sky(*this, lanes);
+  }
+};
+
+/// The way of a tracer's rays into a queue.
+struct RayPooling {
+  WavefrontQueue<PooledRays>* queue = nullptr;
+  WordLanes pixels; ///< of the bundle, that the lanes of the rays are which are being traced
+
+  /// False: they are to stay, as there is no queue, or no room, or they are as well off by themselves.
+  bool takes(const RayNode& node) {
+    if (queue == nullptr || !had_better_wait(node.lanes) || !queue->has_room()) return false;
+    for_each_lane(node.lanes, [&](uint32_t lane) {
+      queue->push(octant_of(node.rays, lane), 1u << lane, {node, pixels});
+    });
+    return true;
+  }
+};
+
+} // namespace celltrace::kernel
