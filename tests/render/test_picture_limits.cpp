@@ -2,6 +2,7 @@
 // none of a scene that just does not.
 #include "celltrace/picture_limit.hpp"
 #include "celltrace/pov.hpp"
+#include "celltrace/render.hpp"
 #include "celltrace/transform.hpp"
 #include "prepare/deep_cuts.hpp"
 #include "render/scenes.hpp"
