@@ -138,6 +138,7 @@ template <class Spu> struct MixedVisitor {
   [[gnu::always_inline]] bool expand(NodeRef& ref) {
     ++objects.counters().visits;
     const NodeRecord& node = *objects.scene().node(ref.child);
+    if (test_leaves(node)) return false;
     uint32_t hit[4];
     typename S::F enter[4];
     rays.intersect(node.bounds, Traversal::tnear(query), Traversal::tfar(query), hit, enter);
@@ -147,6 +148,22 @@ template <class Spu> struct MixedVisitor {
       hit[i] &= lanes & (0u - (present >> i & 1));
     if (lanes != 0) stack.push(node, static_cast<uint32_t>(__builtin_ctz(lanes)), hit, enter);
     return false;
+  }
+  /// Tests the leaves of a node that has nothing else, one after the other: they are too few for an order to
+  /// pay. False: it has inner nodes.
+  [[gnu::always_inline]] bool test_leaves(const NodeRecord& node) {
+    const uint32_t present = MixedRays<S>::children_of(node.bounds);
+    uint32_t inner = 0;
+    for (uint32_t i = 0; i < 4; ++i)
+      inner |= static_cast<uint32_t>(node.leaf[i] == 0) << i;
+    if ((present & inner) != 0) return false;
+    for (uint32_t left = present; left != 0; left &= left - 1) {
+      const auto i = static_cast<uint32_t>(__builtin_ctz(left));
+      const uint32_t hit = rays.hit_child(node.bounds, i, Traversal::tnear(query), Traversal::tfar(query));
+      if (const uint32_t group = hit & lanes & query.lanes; group != 0)
+        traversal.test_objects({node.child[i], node.leaf[i]}, group, query);
+    }
+    return true;
   }
   [[gnu::always_inline]] void test(const NodeRef& leaf) { traversal.test_objects(leaf, lanes, query); }
   [[gnu::always_inline]] bool next(NodeRef& ref) {
