@@ -20,23 +20,26 @@ public:
     uint32_t query;
     const LocalRays<S>& rays;
     const FloatLanes& distance;
-    const ClippedRays& clipped;
+    const ClippedRays* clipped; ///< null: all of it is left
   };
 
   void begin() { run_count_ = 0; }
   void put(const Source& from, uint32_t lanes, uint32_t to) {
     const auto numbers = S::lane_numbers(lanes);
-    const F of_rays[kNumbers] = {from.rays.origin.x,
-                                 from.rays.origin.y,
-                                 from.rays.origin.z,
-                                 from.rays.direction.x,
-                                 from.rays.direction.y,
-                                 from.rays.direction.z,
-                                 F::load(from.distance.lane),
-                                 F::load(from.clipped.enter.lane),
-                                 F::load(from.clipped.leave.lane)};
-    for (uint32_t i = 0; i < kNumbers; ++i)
-      S::pick(of_rays[i], numbers).store_unaligned(numbers_[i] + to);
+    const auto keep = [&](uint32_t i, const F& of_rays) {
+      S::pick(of_rays, numbers).store_unaligned(numbers_[i] + to);
+    };
+    keep(0, from.rays.origin.x);
+    keep(1, from.rays.origin.y);
+    keep(2, from.rays.origin.z);
+    keep(3, from.rays.direction.x);
+    keep(4, from.rays.direction.y);
+    keep(5, from.rays.direction.z);
+    keep(6, F::load(from.distance.lane));
+    if (from.clipped != nullptr) {
+      keep(7, F::load(from.clipped->enter.lane));
+      keep(8, F::load(from.clipped->leave.lane));
+    }
     runs_[run_count_++] = {from.query, lanes, to};
   }
   /// Removes the lanes that the torus occludes from their queries.
@@ -59,7 +62,7 @@ public:
   }
 
 private:
-  static constexpr uint32_t kNumbers = 9;
+  static constexpr uint32_t kNumbers = 9; ///< of a ray
   /// Lanes of a query, from this place on.
   struct Run {
     uint32_t query, lanes, first;
@@ -81,12 +84,11 @@ public:
     const typename S::F ratio(ratio_);
     lanes &= TorusPrimitive::may_hit<S>(rays, ratio).bits();
     if (lanes == 0) return;
-    const bool is_clipped = clipping_.object != nullptr;
-    if (is_clipped) clipping_.template clip<S>(*queries_[query].rays, clipped_);
-    const uint32_t dark =
-        lanes & TorusPrimitive::crossed_in_plane<S>(rays, ratio, is_clipped ? &clipped_ : nullptr).bits();
+    const ClippedRays* const clipped = clipping_.object != nullptr ? &clipped_ : nullptr;
+    if (clipped != nullptr) clipping_.template clip<S>(*queries_[query].rays, clipped_);
+    const uint32_t dark = lanes & TorusPrimitive::crossed_in_plane<S>(rays, ratio, clipped).bits();
     queries_[query].lanes &= ~dark;
-    queue_.push(0, lanes & ~dark, {query, rays, *queries_[query].distance, clipped_}, ratio_, clipping_,
+    queue_.push(0, lanes & ~dark, {query, rays, *queries_[query].distance, clipped}, ratio_, clipping_,
                 queries_);
   }
   /// Tests those that are left.
