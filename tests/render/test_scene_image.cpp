@@ -12,12 +12,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 
 using namespace celltrace;
 using namespace celltrace::kernel;
 using namespace celltrace::test;
+
+namespace {
+
+/// Returns the header of bytes, which need not be aligned as a header is.
+ImageHeader copied_header(const Bytes& bytes) {
+  ImageHeader header;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  return header;
+}
+
+} // namespace
 
 TEST_CASE("A scene image survives as bytes") {
   for (const NamedScene& named : scenes()) {
@@ -128,7 +140,7 @@ TEST_CASE("A sealed scene image with a fault in its light groups is refused") {
     CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
   };
   const auto lights = [](Bytes& b) { return table<LightRecord>(b, header_of(b).light_offset); };
-  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  const ImageHeader header = copied_header(good);
   REQUIRE(header.light_set_count == 41);
   REQUIRE(header.light_word_count == 2 * header.light_count); // no light shines on everything
   refused([](Bytes& b) { header_of(b).light_set_count = 0; });
@@ -150,7 +162,7 @@ TEST_CASE("A sealed scene image with a fault in its polygons is refused") {
     seal(bytes);
     CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
   };
-  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  const ImageHeader header = copied_header(good);
   REQUIRE(header.polygon_edge_count <= 7 + 80); // shared, and none of them level
   REQUIRE(header.polygon_edge_count > 80);
   const auto change_edges = [&](Bytes& b, const std::function<void(PolygonEdges&)>& change) {
@@ -196,7 +208,7 @@ TEST_CASE("A sealed scene image with a fault in its projectors is refused") {
     CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
   };
   const auto lights = [](Bytes& b) { return table<LightRecord>(b, header_of(b).light_offset); };
-  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  const ImageHeader header = copied_header(good);
   REQUIRE(header.projector_count == 7); // a box, a torus, two surfaces of a CSG, two triangles, a plane
   REQUIRE(header.unbounded_count == 0);
   refused([](Bytes& b) { header_of(b).projector_count = 0xFFFFFFFF; });
@@ -333,7 +345,7 @@ TEST_CASE("A sealed scene image with a fault in the inside of a mesh is refused"
   const auto words = [](Bytes& b, const ImageHeader& h) {
     return table<std::uint32_t>(b, h.mesh_word_offset);
   };
-  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  const ImageHeader header = copied_header(good);
   REQUIRE(header.mesh_grid_count == 2); // instances share theirs
   const auto first = [&](Bytes& b) { return *grids(b, header); };
   refused([](Bytes& b, const ImageHeader&) { header_of(b).mesh_triangle_count = 0x10000000; });
