@@ -272,4 +272,29 @@ CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& way,
   return normal_in_own_space<S, false, true>(o, along_ray, way, &point);
 }
 
+/// Finds the normals of objects that are no spheres, triangles or planes, part by part. Points on flat faces
+/// move there if a packet is one part; others stay where they are.
+template <class Spu>
+[[gnu::always_inline]] inline void
+find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
+             [[maybe_unused]] const V3<typename Spu::simd>& way, uint32_t others, uint32_t heavy,
+             V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
+  using R = typename Spu::rare_simd;
+  const V3<typename Spu::simd> along_ray = point;
+  for_each_part<Spu>([&](uint32_t first) {
+    const auto& part = part_of<Spu>(o, first);
+    const V3<R> at = part_of<Spu>(along_ray, first);
+    V3<R> of_part = at;
+    if constexpr (kOnePart<Spu>) {
+      if (others != 0) of_part = local_normal<R>(part, way, point);
+    } else {
+      if (others != 0) of_part = local_normal<R>(part, at);
+    }
+    if (heavy != 0)
+      of_part = select<R>(R::M::from_bits(part_of<Spu>(heavy, first)),
+                          module_heavy_points::normal(spu, part, at), of_part);
+    set_part<Spu>(normal, first, of_part);
+  });
+}
+
 } // namespace celltrace::kernel
