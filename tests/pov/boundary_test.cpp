@@ -605,3 +605,22 @@ TEST_CASE("the lesser of an object's extent and its bounds'") {
         "1.0 -2.0 -2.0 to 2.0 0.0 2.0");
   CHECK(extent("difference { plane { x, 1 } box { -2, 2 } }").find("to 1.0") != std::string::npos);
 }
+
+TEST_CASE("objects are tried against their bounds until that takes too long") {
+  const auto is_warned = [](int before) {
+    return output("#for (I, 1, " + std::to_string(before) +
+                  ") sphere { 0, 1 bounded_by { box { -1, 1 } } } #end "
+                  "sphere { 0, 1 bounded_by { box { -0.5, 0.5 } } }")
+               .find("reaches out of its 'bounded_by'") != std::string::npos;
+  };
+  CHECK(is_warned(65));
+  CHECK_FALSE(is_warned(66));
+  // From all six sides, and near to the edges of what is tried.
+  for (const char* side :
+       {"<0.7, 0, 0>", "<-0.7, 0, 0>", "<0, 0.7, 0>", "<0, -0.7, 0>", "<0, 0, 0.7>", "<0, 0, -0.7>"}) {
+    INFO(side);
+    CHECK(output("union { box { -1, 1 } sphere { " + std::string(side) +
+                 " * 2, 0.5 } bounded_by { box { -1, 1 } } }")
+              .find("reaches out") != std::string::npos);
+  }
+}
