@@ -1,10 +1,13 @@
 // Options at the ends of what is taken, and one beyond.
 #include "celltrace/error.hpp"
+#include "render/camera_setup.hpp"
 #include "render/frame_setup.hpp"
+#include "render/picture_options.hpp"
 
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -197,4 +200,31 @@ TEST_CASE("A region is the whole picture unless it is given") {
   CHECK(whole.height == 480);
   options.colours = true;
   CHECK(brings_colours(options));
+}
+
+TEST_CASE("A grid has about eight voxels an object, as cubic as they can be") {
+  const auto cells = [](const Vec3& size, std::uint32_t objects) {
+    kernel::ImageHeader header{};
+    header.object_count = objects;
+    for (int axis = 0; axis < 3; ++axis) {
+      header.bounds_min[axis] = -1;
+      header.bounds_max[axis] = static_cast<float>(size[axis]) - 1;
+    }
+    const kernel::GridRecord grid = choose_grid(header);
+    CHECK(grid.row_of_cells == grid.cells[0] * grid.cells[1]);
+    for (int axis = 0; axis < 3; ++axis) {
+      CHECK(grid.cell_size[axis] * static_cast<float>(grid.cells[axis]) ==
+            Approx(grid.max[axis] - grid.min[axis]));
+      CHECK(grid.cell_size[axis] * grid.inverse_cell_size[axis] == Approx(1));
+      CHECK(0.5f * (grid.min[axis] + grid.max[axis]) == Approx(0.5 * size[axis] - 1));
+    }
+    return std::vector<std::uint32_t>(grid.cells, grid.cells + 3);
+  };
+  using Cells = std::vector<std::uint32_t>;
+  CHECK(cells({1, 1, 1}, 1) == Cells{2, 2, 2});
+  CHECK(cells({1, 1, 1}, 1000) == Cells{20, 20, 20});
+  CHECK(cells({4, 2, 1}, 1000) == Cells{40, 20, 10});
+  CHECK(cells({1, 1, 0}, 1250) == Cells{100, 100, 1}); // a flat one
+  CHECK(cells({100, 0, 0}, 64) == Cells{512, 1, 1});
+  CHECK(cells({1, 1, 1}, 1u << 30) == Cells{256, 256, 256});
 }
