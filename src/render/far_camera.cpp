@@ -259,7 +259,7 @@ double start_of_rays(const Camera& camera, double margin, const SceneImage& imag
     start = first_meeting(obstacle_of(*(objects - i), image), view, 0, start);
   if (start == farthest) return 0;
   start -= view.half_size(start); // not on a surface
-  if (!is_far(start)) return 0;
+  if (!(start > 0 && is_far(start))) return 0;
   if (!are_too_many) return start;
   if (limits != nullptr) limits->insert(PictureLimit::far_camera_objects);
   return 0;

@@ -160,6 +160,12 @@ TEST_CASE("Rays cross shapes where their equations say") {
         const double along = glm::dot(glm::normalize(slope), glm::normalize(crossing.normal));
         smooth += along > 0.999;
       }
+      // None is found twice.
+      Crossings sorted = found;
+      std::sort(sorted.begin(), sorted.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+      CHECK(std::adjacent_find(sorted.begin(), sorted.end(), [](const Crossing& a, const Crossing& b) {
+              return b.t - a.t < 1e-9;
+            }) == sorted.end());
       // As often between two points as they are on different sides, or twice as often.
       const double length = glm::length(ray.direction);
       constexpr int kSteps = 200;

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace celltrace::test {
@@ -30,6 +32,16 @@ inline void seal(Bytes& bytes) {
     sum = (sum ^ word) * 0x100000001B3u;
   }
   header_of(bytes).checksum = sum;
+}
+
+/// FNV-1a of bytes, as 16 digits.
+template <class AllBytes> std::string hash_of(const AllBytes& bytes) {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (const auto byte : bytes)
+    hash = (hash ^ static_cast<std::uint8_t>(byte)) * 0x100000001B3u;
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
 }
 
 template <class Record> Record* table(Bytes& bytes, std::uint32_t offset) {

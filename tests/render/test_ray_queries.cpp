@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <random>
 #include <thread>
 #include <vector>
@@ -286,6 +287,16 @@ TEST_CASE("queries are of the scene as it was, on every backend") {
   CHECK_FALSE(same(after.closest_hit(ray), hit));
   RayQueries copy = after;
   CHECK(same(copy.closest_hit(ray), after.closest_hit(ray)));
+}
+
+TEST_CASE("queries end with the renderer that they are of") {
+  const Ray ray = {{-2, 9, -0.5f}, {0, -1, 0}};
+  auto renderer = std::make_unique<Renderer>(query_options());
+  renderer->render(mixed_scene());
+  RayQueries queries = renderer->ray_queries();
+  CHECK(queries.closest_hit(ray));
+  renderer.reset();
+  CHECK_THROWS_AS(queries.closest_hit(ray), InputError);
 }
 
 TEST_CASE("each thread asks a copy of its own, also while a frame is rendered") {

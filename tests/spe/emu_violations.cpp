@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -36,6 +37,20 @@ TEST_CASE("a bad size is reported with SPE, addresses, tag, rule and place") {
                  Catch::EndsWith(", tag 5: size must be 1, 2, 4, 8 or a multiple of 16 up to 16384 "
                                  "[transfer-size, command 1, at emu_violations.cpp:" +
                                  line + "]"));
+}
+
+TEST_CASE("an error is told once, and then the SPE has ended") {
+  alignas(128) static std::uint32_t memory[8];
+  const std::unique_ptr<Machine> machine = cell_emu::make_machine(lockstep(1));
+  SpeProgram program("breaks a rule");
+  program.add<EmulatedSpu>(
+      [](EmulatedSpu& spu, ea_t ea) { spu.get(spu.allocate<std::uint8_t>(32), ea, 20, 5); });
+  machine->start(0, program, to_ea(memory));
+  CHECK_THROWS_AS(machine->wait(0), SpeError);
+  const SpeStop stop = machine->wait(0);
+  CHECK(stop.reason == SpeStop::Reason::exit);
+  CHECK(stop.code == 0);
+  CHECK_FALSE(machine->running(0));
 }
 
 TEST_CASE("bad operands are reported when the command is issued") {
