@@ -87,7 +87,7 @@ Scene around(const Camera& camera, const Object& object) {
 }
 
 double start_of(const Scene& scene, double margin = 0) {
-  return start_of_rays(scene.camera, margin, SceneImage(scene));
+  return start_of_rays(scene.camera, margin, SceneImage(scene), nullptr);
 }
 
 bool is_before(double start, double distance) {

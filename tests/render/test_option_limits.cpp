@@ -214,7 +214,7 @@ TEST_CASE("A grid has about eight voxels an object, as cubic as they can be") {
     CHECK(grid.row_of_cells == grid.cells[0] * grid.cells[1]);
     for (int axis = 0; axis < 3; ++axis) {
       CHECK(grid.cell_size[axis] * static_cast<float>(grid.cells[axis]) ==
-            Approx(grid.max[axis] - grid.min[axis]));
+            Approx(grid.max[axis] - grid.min[axis]).margin(1e-6));
       CHECK(grid.cell_size[axis] * grid.inverse_cell_size[axis] == Approx(1));
       CHECK(0.5f * (grid.min[axis] + grid.max[axis]) == Approx(0.5 * size[axis] - 1));
     }

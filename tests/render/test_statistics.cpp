@@ -371,7 +371,7 @@ TEST_CASE("Statistics as JSON have each number at its key") {
     "stages": {"generators": 33, "shaders": 34, "searchers": 35, "testers": 36, "jobs": 27, "searches": 28,
                "primary_hits": 29, "primary_reprocessed": 30, "primary_hits_reprocessed": 31, "returns": 32},
     "spes": [{"rays": 201, "packets": 202, "exchanges": 203, "busy_ticks": 204, "local_store_peak": 205}],
-    "diagnostics": []})"));
+    "limits": [], "diagnostics": []})"));
   s.accelerator = Accelerator::grid;
   s.objects = 0;
   s.block_error = 0;
