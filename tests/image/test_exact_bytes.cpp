@@ -304,7 +304,7 @@ TEST_CASE("BMPs of other programs: from the top, and with masks") {
     const auto number = [](int value, int bytes) {
       std::string text;
       for (int i = 0; i < bytes; ++i)
-        text += static_cast<char>(value >> 8 * i);
+        text += static_cast<char>(i < 4 ? value >> 8 * i : 0);
       return text;
     };
     const int first = 54 + static_cast<int>(more.size());

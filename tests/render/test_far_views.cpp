@@ -98,8 +98,9 @@ bool is_before(double start, double distance) {
 
 TEST_CASE("What is in the picture bounds where rays of far cameras start, what is beside it does not") {
   for (const Camera& camera : narrow_cameras()) {
-    for (const auto& [u, v] :
+    for (const std::pair<double, double>& at :
          {std::pair(0.0, 0.0), {0.43, 0.0}, {-0.43, 0.0}, {0.0, 0.43}, {0.0, -0.43}, {0.3, 0.3}}) {
+      const double u = at.first, v = at.second;
       CAPTURE(static_cast<int>(camera.kind), u, v);
       const auto start = [&](double factor, double ahead = kNear, double margin = 0) {
         return start_of(around(camera, sphere_at(place(camera, factor * u, factor * v, ahead), 0.1, 0, 0)),
