@@ -33,7 +33,7 @@ constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14464};
 constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 //   module_warps
 
-/// What patterns ask of surfaces besides points.
+/// Surface coordinates and normals, where patterns ask for them.
 constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3968};
 //   find_surface_lanes, surface_coordinates_of; data: find_surface_lanes, surface_coordinates_of
 
@@ -44,11 +44,11 @@ constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 //   module_noise, value_of<PatternCode(2)>, kernel::noise; data: kernel::noise
 
-/// What insides take of light, and how clear they are; and mirrors that bend it.
+/// The light that interiors absorb, the alpha behind them, and reflections with an exponent.
 constexpr CodeModule kFading = {"fading", 20, 0, 3968};
 //   RayTree<>::gather, RayTree<>::redirect, RayTree<>::fade_child, kernel::fade<>, kernel::is_inside
 
-/// What a program does once a frame or once for many: it makes its objects, and reports.
+/// The begin and the end of a frame: a program makes its objects, and reports.
 constexpr CodeModule kStart = {"start", 3, 0, 12800};
 //   Tracer<>::Tracer, Tracer<>::start_phase, Tracer<>::begin_frame, Tracer<>::end_frame,
 //   Tracer<>::synchronize

@@ -16,7 +16,7 @@ namespace celltrace {
 
 namespace {
 
-/// Of faces in all of the scene: beyond them nobody waits for more.
+/// The most comparisons of faces in a scene.
 constexpr std::size_t kMostComparisons = most_of(PictureLimit::shallow_cuts);
 
 /// A face in the scene. `ends`: which of a shape's, by axis and then the lower one first; of a cylinder or

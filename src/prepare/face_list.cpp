@@ -111,7 +111,8 @@ void FaceList::add(std::size_t object, std::size_t number, const Box& box, const
     face.material = material;
     face.is_inverse = is_inverse;
     face.looks_up = face.looks_up != is_seen_inside;
-    // Those that look away are seen through something, or in mirrors: where many are, time is worth more.
+    // Faces that look away show through transparent objects and in mirrors alone: where there are many, they
+    // are skipped.
     if (eye_ != nullptr && is_opaque(face) && !looks_at_eye(face)) continue;
     face.object = object;
     face.solid = number;

@@ -68,7 +68,7 @@ constexpr uint32_t step_bytes(uint32_t word) {
   return static_cast<uint32_t>(static_cast<int32_t>(word) >> kCountBits) *
          static_cast<uint32_t>(sizeof(ObjectRecord));
 }
-/// What fits.
+/// The greatest step that fits.
 constexpr int32_t kMaxStep = (1 << (31 - kCountBits)) - 1;
 /// Bytes that may be read from where a leaf's list begins, whatever its count.
 constexpr uint32_t kReadableBytes = sizeof(ObjectRecord);

@@ -26,8 +26,8 @@ static_assert(sizeof(CsgRecord) == 32, "four a line");
 struct alignas(16) CsgStep {
   uint32_t solid; ///< offset of a SolidRecord
   uint32_t if_inside, if_outside;
-  /// Of object_flag::selective. If it is not 0, the solid is not asked: rays that do not see what has these
-  /// flags go on at `if_outside`, others at `if_inside`.
+  /// Flags of object_flag::selective. If there are any, the solid is not asked: rays that do not see what has
+  /// these flags go on at `if_outside`, others at `if_inside`.
   uint32_t unseen_by;
 };
 static_assert(sizeof(CsgStep) == 16, "eight a line");

@@ -32,8 +32,8 @@ struct alignas(128) FrameBlock {
   /// none if all frames are pictures.
   ea_t grid_points;
   ea_t sample_store; ///< sample_store_bytes() per SPE, its own; likewise
-  /// Of a command: PREPARE FRAME's work memory, `work_entries` pairs of 8 bytes each; SYNCHRONIZE's list of
-  /// lines that are out of date, the first block alone, whole lines of it, of `work_entries` words.
+  /// Memory of a command: PREPARE FRAME's work memory, `work_entries` pairs of 8 bytes each; SYNCHRONIZE's
+  /// list of lines that are out of date, the first block alone, whole lines of it, of `work_entries` words.
   ea_t work_memory[2];
   uint32_t prepare_spes; ///< that build the accelerator step by step; 0: one takes all steps
   uint32_t prepare_step; ///< the step that is to be taken

@@ -1,5 +1,6 @@
 // The bytes of files that other programs read, from the first to the last, and files that other programs
 // write.
+#include "hex.hpp"
 #include "image/format_table.hpp"
 #include "image/limits.hpp"
 #include "picture_files.hpp"
@@ -13,16 +14,6 @@ using namespace celltrace::test;
 using Catch::Matchers::Contains;
 
 namespace {
-
-std::string hex(const std::string& bytes) {
-  std::string text;
-  for (const char byte : bytes) {
-    char two[3];
-    std::snprintf(two, sizeof two, "%02x", static_cast<unsigned>(static_cast<unsigned char>(byte)));
-    text += two;
-  }
-  return text;
-}
 
 std::string from_hex(const std::string& text) {
   std::string bytes;

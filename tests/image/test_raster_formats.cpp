@@ -1,4 +1,5 @@
 // TGA, BMP and JPEG: their bytes, and what they are read back as, here and by ImageMagick.
+#include "hex.hpp"
 #include "other_programs.hpp"
 
 #include <catch2/catch.hpp>
@@ -40,16 +41,6 @@ Image smooth_image(int width, int height) {
       image.pixel(x, y)[2] = static_cast<std::uint8_t>(x + y);
     }
   return image;
-}
-
-std::string hex(const std::string& bytes) {
-  std::string text;
-  for (const char byte : bytes) {
-    char two[3];
-    std::snprintf(two, sizeof two, "%02x", static_cast<unsigned>(static_cast<unsigned char>(byte)));
-    text += two;
-  }
-  return text;
 }
 
 std::vector<std::string> rows_of(const std::string& bytes, std::size_t first, std::size_t row_bytes) {

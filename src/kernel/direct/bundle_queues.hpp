@@ -26,7 +26,8 @@ struct PooledRays : WorkKind {
     const WordLanes& pixels;
   };
   static constexpr uint32_t kKeys = 8;
-  /// Those that fill, some for each packet of a bundle, and those that wait on the way down the trees.
+  /// The packets that fill, some for each packet of a bundle, and the full ones that wait on the way down the
+  /// trees.
   static constexpr uint32_t kPackets = 58;
   static constexpr bool kMixesKeys = true;
 

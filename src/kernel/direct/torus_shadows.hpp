@@ -1,7 +1,7 @@
 // Shadow rays of several packets against one torus. Kernel dialect, where memory is direct.
 //
-// Of most packets that come to a torus's bounds only few rays come near its tube. Those of all wait for each
-// other, so that the quartic is solved for as many at a time as a vector has lanes.
+// Of most packets that come to a torus's bounds only few rays come near its tube. The near rays of all
+// packets wait for each other, so that the quartic is solved for as many at a time as a vector has lanes.
 #pragma once
 
 #include "kernel/direct/clipping.hpp"

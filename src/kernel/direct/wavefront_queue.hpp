@@ -7,7 +7,7 @@
 
 namespace celltrace::kernel {
 
-/// What kinds of work say where they say nothing else.
+/// The defaults of a kind of work, which derives from this.
 struct WorkKind {
   /// Packets that fill side by side: lanes of different keys stay apart.
   static constexpr uint32_t kKeys = 1;

@@ -1,4 +1,4 @@
-// What shapes derive from: the hooks that a shape may have, and what they are where it has none. Kernel
+// Traits of shapes: the hooks that a shape may have, and their defaults. Kernel
 // dialect.
 #pragma once
 

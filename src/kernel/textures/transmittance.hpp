@@ -68,8 +68,8 @@ void transmittance_at(SceneAccess<Spu>& scene, uint32_t material,
   detail::filter_of_texture(scene, material, points, lanes, transmittance);
 }
 
-/// The same of a surface, whose material is at `material`, or whose three are in the BlendRecord there: then
-/// their weights are those of the barycentric coordinates u and v.
+/// The transmittance of a surface. Its material is at `material`; if it is `blended`, a BlendRecord with
+/// three materials is there, whose weights are those of the barycentric coordinates u and v.
 template <class Spu>
 [[gnu::always_inline]] inline void
 surface_transmittance(SceneAccess<Spu>& scene, uint32_t material, bool blended,
