@@ -1,6 +1,7 @@
 // Triangles and meshes in double precision, beside what every triangle says by itself.
 #include "geometry/mesh_geometry.hpp"
 #include "geometry/triangle_tree.hpp"
+#include "geometry/triangles.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -147,4 +148,32 @@ TEST_CASE("Points are inside a closed mesh") {
   CHECK(extent.min == Vec3(-1));
   CHECK(extent.max == Vec3(1));
   CHECK(extent_of(Mesh()).volume() == 0);
+}
+
+TEST_CASE("Triangles have an area unless their corners are on a line") {
+  // Small integers, of which products are exact.
+  const auto whole = [](const Vec3& point) { return Vec3f(glm::floor(point)); };
+  Random random;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3f corner = whole(random.point(50));
+    const Vec3f edge = whole(random.point(20)), other = whole(random.point(20));
+    CAPTURE(i, edge.x, edge.y, edge.z);
+    const auto times = static_cast<float>(i % 7 - 3);
+    CHECK_FALSE(has_area(corner, corner + edge, corner + times * edge));
+    CHECK_FALSE(has_area(corner, corner + times * edge, corner + edge));
+    CHECK(has_area(corner, corner + edge, corner + other) ==
+          (glm::cross(Vec3(edge), Vec3(other)) != Vec3(0)));
+  }
+  // Each pair of axes.
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3f u(0), v(0);
+    u[axis] = v[(axis + 1) % 3] = 1;
+    CHECK(has_area(Vec3f(0), u, v));
+    CHECK(has_area(Vec3f(7), u + 7.0f, v + 7.0f));
+  }
+  // Slim ones, where single precision leaves a doubt.
+  CHECK(has_area({0, 0, 0}, {1, 1, 0}, {1, 1 + 1e-7f, 0}));
+  CHECK(has_area({0, 0, 0}, {0, 1, 1}, {0, 1 + 2e-7f, 1}));
+  CHECK(has_area({0, 0, 0}, {1, 0, 1}, {1 + 2e-7f, 0, 1}));
+  CHECK(has_area({0, 0, 0}, {1e-20f, 0, 0}, {0, 1e-20f, 0}));
 }
