@@ -158,7 +158,7 @@ constexpr CodeModule kComposed = {"composed", 13, 2, 7168};
 
 /// What rays pass through on their way or see before what they hit or behind it.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7168};
-//   cross_atmosphere, through_fog, lanes_in_the_open, ground_density, arc_share, dim_shadow_rays,
+//   light_along, SeenLight<>, ArrivingLight<>, through_fog, lanes_in_the_open, ground_density, arc_share,
 //   cross_rainbows, see_rainbow, detail::dim_clear, bow_colour
 
 /// What rays see that hit nothing, where there is a sky.

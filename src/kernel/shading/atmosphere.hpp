@@ -238,67 +238,8 @@ template <class Spu>
 
 } // namespace detail
 
-/// Multiplies the light of shadow rays by what fogs let through of it, as far as they go to what they hit or
-/// to the light, `left` away.
-template <class Spu>
-[[gnu::noinline]] void dim_shadow_rays(SceneAccess<Spu>& scene, const FrameBlock& frame,
-                                       const HitPacket& hits, const FloatLanes& left, const RayNode& ray,
-                                       VectorLanes& light) {
-  using S = typename Spu::rare_simd;
-  using F = typename S::F;
-  scene.spu().run_in_module(modules::kAtmosphere);
-  const uint32_t lanes = detail::lanes_in_the_open(scene, ray, ray.lanes);
-  for (uint32_t i = 0; i < frame.fog_count; ++i) {
-    Kept<Spu, FogRecord> fog = *scene.fog(frame.fog_offset + i * static_cast<uint32_t>(sizeof(FogRecord)));
-    for_each_part<Spu>([&](uint32_t first) {
-      const uint32_t some = part_of<Spu>(lanes, first);
-      if (some == 0) return;
-      const F length = S::min(detail::length_of<S>(hits, first), F::load(left.lane + first));
-      const V3<S> origin = ray.rays.origin.template load_from<S>(first);
-      const V3<S> direction = ray.rays.direction.template load_from<S>(first);
-      const Passage<S> fogged = detail::through_fog(scene.spu(), fog, origin, direction, length);
-      const V3<S> before = light.template load_from<S>(first);
-      light.template store_from<S>(first, select<S>(S::M::from_bits(some), before * fogged.pass, before));
-    });
-  }
-}
-
-/// Takes the rays of a node to what they hit: adds what is on the way to `light`, and leaves the node with
-/// the throughput that is left for what is there.
-template <class Spu>
-[[gnu::noinline]] void cross_atmosphere(SceneAccess<Spu>& scene, const FrameBlock& frame,
-                                        const HitPacket& hits, RayNode& ray, VectorLanes& light) {
-  using S = typename Spu::rare_simd;
-  using F = typename S::F;
-  scene.spu().run_in_module(modules::kAtmosphere);
-  const uint32_t lanes = detail::lanes_in_the_open(scene, ray, ray.lanes);
-  // As in POV-Ray, no fog dims what another one adds.
-  const VectorLanes undimmed = ray.throughput;
-  for (uint32_t i = 0; i < frame.fog_count; ++i) {
-    Kept<Spu, FogRecord> fog = *scene.fog(frame.fog_offset + i * static_cast<uint32_t>(sizeof(FogRecord)));
-    for_each_part<Spu>([&](uint32_t first) {
-      const uint32_t some = part_of<Spu>(lanes, first);
-      if (some == 0) return;
-      const V3<S> direction = ray.rays.direction.template load_from<S>(first);
-      const F before_scene = detail::way_before<S>(frame, ray, first);
-      const V3<S> origin = ray.rays.origin.template load_from<S>(first) - direction * before_scene;
-      const F length = detail::length_of<S>(hits, first) + before_scene;
-      const Passage<S> fogged = detail::through_fog(scene.spu(), fog, origin, direction, length);
-      const auto take = S::M::from_bits(some);
-      const V3<S> throughput = ray.throughput.template load_from<S>(first);
-      const V3<S> before = light.template load_from<S>(first);
-      light.template store_from<S>(
-          first, select<S>(take, before + undimmed.template load_from<S>(first) * fogged.add, before));
-      ray.throughput.template store_from<S>(first, select<S>(take, throughput * fogged.pass, throughput));
-      if ((frame.light_ways & light_way::alpha) != 0)
-        detail::dim_clear<S>(take, grey<S>(fogged.pass), ray, first);
-    });
-  }
-  if (frame.rainbow_count != 0) detail::cross_rainbows(scene, frame, hits, lanes, ray, light);
-}
-
 /// Rays of a node that hit nothing and came by no mirror: adds to `clear` what comes through the background,
-/// and the sky before it. After cross_atmosphere().
+/// and the sky before it. After light_along().
 template <class Spu>
 [[gnu::noinline]] void see_through(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
                                    RayNode& ray, FloatLanes& clear) {

@@ -1,7 +1,7 @@
 // Raytrace: what packets of primary rays see. Kernel dialect.
 #pragma once
 
-#include "kernel/shading/atmosphere.hpp"
+#include "kernel/shading/light_along.hpp"
 #include "kernel/shading/surface_shading.hpp"
 #include "kernel/textures/sky.hpp"
 
@@ -71,7 +71,7 @@ public:
     scene_.spu().compute(scalar_work::kNode);
     if (has_atmosphere(frame_)) {
       scene_.spu().enter_module(modules::kAtmosphere);
-      cross_atmosphere(scene_, frame_, hits_, node_, light_[node_.target]);
+      light_along(scene_, frame_, SeenLight<Spu>(frame_, hits_, node_, light_[node_.target]));
       if ((frame_.light_ways & light_way::alpha) != 0) {
         scene_.spu().enter_module(modules::kSky);
         see_through(scene_, frame_, hits_, node_, *clear_);

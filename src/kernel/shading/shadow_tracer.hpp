@@ -6,6 +6,7 @@
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/list.hpp"
 #include "kernel/lights/area_shadow.hpp"
+#include "kernel/shading/light_along.hpp"
 #include "kernel/shading/ray_tree.hpp"
 #include "kernel/shading/shadow_walk.hpp"
 
@@ -131,7 +132,7 @@ private:
       traversal_.find_closest(walk.ray->rays, walk.ray->lanes, walk.hits, kSeesAll);
       if (dims) {
         scene_.spu().enter_module(modules::kAtmosphere);
-        dim_shadow_rays(scene_, frame_, walk.hits, walk.left, *walk.ray, *walk.light);
+        light_along(scene_, frame_, ArrivingLight<Spu>(walk.hits, walk.left, *walk.ray, *walk.light));
       }
       scene_.spu().enter_module(modules::kShadowWalk);
       const uint32_t hit = hits_of_walk(scene_.spu(), walk);

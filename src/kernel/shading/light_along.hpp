@@ -1,0 +1,100 @@
+// What light meets along rays, between where they start and what they hit. Kernel dialect.
+//
+// All that dims light on its way or adds to it goes through light_along(): fogs, and rainbows behind them.
+// Interiors are not on the way: as in POV-Ray they dim the light that goes on from the surface at its end,
+// not the light that is mirrored there (fading.hpp).
+#pragma once
+
+#include "kernel/shading/atmosphere.hpp"
+
+namespace celltrace::kernel {
+
+/// A part of a packet's rays, as far as light is asked for.
+template <class S> struct RaySegments {
+  V3<S> origin, direction;
+  typename S::F length;
+};
+
+/// Light that the rays of a node see: what is on the way adds to `light`, and leaves the node with the
+/// throughput that is left for what it hits.
+template <class Spu> class SeenLight {
+public:
+  using S = typename Spu::rare_simd;
+  SeenLight(const FrameBlock& frame, const HitPacket& hits, RayNode& node, VectorLanes& seen)
+      : ray(node), light(seen), frame_(frame), hits_(hits), undimmed_(node.throughput) {}
+
+  RaySegments<S> segments(uint32_t first) const {
+    const V3<S> direction = ray.rays.direction.template load_from<S>(first);
+    const typename S::F before_scene = detail::way_before<S>(frame_, ray, first);
+    return {ray.rays.origin.template load_from<S>(first) - direction * before_scene, direction,
+            detail::length_of<S>(hits_, first) + before_scene};
+  }
+  void pass(uint32_t first, const typename S::M& take, const Passage<S>& passage) {
+    const V3<S> throughput = ray.throughput.template load_from<S>(first);
+    const V3<S> before = light.template load_from<S>(first);
+    // As in POV-Ray, nothing dims what something else adds.
+    light.template store_from<S>(
+        first, select<S>(take, before + undimmed_.template load_from<S>(first) * passage.add, before));
+    ray.throughput.template store_from<S>(first, select<S>(take, throughput * passage.pass, throughput));
+    if ((frame_.light_ways & light_way::alpha) != 0)
+      detail::dim_clear<S>(take, grey<S>(passage.pass), ray, first);
+  }
+  void see_rainbows(SceneAccess<Spu>& scene, uint32_t lanes) {
+    if (frame_.rainbow_count != 0) detail::cross_rainbows(scene, frame_, hits_, lanes, ray, light);
+  }
+
+  RayNode& ray;
+  VectorLanes& light;
+
+private:
+  const FrameBlock& frame_;
+  const HitPacket& hits_;
+  VectorLanes undimmed_;
+};
+
+/// Light that shadow rays bring: `arriving` is multiplied by what passes, as far as they go to what they hit
+/// or to the light, `left` away.
+template <class Spu> class ArrivingLight {
+public:
+  using S = typename Spu::rare_simd;
+  ArrivingLight(const HitPacket& hits, const FloatLanes& left, const RayNode& node, VectorLanes& arriving)
+      : ray(node), light(arriving), hits_(hits), left_(left) {}
+
+  RaySegments<S> segments(uint32_t first) const {
+    return {ray.rays.origin.template load_from<S>(first), ray.rays.direction.template load_from<S>(first),
+            S::min(detail::length_of<S>(hits_, first), S::F::load(left_.lane + first))};
+  }
+  void pass(uint32_t first, const typename S::M& take, const Passage<S>& passage) {
+    const V3<S> before = light.template load_from<S>(first);
+    light.template store_from<S>(first, select<S>(take, before * passage.pass, before));
+  }
+  void see_rainbows(SceneAccess<Spu>&, uint32_t) {} // they light nothing
+
+  const RayNode& ray;
+  VectorLanes& light;
+
+private:
+  const HitPacket& hits_;
+  const FloatLanes& left_;
+};
+
+/// Takes light along rays: a SeenLight, or an ArrivingLight.
+template <class Spu, class Light>
+[[gnu::noinline]] void light_along(SceneAccess<Spu>& scene, const FrameBlock& frame, Light light) {
+  using S = typename Spu::rare_simd;
+  scene.spu().run_in_module(modules::kAtmosphere);
+  const uint32_t lanes = detail::lanes_in_the_open(scene, light.ray, light.ray.lanes);
+  for (uint32_t i = 0; i < frame.fog_count; ++i) {
+    Kept<Spu, FogRecord> fog = *scene.fog(frame.fog_offset + i * static_cast<uint32_t>(sizeof(FogRecord)));
+    for_each_part<Spu>([&](uint32_t first) {
+      const uint32_t some = part_of<Spu>(lanes, first);
+      if (some == 0) return;
+      const RaySegments<S> way = light.segments(first);
+      light.pass(first, S::M::from_bits(some),
+                 detail::through_fog(scene.spu(), fog, way.origin, way.direction, way.length));
+    });
+  }
+  light.see_rainbows(scene, lanes);
+}
+
+} // namespace celltrace::kernel
