@@ -6,7 +6,7 @@
 #include "kernel/direct/clipping.hpp"
 #include "kernel/direct/kept_crossings.hpp"
 #include "kernel/direct/recent_occluders.hpp"
-#include "kernel/direct/torus_shadows.hpp"
+#include "kernel/direct/shape_shadows.hpp"
 
 namespace celltrace::kernel {
 
@@ -79,9 +79,7 @@ public:
   /// Tests an opaque object that takes long against those `lanes`, by packet, that may hit it.
   void test_occlusion_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes, uint32_t self) {
     const ObjectRecord& object = *scene().object(self);
-    if ((object.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<TorusPrimitive> &&
-        occlude_by_torus(queries, packets, lanes, object, self))
-      return;
+    if (tells_shadows(object) && tell_shadows_of_some(queries, packets, lanes, object, self)) return;
     for_each_lane(packets, [&](uint32_t i) {
       RayQuery& query = queries[i];
       FloatLanes distance;
@@ -146,15 +144,13 @@ protected:
   [[gnu::always_inline]] bool test_occlusion_shortly(const RayPacket& rays, const ObjectRecord& record,
                                                      uint32_t self, const FloatLanes& distance,
                                                      VectorLanes& light, uint32_t& dark) {
-    const uint32_t flags = record.kind_and_flags;
     RayQuery query = {&rays, nullptr, &distance, &light, 0xFFFF};
     if (test_plain(&query, 1, record, self)) {
       dark = ~query.lanes & 0xFFFF;
       return true;
     }
-    return (flags & object_flag::kind_mask) == kPrimitiveKind<TorusPrimitive> &&
-           lanes_that_start_on<S>(rays, self).bits() == 0 &&
-           occluded_by_torus(rays, record, self, distance, dark);
+    return tells_shadows(record) && lanes_that_start_on<S>(rays, self).bits() == 0 &&
+           tell_shadows(rays, record, self, distance, dark);
   }
 
 private:
@@ -207,47 +203,61 @@ private:
     }
   }
 
-  /// Finds the lanes that an opaque torus occludes, off which none of them starts. False: its CSG's condition
-  /// is none that is known before the crossings are.
-  [[gnu::noinline]] bool occluded_by_torus(const RayPacket& rays, const ObjectRecord& torus, uint32_t self,
-                                           const FloatLanes& distance, uint32_t& dark) {
-    const ExtraRecord& extra = *scene().extra(torus.extra);
+  static bool tells_shadows(const ObjectRecord& object) {
+    return Primitives::tells_shadows(object.kind_and_flags & object_flag::kind_mask);
+  }
+  template <class Asked> static void ask_for_shadows(const ObjectRecord& object, const Asked& asked) {
+    Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+      if constexpr (decltype(shape)::kTellsShadows) asked(shape);
+    });
+  }
+  /// Finds the lanes that an opaque object occludes which tells shadows, and off which none of them starts.
+  /// False: its CSG's condition is none that is known before the crossings are.
+  [[gnu::noinline]] bool tell_shadows(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
+                                      const FloatLanes& distance, uint32_t& dark) {
+    const ExtraRecord& extra = *scene().extra(object.extra);
     ClippingObject clipping;
-    if (!find_clipping(torus, extra, clipping)) return false;
-    ++counters().tests[kPrimitiveKind<TorusPrimitive>];
+    if (!find_clipping(object, extra, clipping)) return false;
+    ++counters().tests[object.kind_and_flags & object_flag::kind_mask];
     const AskedCrossings asked = {kShadowEpsilon, &distance};
-    const LocalRays<S> local = local_rays<S>(rays, torus, self, 0, asked);
-    const F ratio(extra.value[0]);
+    const LocalRays<S> local = local_rays<S>(rays, object, self, 0, asked);
+    const F parameter(extra.value[0]);
     ClippedRays clipped;
     if (clipping.object != nullptr) clipping.template clip<S>(rays, clipped);
-    dark = TorusPrimitive::crossed<S>(TorusPrimitive::may_hit<S>(local, ratio), local, ratio,
-                                      clipping.object != nullptr ? &clipped : nullptr)
-               .bits();
+    const ClippedRays* const where = clipping.object != nullptr ? &clipped : nullptr;
+    ask_for_shadows(object, [&](auto shape) {
+      using Shape = decltype(shape);
+      const M wanted = Shape::template may_hit<S>(local, parameter);
+      dark = Shape::template crossed<S>(wanted, local, parameter, where).bits();
+    });
     return true;
   }
   /// Removes the lanes that it occludes from several queries, out of `lanes` by packet.
-  [[gnu::noinline]] bool occlude_by_torus(RayQuery* queries, uint32_t packets, const uint32_t* lanes,
-                                          const ObjectRecord& torus, uint32_t self) {
-    const ExtraRecord& extra = *scene().extra(torus.extra);
+  [[gnu::noinline]] bool tell_shadows_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes,
+                                              const ObjectRecord& object, uint32_t self) {
+    const ExtraRecord& extra = *scene().extra(object.extra);
     ClippingObject clipping;
-    if (!find_clipping(torus, extra, clipping)) return false;
+    if (!find_clipping(object, extra, clipping)) return false;
     uint32_t starting = 0;
     for_each_lane(packets,
                   [&](uint32_t i) { starting |= lanes_that_start_on<S>(*queries[i].rays, self).bits(); });
     if (starting != 0) return false;
-    counters().tests[kPrimitiveKind<TorusPrimitive>] += static_cast<uint32_t>(__builtin_popcount(packets));
-    TorusShadows<S> shadows(extra.value[0], clipping, queries);
-    for_each_lane(packets, [&](uint32_t i) {
-      const AskedCrossings asked = {kShadowEpsilon, queries[i].distance};
-      shadows.add(i, local_rays<S>(*queries[i].rays, torus, self, 0, asked), lanes[i]);
+    counters().tests[object.kind_and_flags & object_flag::kind_mask] +=
+        static_cast<uint32_t>(__builtin_popcount(packets));
+    ask_for_shadows(object, [&](auto shape) {
+      ShapeShadows<decltype(shape), S> shadows(extra.value[0], clipping, queries);
+      for_each_lane(packets, [&](uint32_t i) {
+        const AskedCrossings asked = {kShadowEpsilon, queries[i].distance};
+        shadows.add(i, local_rays<S>(*queries[i].rays, object, self, 0, asked), lanes[i]);
+      });
+      shadows.finish();
     });
-    shadows.finish();
     return true;
   }
-  /// Finds the object that clips a torus, if one does. False: only its crossings can tell.
-  bool find_clipping(const ObjectRecord& torus, const ExtraRecord& extra, ClippingObject& clipping) {
+  /// Finds the object that clips another one, if one does. False: only its crossings can tell.
+  bool find_clipping(const ObjectRecord& object, const ExtraRecord& extra, ClippingObject& clipping) {
     clipping = {nullptr, false, false};
-    if ((torus.kind_and_flags & object_flag::csg) == 0 || extra.csg == kNoOffset) return true;
+    if ((object.kind_and_flags & object_flag::csg) == 0 || extra.csg == kNoOffset) return true;
     clipping = ClippingObject::of(scene(), extra.csg);
     return clipping.object != nullptr;
   }

@@ -30,6 +30,10 @@ struct ShapeTraits {
   /// It has coordinates(surface_point, u, v). If not, they are x and y of the point.
   static constexpr bool kHasCoordinates = false;
   static constexpr bool kReadsExtraForCoordinates = false;
+  /// It has may_hit(), crossed() and surely_crossed(), which tell what is in shadow where solving for its
+  /// crossings would take longer. Where memory is direct they are asked (direct/shape_shadows.hpp). Such
+  /// shapes are local, and have no parameter but the first.
+  static constexpr bool kTellsShadows = false;
 };
 
 } // namespace celltrace::kernel

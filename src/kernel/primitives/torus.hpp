@@ -17,6 +17,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static constexpr bool kHasParameters = true;
   static constexpr bool kIsHeavy = true;
   static constexpr bool kHasCoordinates = true;
+  static constexpr bool kTellsShadows = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
@@ -99,8 +100,8 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   /// Some of those, at little cost: rays that are within the torus where they cross its plane, and were
   /// outside of it before. Not those of which rounding might decide.
   template <class S>
-  static typename S::M crossed_in_plane(const LocalRays<S>& rays, const typename S::F& ratio,
-                                        const ClippedRays* clipped) {
+  static typename S::M surely_crossed(const LocalRays<S>& rays, const typename S::F& ratio,
+                                      const ClippedRays* clipped) {
     using F = typename S::F;
     const V3<S>&o = rays.origin, &d = rays.direction;
     const F margin(1e-3f), one(1.0f), zero(0.0f);

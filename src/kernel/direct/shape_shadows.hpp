@@ -1,17 +1,19 @@
-// Shadow rays of several packets against one torus. Kernel dialect, where memory is direct.
+// Shadow rays of several packets against one object of a shape that tells shadows. Kernel dialect, where
+// memory is direct.
 //
-// Of most packets that come to a torus's bounds only few rays come near its tube. The near rays of all
-// packets wait for each other, so that the quartic is solved for as many at a time as a vector has lanes.
+// Of most packets that come to such an object's bounds only few rays come near its surface: near the tube of
+// a torus, say. The near rays of all packets wait for each other, so that its equation is solved for as many
+// at a time as a vector has lanes.
 #pragma once
 
 #include "kernel/direct/clipping.hpp"
 #include "kernel/direct/wavefront_queue.hpp"
-#include "kernel/primitives/torus.hpp"
+#include "kernel/primitives/local_shape.hpp"
 
 namespace celltrace::kernel {
 
-/// Rays in the space of a torus, and between which distances something of it is left.
-template <class S> class TorusRays : public WorkKind {
+/// Rays in the space of an object, and between which distances something of it is left.
+template <class Shape, class S> class ShapeShadowRays : public WorkKind {
 public:
   using F = typename S::F;
   using M = typename S::M;
@@ -42,8 +44,8 @@ public:
     }
     runs_[run_count_++] = {from.query, lanes, to};
   }
-  /// Removes the lanes that the torus occludes from their queries.
-  [[gnu::noinline]] void run(uint32_t, uint32_t lanes, float ratio, const ClippingObject& clipping,
+  /// Removes the lanes that the object occludes from their queries.
+  [[gnu::noinline]] void run(uint32_t, uint32_t lanes, float parameter, const ClippingObject& clipping,
                              RayQuery* queries) const {
     const auto at = [&](uint32_t i) { return F::load(numbers_[i]); };
     FloatLanes limit;
@@ -54,9 +56,8 @@ public:
     at(8).store(clipped.leave.lane);
     const AskedCrossings asked = {kShadowEpsilon, &limit};
     const LocalRays<S> rays = {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, M::none(), &asked};
-    const uint32_t dark = TorusPrimitive::crossed<S>(M::from_bits(lanes), rays, F(ratio),
-                                                     clipping.object != nullptr ? &clipped : nullptr)
-                              .bits();
+    const ClippedRays* const where = clipping.object != nullptr ? &clipped : nullptr;
+    const uint32_t dark = Shape::template crossed<S>(M::from_bits(lanes), rays, F(parameter), where).bits();
     for (uint32_t i = 0; i < run_count_; ++i)
       queries[runs_[i].query].lanes &= ~S::spread(dark >> runs_[i].first, runs_[i].lanes);
   }
@@ -73,34 +74,34 @@ private:
   alignas(64) float numbers_[kNumbers][2 * S::kLanes] = {}; ///< vectors are stored from any lane on
 };
 
-/// Removes lanes from queries for light that a torus occludes, where `clipping` leaves something of it.
-template <class S> class TorusShadows {
+/// Removes lanes from queries for light that an object occludes, where `clipping` leaves something of it.
+template <class Shape, class S> class ShapeShadows {
 public:
-  TorusShadows(float ratio, const ClippingObject& clipping, RayQuery* queries)
-      : ratio_(ratio), clipping_(clipping), queries_(queries) {}
+  ShapeShadows(float parameter, const ClippingObject& clipping, RayQuery* queries)
+      : parameter_(parameter), clipping_(clipping), queries_(queries) {}
 
   /// Tests some of a query's rays, which do not start on it, at once or later. `rays` are in its space.
   void add(uint32_t query, const LocalRays<S>& rays, uint32_t lanes) {
-    const typename S::F ratio(ratio_);
-    lanes &= TorusPrimitive::may_hit<S>(rays, ratio).bits();
+    const typename S::F parameter(parameter_);
+    lanes &= Shape::template may_hit<S>(rays, parameter).bits();
     if (lanes == 0) return;
     const ClippedRays* const clipped = clipping_.object != nullptr ? &clipped_ : nullptr;
     if (clipped != nullptr) clipping_.template clip<S>(*queries_[query].rays, clipped_);
-    const uint32_t dark = lanes & TorusPrimitive::crossed_in_plane<S>(rays, ratio, clipped).bits();
+    const uint32_t dark = lanes & Shape::template surely_crossed<S>(rays, parameter, clipped).bits();
     queries_[query].lanes &= ~dark;
-    queue_.push(0, lanes & ~dark, {query, rays, *queries_[query].distance, clipped}, ratio_, clipping_,
+    queue_.push(0, lanes & ~dark, {query, rays, *queries_[query].distance, clipped}, parameter_, clipping_,
                 queries_);
   }
   /// Tests those that are left.
-  void finish() { queue_.flush(ratio_, clipping_, queries_); }
+  void finish() { queue_.flush(parameter_, clipping_, queries_); }
 
 private:
-  const float ratio_;
+  const float parameter_;
   const ClippingObject clipping_;
   RayQuery* const queries_;
   ClippedRays clipped_ = {};
-  TorusRays<S> packet_;
-  WavefrontQueue<TorusRays<S>> queue_{&packet_};
+  ShapeShadowRays<Shape, S> packet_;
+  WavefrontQueue<ShapeShadowRays<Shape, S>> queue_{&packet_};
 };
 
 } // namespace celltrace::kernel
