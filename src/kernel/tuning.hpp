@@ -35,9 +35,9 @@ constexpr float kMaxPacketSpread = 3.0f;
 constexpr float kMaxPacketSpreadInLocalStore = kMaxDirectionSpread;
 
 /// So many rays of a packet that go to several octants traverse the BVH together, in scenes of at most so
-/// many objects. Fewer rays, or rays among smaller objects, have few nodes in common: traversals octant by
-/// octant have a frustum, and follow single rays by themselves. 'trace time' of scenes with mirrors and
-/// glass.
+/// many objects: those that a core's caches hold. Fewer rays, or rays among smaller objects, have few nodes
+/// in common: traversals octant by octant have a frustum, and follow single rays by themselves. 'trace time'
+/// of scenes with mirrors and glass.
 constexpr int kLeastMixedRays = 4;
 constexpr uint32_t kMostObjectsOfMixedRays = 40000;
 /// In scenes of at most so many objects packets of one octant are traversed like that, too. Larger: nodes
@@ -92,22 +92,33 @@ constexpr uint32_t kMaxSplitPackets = 4;
 constexpr uint32_t kPixelsOfSmallObject = 2;
 
 // --- waiting for memory ---
+//
+// The caches are those of a usual PC, not those of the computer that renders: what fits in them decides in
+// which order a pixel's light is added up, and pixels are to be the same on all computers.
 
-/// Up to this many objects, the caches of one core hold most of them with their nodes, and leaves are tested
+/// Bytes of an object's record and of its share of the nodes.
+constexpr uint32_t kBytesOfObject = 100;
+constexpr uint32_t objects_in(uint32_t bytes) {
+  return bytes / kBytesOfObject;
+}
+
+/// In so many bytes the caches of one core hold most of the objects with their nodes, and leaves are tested
 /// at once. With more objects, leaves are deferred while their objects are prefetched, and so are normals at
 /// hits a packet ahead. Smaller: leaves are deferred although nothing has to be waited for; larger: tests
 /// wait for memory. Rays of head (17,684 objects) and bunny (69,630), and 'trace time' of scenes of 20,000 to
 /// 40,000 objects with mirrors and glass, which takes up to 5 % longer if their leaves are deferred.
-constexpr uint32_t kObjectsInCoreCache = 40000;
+constexpr uint32_t kCoreCacheBytes = 4'000'000;
+constexpr uint32_t kObjectsInCoreCache = objects_in(kCoreCacheBytes);
 /// The most leaves that are deferred. With kEnoughDeferredLeaves of them their objects are tested after the
 /// next node is expanded. Larger: more time to fetch them; smaller: hits shorten tfar sooner. Rays of the
 /// bunny and of generated models: '--primitives 1000000'.
 constexpr uint32_t kMaxDeferredLeaves = 8;
 constexpr uint32_t kEnoughDeferredLeaves = kMaxDeferredLeaves / 2;
-/// With more objects, whose nodes lie in main memory, the traversals of packets are interleaved. Smaller:
-/// state is saved and restored although no node has to be waited for. Where objects lie at random, it begins
-/// to pay at ten million. Rays of generated models, '--primitives 1000000 4000000 10000000'.
-constexpr uint32_t kMostObjectsOfNearNodes = 4000000;
+/// With more, nodes lie in main memory, and the traversals of packets are interleaved. Smaller: state is
+/// saved and restored although no node has to be waited for. Where objects lie at random, it begins to pay at
+/// ten million. Rays of generated models, '--primitives 1000000 4000000 10000000'.
+constexpr uint32_t kNearBytes = 400'000'000;
+constexpr uint32_t kMostObjectsOfNearNodes = objects_in(kNearBytes);
 /// Traversals that are interleaved. Larger: more time to fetch a node; smaller: less state to keep in cache.
 /// Rays of generated models, '--primitives 10000000'.
 constexpr uint32_t kMaxInterleaved = 4;
@@ -177,10 +188,11 @@ constexpr LeafRule kNarrowLeaves = {3, 16, 2.0f, 2, 2};
 /// In copied treelets four objects do: a node for them would take memory in every copy, and rays would wait
 /// for it longer than the tests take. 'first frame' of a scene with many instances of one mesh.
 constexpr LeafRule kCopiedLeaves = {4, 8, 2.0f, 1, 1};
-/// Leaves are wide in scenes of at most so many objects, all of which are in the cache that a PC's cores
-/// share. Larger: objects that no ray hits are fetched from main memory; smaller: more nodes are built and
-/// expanded. Rays of generated models, '--primitives 100000 1000000'.
-constexpr uint32_t kMostObjectsOfWideLeaves = 500000;
+/// Leaves are wide in scenes of at most so many bytes, all of which are in the cache that a PC's cores share.
+/// Larger: objects that no ray hits are fetched from main memory; smaller: more nodes are built and expanded.
+/// Rays of generated models, '--primitives 100000 1000000'.
+constexpr uint32_t kSharedCacheBytes = 50'000'000;
+constexpr uint32_t kMostObjectsOfWideLeaves = objects_in(kSharedCacheBytes);
 
 /// Treelets that an SPE takes at a time. Larger: fewer atomic operations; smaller: a more even distribution.
 /// 'rebuilt every frame' of the models, with '--threads' of all CPUs.
