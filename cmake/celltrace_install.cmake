@@ -24,7 +24,7 @@ set(component_headers_emulator emulator.hpp simulator.hpp)
 set(component_headers_sdk sdk)
 set(component_headers_cache cache.hpp cache)
 set(component_headers_balance balance.hpp balance)
-set(component_headers_celltrace camera_ray.hpp image.hpp job.hpp picture_limit.hpp pov.hpp ray.hpp ray_queries.hpp render.hpp scene.hpp session.hpp texture.hpp transform.hpp)
+set(component_headers_celltrace camera_ray.hpp image.hpp job.hpp load.hpp picture_limit.hpp pov.hpp ray.hpp ray_queries.hpp render.hpp scene.hpp session.hpp texture.hpp transform.hpp)
 
 # --- libraries ---
 

@@ -11,6 +11,7 @@
 #include "cli/poster.hpp"
 #include "cli/pov_report.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/render_settings.hpp"
 #include "cli/resume_state.hpp"
 #include "cli/scene_reading.hpp"
 #include "image/file.hpp"

@@ -10,6 +10,7 @@
 #include "cli/poster.hpp"
 #include "cli/pov_report.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/render_settings.hpp"
 #include "cli/resume_state.hpp"
 #include "cli/scene_reading.hpp"
 #include "image/file.hpp"
@@ -86,80 +87,119 @@ std::optional<PictureOutcome> render_with_progress(const ReadScene& read, const 
   return outcome;
 }
 
-int interrupted_early() {
-  std::cerr << interruption() << " before the first pixel\n";
-  return 2;
-}
-
 void write_statistics(const std::string& where, const RenderStatistics& statistics, double parse_seconds) {
   auto json = nlohmann::ordered_json::parse(to_json(statistics));
   json["seconds"]["parse"] = parse_seconds;
   write_report(where, json.dump(2) + "\n");
 }
 
+/// A still picture on its way from the scene file to its own file, and what an interrupted run left of it.
+class StillPicture {
+public:
+  explicit StillPicture(const RenderRequest& request)
+      : request_(request), state_(request.output, settings_of(request)),
+        report_(std::cerr, report_parts(request, stderr_is_terminal())) {}
+
+  /// Loads what an earlier run left. Returns whether that finished the picture.
+  bool resume() {
+    state_.load();
+    std::set<std::filesystem::path> files = state_.files();
+    files.insert(request_.output);
+    image::remove_abandoned_parts(files);
+    return state_.has_frame(kStill, request_.output);
+  }
+  /// Returns whether there is a scene to render.
+  bool parse() {
+    report_.begin_parsing();
+    read_ = read_with_progress(request_);
+    return read_.scene && !interrupted();
+  }
+  /// Renders and saves the picture. Returns whether there is a pixel of it.
+  bool render() {
+    interrupt_after(request_.most_seconds);
+    if (!request_.resume) state_.remove();
+    RowsFile kept = state_.rows_of(kStill, read_.files);
+    if (kept.count() > 0)
+      say(std::to_string(height() - kept.count()) + " of " + std::to_string(height()) + " rows to go");
+    reports_.emplace(request_);
+    try {
+      outcome_ = render_with_progress(read_, request_, *reports_, report_, kept);
+    } catch (const std::exception& error) {
+      reports_->print_diagnostics(error.what());
+      throw;
+    }
+    report_.finish(outcome_ ? outcome_->statistics.render_seconds : 0);
+    reports_->print_diagnostics();
+    if (outcome_ && outcome_->complete) forget_progress();
+    return outcome_.has_value();
+  }
+  /// Writes and prints what is to be known of the picture. Returns whether it is complete.
+  bool report() {
+    reports_->finish();
+    const RenderStatistics& statistics = outcome_->statistics;
+    if (!request_.stats.empty()) write_statistics(request_.stats, statistics, read_.seconds);
+    if (request_.quiet) return outcome_->complete;
+    print_warnings(statistics);
+    const std::string partial = outcome_->complete ? "" : std::string(interruption()) + ", partial, ";
+    say(partial + std::to_string(statistics.width) + 'x' + std::to_string(height()) + ", " +
+        summary_of(statistics, read_.seconds));
+    if (!outcome_->complete && state_.is_kept() && outcome_->rows_to_go < height())
+      std::cerr << "the same command with +C goes on with the " << outcome_->rows_to_go
+                << " rows that are missing\n";
+    return outcome_->complete;
+  }
+
+  /// Prints a line about the picture, unless the run is quiet.
+  void say(const std::string& text) const {
+    if (request_.quiet) return;
+    std::cerr << (request_.output.empty()              ? "no picture"
+                  : request_.output == kStandardOutput ? "standard output"
+                                                       : request_.output.string())
+              << ": " << text << '\n';
+  }
+
+private:
+  int height() const { return height_of(request_.options); }
+  void forget_progress() {
+    if (request_.resume)
+      state_.finish_frame(kStill, request_.output);
+    else
+      state_.remove();
+  }
+
+  const RenderRequest& request_;
+  ResumeState state_;
+  PovReport report_;
+  std::optional<RunReports> reports_; ///< from render() on: a scene that cannot be read leaves none
+  ReadScene read_;
+  std::optional<PictureOutcome> outcome_;
+};
+
+int interrupted_early() {
+  std::cerr << interruption() << " before the first pixel\n";
+  return 2;
+}
+
+void check_output(const RenderRequest& request) {
+  if (request.output == kStandardOutput)
+    check_standard_output_is_open();
+  else if (!request.output.empty())
+    check_image_path(request.output, request.format);
+}
+
 } // namespace
 
 int run_render(const RenderRequest& request) {
   if (request.animation.is_on() || request.film != FilmFormat::none) return run_animation(request);
-  if (request.output == kStandardOutput) {
-    check_standard_output_is_open();
-  } else if (!request.output.empty()) {
-    check_image_path(request.output, request.format);
-  }
+  check_output(request);
   catch_interrupts();
-  const std::string name = request.output.empty()              ? "no picture"
-                           : request.output == kStandardOutput ? "standard output"
-                                                               : request.output.string();
-  ResumeState state(request.output, settings_of(request));
-  if (request.resume) {
-    state.load();
-    std::set<std::filesystem::path> files = state.files();
-    files.insert(request.output);
-    image::remove_abandoned_parts(files);
-    if (state.has_frame(kStill, request.output)) {
-      if (!request.quiet) std::cerr << name << ": finished already\n";
-      return 0;
-    }
+  StillPicture picture(request);
+  if (request.resume && picture.resume()) {
+    picture.say("finished already");
+    return 0;
   }
-  PovReport report(std::cerr, report_parts(request, stderr_is_terminal()));
-  report.begin_parsing();
-  const ReadScene read = read_with_progress(request);
-  if (!read.scene || interrupted()) return interrupted_early();
-  interrupt_after(request.most_seconds);
-  if (!request.resume) state.remove();
-  RowsFile kept = state.rows_of(kStill, read.files);
-  const int height = height_of(request.options);
-  if (kept.count() > 0 && !request.quiet)
-    std::cerr << name << ": " << height - kept.count() << " of " << height << " rows to go\n";
-
-  RunReports reports(request);
-  std::optional<PictureOutcome> rendered;
-  try {
-    rendered = render_with_progress(read, request, reports, report, kept);
-  } catch (const std::exception& error) {
-    reports.print_diagnostics(error.what());
-    throw;
-  }
-  report.finish(rendered ? rendered->statistics.render_seconds : 0);
-  reports.print_diagnostics();
-  if (!rendered) return interrupted_early();
-  const PictureOutcome& outcome = *rendered;
-  if (outcome.complete && request.resume)
-    state.finish_frame(kStill, request.output);
-  else if (outcome.complete)
-    state.remove();
-  reports.finish();
-  if (!request.stats.empty()) write_statistics(request.stats, outcome.statistics, read.seconds);
-  if (!request.quiet) {
-    const RenderStatistics& s = outcome.statistics;
-    print_warnings(s);
-    std::cerr << name << ": " << (outcome.complete ? "" : std::string(interruption()) + ", partial, ")
-              << s.width << 'x' << height << ", " << summary_of(s, read.seconds) << '\n';
-    if (!outcome.complete && state.is_kept() && outcome.rows_to_go < height)
-      std::cerr << "the same command with +C goes on with the " << outcome.rows_to_go
-                << " rows that are missing\n";
-  }
-  return outcome.complete ? 0 : 2;
+  if (!picture.parse() || !picture.render()) return interrupted_early();
+  return picture.report() ? 0 : 2;
 }
 
 } // namespace celltrace::cli

@@ -21,12 +21,9 @@ struct ReadScene {
 };
 
 /// `frame` as for parse_options(). `message` and `progress` are those of ParseOptions, but that
-/// the latter need not look for interrupts. Throws what parse_file() throws.
+/// the latter need not look for interrupts. Throws what load_scene() throws.
 ReadScene read_scene(const RenderRequest& request, int frame,
                      const std::function<void(std::string_view)>& message,
                      const std::function<void(double fraction)>& progress);
-
-/// What pictures of a request depend on, besides the files that the scene includes.
-Settings settings_of(const RenderRequest& request);
 
 } // namespace celltrace::cli

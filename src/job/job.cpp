@@ -1,5 +1,7 @@
 #include "celltrace/job.hpp"
 
+#include "celltrace/load.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -162,7 +164,7 @@ private:
     };
     if (const auto* text = std::get_if<SceneText>(&given_))
       return std::make_shared<const Scene>(parse_string(text->text, options, text->name));
-    return std::make_shared<const Scene>(parse_file(std::get<std::filesystem::path>(given_), options));
+    return std::make_shared<const Scene>(load_scene(std::get<std::filesystem::path>(given_), options));
   }
 
   void keep(const Finding& finding) {

@@ -1,3 +1,4 @@
+#include "celltrace/load.hpp"
 #include "python/bindings.hpp"
 #include "python/extent.hpp"
 #include "python/misfit.hpp"
@@ -15,7 +16,7 @@ Scene read_scene(const SceneSource& source, ParseOptions options, Watch& watch) 
     return watch(total ? static_cast<double>(bytes) / static_cast<double>(total) : 0);
   };
   const py::gil_scoped_release release;
-  if (source.is_file) return parse_file(source.text, options);
+  if (source.is_file) return load_scene(source.text, options);
   return parse_string(source.text, options);
 }
 

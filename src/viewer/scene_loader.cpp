@@ -1,6 +1,7 @@
 #include "viewer/scene_loader.hpp"
 
 #include "celltrace/error.hpp"
+#include "celltrace/load.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -58,7 +59,7 @@ void SceneLoader::read() {
   options.places_object = [&](Index object, const ObjectOrigin& origin) { loaded.names.add(object, origin); };
   options.reads_file = [&](const std::filesystem::path& path) { files.push_back(state_of(path)); };
   try {
-    loaded.scene = std::make_shared<const Scene>(parse_file(scene_, options));
+    loaded.scene = std::make_shared<const Scene>(load_scene(scene_, options));
   } catch (const Cancelled&) {
   } catch (const std::exception& error) {
     loaded.error = error.what();

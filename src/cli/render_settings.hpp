@@ -1,0 +1,12 @@
+// Settings that the pixels of a request depend on: a run that goes on with another one's rows has the same.
+#pragma once
+
+#include "cli/command_line.hpp"
+#include "cli/resume_state.hpp"
+
+namespace celltrace::cli {
+
+/// Returns the settings of a request, but not the files that its scene includes.
+Settings settings_of(const RenderRequest& request);
+
+} // namespace celltrace::cli
