@@ -145,6 +145,21 @@ TEST_CASE("Plans learn from what bundles cost") {
   CHECK(imbalance_after(Balance::diffusion, 150) < 0.1);
 }
 
+TEST_CASE("Plans have no more units than a strip's word can number, however uneven costs are") {
+  const Size size{480, 270, 64};
+  WorkPlan plan(Balance::gde, size.columns, size.rows, size.spes);
+  const std::uint32_t all = size.columns * size.rows;
+  // As many costly bundles as there may be units; the cheap ones are cut where units would become too long.
+  for (const std::uint32_t costly : {all / 100, all / 9, all / 8, all / 2}) {
+    INFO(costly << " of " << all << " bundles are costly");
+    const PlannedFrame planned(plan, size);
+    planned.measure([&](std::uint32_t bundle) { return bundle < costly ? 1000u : 1u; });
+    plan.learn();
+    CHECK(plan.units() <= strip_word::kMaxUnits);
+    CHECK(all_once(PlannedFrame(plan, size).bundles()));
+  }
+}
+
 TEST_CASE("Strips begin with what costs more than a unit should") {
   const Size size{100, 75, 8};
   const auto cost = [](std::uint32_t bundle) { return bundle % 97 == 0 ? 5000u : 2u; };
