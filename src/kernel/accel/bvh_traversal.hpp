@@ -23,9 +23,8 @@ namespace celltrace::kernel {
 ///   set_own_frustum(packet, query, frustum)   sets the frustum of a packet that leaves its bundle
 ///   shortening(packet)                  ratio of distances in a packet's frustum to distances along its rays
 ///   LeafTests(objects, view)            type of the tests of the bundle's packets against leaves
-///   add_leaf(tests, queries, leaf, packets)   tests or defers a leaf, and sets `packets` to those with
-///   results
-///                                       that may have changed; false: it did neither
+///   add_leaf(tests, queries, leaf, packets)   tests or defers a leaf, and limits `packets` to those whose
+///                                       results may have changed; false: it did neither
 ///   test_object(self, packets, queries)       tests an object of a leaf for which add_leaf() returned false
 ///   test_deferred(tests, queries, bundled)    tests deferred leaves, unless they can wait for the next one
 template <class Spu> class BvhTraversal : public Strategy<Spu>::template BundleSteps<BvhTraversal<Spu>, Spu> {
