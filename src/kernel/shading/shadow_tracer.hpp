@@ -14,8 +14,7 @@ namespace celltrace::kernel {
 
 /// Traces rays to lights. A strategy's ShadowSearch has:
 ///
-///   is_at_pinhole(light)                true if a light is known to be at the origin of primary rays:
-///   nothing
+///   is_at_pinhole(light)                true if a light is known to be where primary rays begin: nothing
 ///                                       occludes it from their hits
 ///   walks(light)                        true if rays toward a light are walked, in scenes where some must be
 ///   trace_crossings(light, queries, count)   takes a bundle through the surfaces that it crosses; false: it
