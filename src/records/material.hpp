@@ -25,10 +25,8 @@ constexpr uint32_t conserve_energy = 0x2;
 constexpr uint32_t patterned = 0x4; ///< `pattern` determines the pigment
 constexpr uint32_t disturbed = 0x8; ///< has a normal
 constexpr uint32_t layered = 0x10;  ///< has a layer below
-constexpr uint32_t mapped =
-    0x20; ///< a texture map: the entries of `pattern` are MaterialRecords, and all other members are unused
-constexpr uint32_t old_opacity =
-    0x40; ///< filtered light is counted by the brightest channel, as before version 3.7
+constexpr uint32_t mapped = 0x20;   ///< texture map: `pattern` has MaterialRecords; other members are unused
+constexpr uint32_t old_opacity = 0x40; ///< filter counts by the brightest channel, as before version 3.7
 // Flags of members: a member is only read if the flag that concerns it is set.
 constexpr uint32_t bends_diffuse = 0x80; ///< brilliance is not 1
 constexpr uint32_t phong = 0x100;
@@ -39,8 +37,7 @@ constexpr uint32_t reflects = 0x800;
 constexpr uint32_t metallic_mirror = 0x1000;
 constexpr uint32_t falloff = 0x2000;          ///< the falloff of reflection is not 1
 constexpr uint32_t bends_reflection = 0x4000; ///< the exponent of reflection is not 1
-constexpr uint32_t transmits =
-    0x8000; ///< its constants let light through; a pattern may do so without this flag
+constexpr uint32_t transmits = 0x8000; ///< constants let light through; a pattern may do so without this flag
 } // namespace material_flag
 
 /// A texture or one layer of it: pigment, normal and finish. What is constant in a frame is precomputed.

@@ -25,8 +25,7 @@ struct alignas(16) MeshGridRecord {
   uint32_t unused;
 };
 static_assert(sizeof(MeshGridRecord) == 16, "eight a line");
-constexpr uint32_t kMaxMeshGridSide =
-    1024; ///< largest number of columns or rows, which single precision counts exactly
+constexpr uint32_t kMaxMeshGridSide = 1024; ///< columns or rows; single precision counts the cells exactly
 
 /// A triangle of a mesh, in the coordinates of the grid. Corners 0, 1, 2 are sorted by row. An edge has the
 /// same numbers in all triangles that share it.

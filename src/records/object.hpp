@@ -27,9 +27,8 @@ constexpr uint32_t by_surface = 0x100000; ///< some of its patterns need more of
 constexpr uint32_t flat_map = 0x200000;   ///< an ellipsoid whose surface coordinates are x and y
 /// Light that falls on the other side of the surface counts as if it fell on this side.
 constexpr uint32_t lit_through = 0x800000;
-constexpr uint32_t light_set_shift =
-    24; ///< number of the set of lights that shine on the object; 0: all global lights
-constexpr uint32_t unused = 0x40C080; ///< free bits
+constexpr uint32_t light_set_shift = 24; ///< number of its set of lights; 0: all global lights
+constexpr uint32_t unused = 0x40C080;    ///< free bits
 } // namespace object_flag
 
 /// ObjectRecord::material: an offset, which is a multiple of 16, and flags that the shading of hits reads

@@ -43,12 +43,11 @@ constexpr uint32_t quit = 0x8;
 
 /// Kind of a word in the outbound mailbox, from SPE to PPE: the kind is in the top four bits, a count below.
 enum class ReportKind : uint32_t {
-  prepared = 1, ///< count: 0
-  needs_memory =
-      2, ///< PREPARE FRAME ran out of room for pairs; the report's list_entries says how many there are
-  progress = 3, ///< count: units completed so far in this frame
-  idle = 4,     ///< count as with `progress`; no work is left
-  finished = 5, ///< the SPE has left the frame; its report record is written
+  prepared = 1,     ///< count: 0
+  needs_memory = 2, ///< PREPARE FRAME lacks memory for pairs; list_entries is their number
+  progress = 3,     ///< count: units completed so far in this frame
+  idle = 4,         ///< count as with `progress`; no work is left
+  finished = 5,     ///< the SPE has left the frame; its report record is written
   synchronised = 6,
   unit = 7, ///< count: number of a completed unit
 };

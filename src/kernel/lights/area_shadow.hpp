@@ -195,8 +195,7 @@ template <class S> struct AreaShadow {
 
   // The members below are internal.
   static constexpr uint32_t kCorners = 4;
-  static constexpr float kTolerance =
-      0.1f; ///< largest difference between colours of corners that count as equal
+  static constexpr float kTolerance = 0.1f; ///< difference of colours up to which corners agree
   static constexpr uint32_t kDivisions = 9; ///< number of divisions of the longest grid
   static constexpr uint32_t kMaxQuads = 3 * kDivisions + 1;
   static constexpr uint32_t kPlaces = 256; ///< size of the table

@@ -24,8 +24,7 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
   using typename Base::Colour, typename Base::F, typename Base::Points, typename Base::R;
   using W = typename Base::S::F;
 
-  static constexpr uint32_t kMostSamples =
-      kMaxSamplingDepth * kMaxSamplingDepth; ///< largest number of samples of a pixel
+  static constexpr uint32_t kMostSamples = kMaxSamplingDepth * kMaxSamplingDepth; ///< samples of a pixel
 
   /// The means of a row of pixels, laid out as a row of points: the mean of a pixel is at the place of its
   /// point.
@@ -79,9 +78,8 @@ private:
   /// A cursor over the samples of pixels, tile by tile of 8x4, so that rays that are traced together are near
   /// each other.
   struct Cursor {
-    uint32_t tile = 0; ///< index in the block, by row
-    uint32_t pixels =
-        0; ///< bits of the pixels in the tile that are still to come, by row; the lowest is next
+    uint32_t tile = 0;   ///< index in the block, by row
+    uint32_t pixels = 0; ///< remaining pixels of the tile, by row; the lowest is next
     uint32_t sample = 0; ///< index in the pixel, row by row
 
     // Position of the next pixel in the block.
