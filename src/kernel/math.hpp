@@ -90,9 +90,9 @@ template <class S> typename S::F log2(const typename S::F& x) {
   return S::to_float(exponent) + f * series;
 }
 
-/// Returns 2 to the power x, with x clamped to [-126, 126]; relative error below 3e-7. The fraction, within
-/// half of 0, goes through a polynomial that is interpolated at Chebyshev's points, to within 1e-8; its terms
-/// are added in pairs for a shorter chain of dependences.
+/// Returns 2 to the power x, clamped to [-126, 126]; relative error below 3e-7. Fractions, from -1/2 to 1/2,
+/// go through a polynomial that is interpolated at Chebyshev's points, to within 1e-8; its terms are added in
+/// pairs for a shorter chain.
 template <class S> typename S::F exp2(const typename S::F& x) {
   using F = typename S::F;
   using I = typename S::I;

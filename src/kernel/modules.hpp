@@ -1,5 +1,5 @@
-// The tracer's code modules, in three regions of local store. The modules of a region replace each other and
-// are never needed together. Kernel dialect.
+// The tracer's code modules, in three regions of local store. Modules of one region replace each other: they
+// never run together. Kernel dialect.
 //
 // The comment below each module lists its functions. cmake/celltrace_modules.cmake makes the SPU's linker
 // script from these lists. A class stands for all of its functions, a namespace for all of its contents;

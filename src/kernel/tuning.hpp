@@ -29,10 +29,10 @@ constexpr uint32_t kBundleEdgeInLocalStore = 2;
 /// also for SPEs.
 constexpr float kMaxDirectionSpread = 1.0f;
 
-/// Largest difference between the directions of a packet's rays that are traced together although they do not
-/// share a frustum; other rays are traced in blocks of 2x2 and one by one. Where processors test all lanes at
-/// once, one traversal with all rays of an octant (whose directions differ by 3 at most) costs less, even if
-/// many of its nodes are hit by few rays. 'trace time' of scenes with mirrors.
+/// Largest difference between the directions of a packet's rays that are traced at once; more divergent rays
+/// are traced in blocks of 2x2 or one by one. Where processors test all lanes at once, one traversal with all
+/// rays of an octant (whose directions differ by 3 at most) costs less, even if many of its nodes are hit by
+/// few rays. 'trace time' of scenes with mirrors.
 constexpr float kMaxPacketSpread = 3.0f;
 constexpr float kMaxPacketSpreadInLocalStore = kMaxDirectionSpread;
 
@@ -70,8 +70,8 @@ constexpr uint32_t kMaxEnteredNodes = 24;
 
 /// Nodes that a packet's frustum, but none of its rays, has hit when it counts as loose. From then on the
 /// rays are tested as well. Larger: more nodes are hit in vain; smaller: rays are tested where frusta would
-/// do. It matters at silhouettes, where the origins of shadow rays lie far apart. Rays of the models; also
-/// for SPEs.
+/// do. The threshold matters at silhouettes, where the origins of shadow rays lie far apart. Rays of the
+/// models; also for SPEs.
 constexpr uint32_t kMissesOfLoose = 2;
 /// Factor by which the rectangle of a packet of shadow rays, as the light sees it, has to exceed its share of
 /// the bundle's rectangle to count as wide: the origins then lie on several surfaces, and only the frustum
@@ -91,8 +91,8 @@ constexpr uint32_t kMostListedObjects = 2;
 /// more nodes are tested for packets that do not hit them. Rays of the bunny, whose triangles are smaller
 /// than pixels.
 constexpr uint32_t kMaxSplitPackets = 4;
-/// Pixels, or rays of a stream in a unit square, per object below which kMaxSplitPackets packets split: each
-/// packet then hits other nodes. Larger: packets split at larger triangles, too. Rays of the models.
+/// Pixels, or rays of a stream in a unit square, per object below which up to kMaxSplitPackets packets split,
+/// as each hits other nodes. Larger: packets split at larger triangles, too. Rays of the models.
 constexpr uint32_t kPixelsOfSmallObject = 2;
 
 // Cache sizes are those of a usual PC, not of the computer that renders: they decide the order in which a
@@ -119,8 +119,8 @@ constexpr uint32_t kMaxDeferredLeaves = 8;
 constexpr uint32_t kEnoughDeferredLeaves = kMaxDeferredLeaves / 2;
 /// Bytes of objects and nodes beyond which nodes lie in main memory, and the traversals of packets are
 /// interleaved. Smaller: state is saved and restored although no node has to be waited for. Where objects lie
-/// at random, it begins to pay at ten million. Rays of generated models, '--primitives 1000000 4000000
-/// 10000000'.
+/// at random, interleaving begins to pay at ten million. Rays of generated models, '--primitives 1000000
+/// 4000000 10000000'.
 constexpr uint32_t kNearBytes = 400'000'000;
 constexpr uint32_t kMostObjectsOfNearNodes = objects_in(kNearBytes);
 /// Traversals that are interleaved. Larger: more time to fetch a node; smaller: less state to keep in cache.
@@ -150,9 +150,9 @@ constexpr uint32_t kLeastTrianglesByLeaf = 4;
 /// toward the light's places are tested against leaves. Larger: each ray is tested against objects that are
 /// nowhere near it; smaller: more rays are tested against leaves. 'trace time/area-light'.
 constexpr uint32_t kMostAreaOccluders = 16;
-/// Most nodes with leaves between a packet and an area light that are remembered; if there are more, each ray
-/// traverses the BVH from its root. Larger: leaves are tested that are nowhere near a ray; smaller: more rays
-/// traverse. 'trace time/area-light', and scenes with more objects.
+/// Most nodes with leaves between a packet and an area light; if there are more, each ray traverses the BVH
+/// from its root. Larger: leaves are tested that are nowhere near a ray; smaller: more rays traverse. 'trace
+/// time/area-light', and scenes with more objects.
 constexpr uint32_t kMostAreaNodes = 64;
 
 /// Most packets of rays to places on a light that are tested together. Larger: more rays are tested beside

@@ -45,9 +45,8 @@ static_assert(sizeof(GridRecord) == 80, "crosses DMA");
 /// reference to its contents. A child without objects has an empty box (min > max).
 struct alignas(128) NodeRecord {
   float bounds[6][4]; ///< min x, max x, min y, max y, min z, max z of each child
-  uint32_t
-      child[4]; ///< offset of the child's NodeRecord; for a leaf: offset of its first object or of its list
-  uint32_t leaf[4]; ///< the child's leaf word (see leaf_word); 0: a node, or no objects if the box is empty
+  uint32_t child[4];  ///< offset of the child's NodeRecord; for a leaf: of its first object or of its list
+  uint32_t leaf[4];   ///< the child's leaf word (see leaf_word); 0: a node, or no objects if the box is empty
 };
 static_assert(sizeof(NodeRecord) == 128, "one node a line");
 

@@ -11,9 +11,9 @@ enum class RaySheaf : uint32_t { pinhole, parallel, made };
 
 /// A camera.
 ///
-/// Flat cameras: base + (x - middle_x)*dx + (y - middle_y)*dy belongs to pixel (x, y). It is the direction
-/// (not normalised) of a ray from `origin`, or of parallel rays the origin, whose direction is `origin`.
-/// `middle_y` may differ from the middle row.
+/// Flat cameras: base + (x - middle_x)*dx + (y - middle_y)*dy belongs to pixel (x, y). The sum is the
+/// direction (not normalised) of a ray from `origin`, or for parallel rays the ray's origin, and `origin` is
+/// the direction. `middle_y` may differ from the middle row.
 ///
 /// Curved cameras: `origin` is the location; `base`, `dx` and `dy` are the axes forward, right and up. Pixel
 /// (x, y) is at ((x - middle_x) * step_x, (middle_y - y) * step_y) of the camera's picture, and the kind of

@@ -29,16 +29,15 @@ struct alignas(128) FrameBlock {
   ea_t strips;    ///< one StripRecord per SPE: the units that it starts the frame with
   ea_t reports;   ///< one ReportRecord per SPE
   ea_t ray_stack; ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
-  /// kGridPacketBytes per packet, row by row, followed by one FirstHitRecord per packet with
-  /// light_way::first_hits; no address if all frames are pictures.
+  /// kGridPacketBytes per packet, row by row; then, with light_way::first_hits, one FirstHitRecord per
+  /// packet. No address if all frames are pictures.
   ea_t grid_points;
   ea_t sample_store; ///< sample_store_bytes() per SPE, for its own use; no address if all frames are pictures
   /// Work memory of a command. PREPARE FRAME: both blocks, each for `work_entries` pairs of 8 bytes.
   /// SYNCHRONIZE: in the first block alone the list of cache lines that are out of date, of `work_entries`
   /// words, filled up to whole cache lines.
   ea_t work_memory[2];
-  uint32_t
-      prepare_spes; ///< number of SPEs that build the accelerator step by step; 0: one SPE takes all steps
+  uint32_t prepare_spes; ///< number of SPEs that build the accelerator step by step; 0: one takes all steps
   uint32_t prepare_step; ///< current step of building
 
   uint32_t width, height; ///< size in pixels, or in points of the grid
@@ -73,13 +72,11 @@ struct alignas(128) FrameBlock {
   uint32_t group_offset, group_count; ///< GroupRecords
   uint32_t longest_group;             ///< number of objects
   uint32_t prototype_offset;          ///< offset of one word per group; 0: no group is a copy
-  uint32_t
-      units_per_word;   ///< number of units after which an SPE reports its progress; 0: never; or kEachUnit
+  uint32_t units_per_word; ///< number of units between an SPE's reports of progress; 0: none; or kEachUnit
   uint32_t wide_leaves; ///< 0 or 1: leaves of the BVH are for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;   ///< 0 or 1: the BVH exceeds the caches, and SPEs wait long for a node
-  uint32_t
-      unbounded_count; ///< number of objects that are in no accelerator; they precede the others in the table
-  uint32_t sky;        ///< as in ImageHeader
+  uint32_t unbounded_count; ///< number of objects in no accelerator, which precede the others in the table
+  uint32_t sky;             ///< as in ImageHeader
   uint32_t light_places; ///< number of places on lights toward which shadow rays go; the number of lights if
                          ///< none has an area
   uint32_t purpose;      ///< FramePurpose

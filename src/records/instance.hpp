@@ -23,8 +23,8 @@ constexpr bool is_instanced(uint32_t object) {
 constexpr uint32_t kMaxMeshLevels = 16;
 
 /// An instance of a mesh. A triangle of the mesh whose record has the material kNoOffset has the instance's
-/// material. No material of either lets light through, has patterns that need more of a surface than points,
-/// or looks different from inside.
+/// material. No material of the triangles or the instance lets light through, has patterns that need more of
+/// a surface than points, or looks different from inside.
 struct alignas(128) InstanceRecord {
   float to_world[12];       ///< the affine map from the mesh's space, three rows of four
   float normal_to_world[9]; ///< three rows

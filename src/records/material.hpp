@@ -40,7 +40,8 @@ constexpr uint32_t bends_reflection = 0x4000; ///< the exponent of reflection is
 constexpr uint32_t transmits = 0x8000; ///< constants let light through; a pattern may do so without this flag
 } // namespace material_flag
 
-/// A texture or one layer of it: pigment, normal and finish. What is constant in a frame is precomputed.
+/// A texture or one layer of it: pigment, normal and finish, with numbers that are constant in a frame
+/// computed beforehand.
 struct alignas(128) MaterialRecord {
   float pigment[3];
   float filter;

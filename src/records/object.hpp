@@ -85,8 +85,9 @@ struct alignas(64) ExtraRecord {
 };
 static_assert(sizeof(ExtraRecord) == 64, "two records a line");
 
-/// An edge of a polygon, in the plane of the polygon's space, from its lower end up. It is beside a point at
-/// height y if low <= y < high; its column is `column` at `low` and increases by `slope` per unit of height.
+/// An edge of a polygon, in the plane of the polygon's space, from its lower end up. The edge is beside a
+/// point at height y if low <= y < high; its column is `column` at `low` and increases by `slope` per unit of
+/// height.
 struct alignas(16) PolygonEdgeRecord {
   float low, high, column, slope;
 };

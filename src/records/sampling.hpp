@@ -35,9 +35,8 @@ static_assert(sizeof(FirstHitRecord) == 320, "crosses DMA");
 
 /// Parameters of sampling.
 struct SamplingRecord {
-  uint32_t method; ///< SamplingMethod
-  uint32_t
-      depth; ///< fixed: samples per row, and rows; adaptive: levels of squares; the pixel is the first level
+  uint32_t method;     ///< SamplingMethod
+  uint32_t depth;      ///< fixed: samples per row, and rows; adaptive: levels of squares, the pixel the first
   float threshold;     ///< least difference of two colours that counts, summed over the channels
   float jitter;        ///< total range of random moves of a sample, in pixels
   float inverse_gamma; ///< exponent applied to colours before comparison

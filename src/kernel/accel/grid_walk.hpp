@@ -14,7 +14,7 @@ namespace celltrace::kernel {
 constexpr float kFarAway = 1e30f;
 
 /// The voxels that the rays of a packet are in. A ray enters a voxel at the distance at which it leaves the
-/// previous one. It enters the first voxel at -kFarAway and leaves the last one at kFarAway, so that rounding
+/// previous one. The first voxel is entered at -kFarAway and the last one left at kFarAway, so that rounding
 /// hides no hit at the border of the grid.
 template <class S> class VoxelWalk {
 public:
@@ -75,8 +75,8 @@ private:
     F spacing; ///< distance between planes of voxels
     I stride;  ///< step from a voxel's index to the next one's
 
-    /// Returns the distance at which the voxel is left. It is computed from the voxel's number, as a sum of
-    /// steps would drift over hundreds of voxels.
+    /// Returns the distance at which the voxel is left. The distance is computed from the voxel's number, as
+    /// a sum of steps would drift over hundreds of voxels.
     F border() const { return last - steps * spacing; }
     I voxel(uint32_t cells) const {
       const F forward = F(static_cast<float>(cells - 1)) - steps;

@@ -273,7 +273,7 @@ private:
   /// The crossings of a packet with an object that is not simple.
   class Other {
   public:
-    /// Looks for crossings up to `limit`. Of a ray that has one beyond `enough` the others need not be found,
+    /// Looks for crossings up to `limit`. If a ray has one beyond `enough`, its others need not be found,
     /// unless the object is part of a CSG.
     Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self, float enough,
           const FloatLanes& limit)

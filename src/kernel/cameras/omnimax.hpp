@@ -11,8 +11,8 @@ struct OmnimaxCamera {
   static constexpr bool kHasUnitAxes = true;
   static constexpr SharedByRays kShared = SharedByRays::origin;
 
-  /// Returns the extent of the picture. The circle of radius 1 fits the width; from an aspect ratio of 1 on,
-  /// the top of the circle is the top of the picture.
+  /// Returns the picture's extent. The circle of radius 1 fits the width, and from an aspect ratio of 1 on
+  /// also the top.
   static constexpr CameraPicture picture(const CameraView& view) {
     constexpr double kWidest = 1.283458; // aspect ratio at which the circle touches the sides
     const double aspect = view.height > 0 ? view.width / view.height : 1;

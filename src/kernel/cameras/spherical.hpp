@@ -25,9 +25,8 @@ struct SphericalCamera {
     return 0xFFFF;
   }
 
-  /// Returns directions in the scene. As in POV-Ray, the forward axis turns about the right axis and then
-  /// about the up axis, whatever the angles between the axes are: a camera of the other handedness sees
-  /// upside down.
+  /// Returns directions in the scene. As in POV-Ray, forward turns about right and then about up, whatever
+  /// angles the axes have: a camera of the other handedness sees upside down.
   template <class S> static V3<S> turn(const CameraRecord& camera, const CameraRays<S>& rays) {
     const typename S::F zero(0.0f);
     const V3<S> raised = turned<S>(splat3<S>(camera.base), splat3<S>(camera.dx), zero - rays.y);

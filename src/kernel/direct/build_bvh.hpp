@@ -234,7 +234,7 @@ private:
   /// Returns the offset in the image of a word of the BVH's list.
   uint32_t list_offset(uint32_t word) const { return frame_.bvh.list_offset + word * 4; }
 
-  /// Builds the BVH of a scene with few objects, which are not in groups. They need not fill nodes, as their
+  /// Builds the BVH of a scene with few objects, which are not in groups. Nodes need not be full, as their
   /// memory is insignificant.
   void build_whole() {
     const uint32_t count = frame_.object_count;

@@ -17,8 +17,8 @@ struct Place {
   uint32_t depth;
 };
 
-/// Stores the bounds of a node's children. They are padded by an epsilon relative to the coordinates and to
-/// the extent, and are never flat, so that rounding makes no ray that grazes an object miss its node.
+/// Stores the bounds of a node's children. The bounds are padded by an epsilon relative to the coordinates
+/// and to the extent, and are never flat, so that rounding makes no ray that grazes an object miss its node.
 template <class S> void set_child_bounds(NodeRecord& node, const LaneAabb<S> (&children)[kChildren]) {
   using F4 = typename S::F4;
   alignas(16) float low[kChildren][4];

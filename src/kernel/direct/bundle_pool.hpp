@@ -34,8 +34,8 @@ public:
   static constexpr bool has_own_lanes(const FrameBlock& frame) {
     return (frame.light_ways & light_way::jitter) != 0;
   }
-  /// Sorts the members of a bundle, with their rays' hits. They stay as they are if first hits are wanted by
-  /// pixel.
+  /// Sorts the members of a bundle, with their rays' hits. The members stay as they are if first hits are
+  /// wanted by pixel.
   template <class Member> void sort(SceneAccess<Spu>& scene, const FrameBlock& frame, Member* members) {
     for (uint32_t i = 0; i < kPackets; ++i)
       with_ray_[i] = members[i].lanes;

@@ -55,7 +55,7 @@ struct PooledRays : WorkKind {
   }
 };
 
-/// Hits without secondary rays. They are shaded between trees, the oldest first.
+/// Hits without secondary rays, which are shaded between trees, the oldest first.
 struct EndingHits : WorkKind {
   struct Source {
     PooledRays::Source rays;

@@ -154,8 +154,8 @@ private:
     search().traverse_bundle(queries, SlabOrder(bundle.octant), SlabOrder(search().octant_), bundle.packets);
   }
 
-  /// The traversal of a bundle's frustum, for traverse_nodes(). It ends at a leaf or when some nodes have
-  /// been expanded, and leaves the next ones on the stack.
+  /// The traversal of a bundle's frustum, for traverse_nodes(). The traversal ends at a leaf or when some
+  /// nodes have been expanded, and leaves the next ones on the stack.
   struct FrustumVisitor {
     Search& traversal;
     const SlabOrder order;

@@ -50,7 +50,7 @@ public:
       name = kNone;
   }
 
-  /// Returns the points around a cell in `features`. They are valid until the next call.
+  /// Returns the points around a cell in `features`, which are valid until the next call.
   template <class Table> const FeatureNeighbours<S>& around(Table& features, const uint32_t (&cell)[3]) {
     // The name has as many bits of each coordinate as there are numbers of cells.
     uint64_t name = 0;

@@ -20,7 +20,7 @@ struct DirectMemory {
   static const Record* read_apart(Cache& cache, uint32_t offset, DataKind kind) {
     return cache.template get<Record>(offset, kind);
   }
-  /// Returns the offset of a member of a sequence and prefetches the member; `access` is a SceneAccess.
+  /// Returns the offset of a member of a sequence and prefetches it; `access` is a SceneAccess.
   template <class Access, class Sequence>
   static uint32_t member(Access& access, const Sequence& objects, uint32_t i) {
     const uint32_t object = access.offset_of(objects, i);
@@ -35,7 +35,7 @@ struct DirectMemory {
   template <class Spu, class T> using StreamWriter = DirectStreamWriter<T>;
   template <class Spu> using SortTarget = DirectSortTarget;
 
-  /// Copies of memory for one `Owner`. They are small: a transfer by DMA would take longer.
+  /// Copies of memory for one `Owner`; most are so small that a transfer by DMA would take longer.
   template <class Spu, class Owner> class Transfers {
   protected:
     explicit Transfers(Spu&) {}

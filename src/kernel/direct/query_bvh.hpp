@@ -1,5 +1,5 @@
 // The BVH for single rays: eight children wide, with triangles in blocks of four that are ready to be tested.
-// It is made from the contents of the leaves of the BVH for packets, which suit sixteen lanes.
+// This BVH is made from the contents of the leaves of the BVH for packets, which suit sixteen lanes.
 #pragma once
 
 #include <stdint.h>

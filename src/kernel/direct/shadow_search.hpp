@@ -25,8 +25,8 @@ protected:
     const float(&eye)[3] = frame.camera.origin;
     return light.location[0] == eye[0] && light.location[1] == eye[1] && light.location[2] == eye[2];
   }
-  /// Returns true if rays toward a light are walked. As crossings are kept, this is only necessary if the
-  /// light is dimmed on its way, or walks restart.
+  /// Returns true if rays toward a light are walked. Walks are only necessary if the light is dimmed on its
+  /// way, or if walks restart, as crossings are kept.
   bool walks(const LightRecord& light) const { return is_dimmed(light) || restarts_shadows(tracer().frame_); }
 
   /// Answers the queries of a bundle where the order of crossings matters: the crossings are kept. Only rays

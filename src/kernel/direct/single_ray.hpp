@@ -1,7 +1,7 @@
 // Traversal of the BVH with one ray: its node tests take the eight children of a node at once, its leaf tests
 // four triangles. Kernel dialect, for direct memory.
 //
-// It finds the hits that packets find, to the last bit: the tests of objects and the comparison of hits are
+// The hits are those that packets find, to the last bit: the tests of objects and the comparison of hits are
 // the same. Where objects meet, packets may find another hit: their tests of nodes may leave out a box that a
 // ray only touches.
 #pragma once

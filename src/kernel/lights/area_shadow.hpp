@@ -1,8 +1,8 @@
 // Shadows of area lights, sampled as in POV-Ray: a grid of places on the light, of which only those are
 // sampled about which the surrounding places disagree. Kernel dialect.
 //
-// The value of a quad of the grid is the mean of its corners, or of its quarters if it is divided. This is
-// computed with a stack of quads, each with the weight of its mean. Results of places are kept in a small
+// The value of a quad of the grid is the mean of its corners, or of its quarters if it is divided. The value
+// is computed with a stack of quads, each with the weight of its mean. Results of places are kept in a small
 // table, as quads share corners.
 #pragma once
 

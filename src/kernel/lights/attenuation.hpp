@@ -21,8 +21,8 @@ template <class S> typename S::F beam_share(const LightRecord& light, const type
   return S::select(way_off < one, share, zero);
 }
 
-/// Returns the light at `distance` relative to that at the fade distance. It is negative where an odd power
-/// of a negative distance is below -1.
+/// Returns the light at `distance` relative to that at the fade distance. The result is negative where an odd
+/// power of a negative distance is below -1.
 template <class Spu>
 typename Spu::simd::F fade_share(const LightRecord& light, const typename Spu::simd::F& distance) {
   using S = typename Spu::simd;

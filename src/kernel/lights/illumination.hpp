@@ -85,7 +85,7 @@ CELLTRACE_ONE_COPY void aim_parallel(Spu& spu, const LightRecord& light, const V
 } // namespace module_lights
 
 /// Completes `incident`, which has only the light's colour, with the light that the surfaces of `lanes`
-/// receive. It is not returned, as an SPU would copy it.
+/// receive. The light is not returned, as an SPU would copy it.
 template <class Spu>
 void illuminate(SceneAccess<Spu>& scene, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                 uint32_t lanes, IncidentLight<typename Spu::simd>& incident) {

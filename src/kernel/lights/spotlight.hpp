@@ -11,8 +11,8 @@ struct SpotLight {
   static constexpr bool kIsBeam = true;
   static constexpr bool kIsParallel = false;
 
-  /// Returns the offset of surfaces from the axis: 1 minus the cosine of the angle at the light. It is
-  /// computed from the vector between the two directions, as the cosine of a small angle has few digits.
+  /// Returns the offset of surfaces from the axis: 1 minus the cosine of the angle at the light. The offset
+  /// is computed from the vector between the two directions, as the cosine of a small angle has few digits.
   template <class S>
   static typename S::F way_off(const LightRecord& light, const Surfaces<S>&,
                                const IncidentLight<S>& incident) {

@@ -21,7 +21,7 @@ struct LocalMemory {
   static const Record* read_apart(Cache& cache, uint32_t offset, DataKind kind) {
     return reinterpret_cast<const Record*>(read_bytes(cache, offset, sizeof(Record), kind));
   }
-  /// Returns the offset of a member of a sequence and prefetches the member; `access` is a SceneAccess.
+  /// Returns the offset of a member of a sequence and prefetches it; `access` is a SceneAccess.
   template <class Access, class Sequence>
   CELLTRACE_ONE_COPY static uint32_t member(Access& access, const Sequence& objects, uint32_t i) {
     const uint32_t object = access.offset_of(objects, i);

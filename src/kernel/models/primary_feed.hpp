@@ -73,8 +73,8 @@ private:
     }
   }
 
-  /// Tells the PPE how far the frame is, if it listens, and when it is complete. It is complete only after
-  /// every shader has reported: nothing may ring in an SPE that has left.
+  /// Tells the PPE how far the frame is, if it listens, and when it is complete. A frame is complete only
+  /// after every shader has reported: nothing may ring in an SPE that has left.
   void report() {
     const bool all_issued = stopped_ || row_ >= frame_.packet_rows;
     const bool complete = all_issued && busy_ == 0 && (heard_ & stage_.announced) == stage_.announced;

@@ -51,8 +51,8 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     const F x = in_x + in_x * parameters.ratio, y = in_y + in_y * parameters.second;
     const auto is_x = (x <= y) & (x <= z);
     const auto is_y = (y <= z) & !is_x;
-    // Across a very thin box, rounding may make the coordinate 0, which would be no normal. It is then a
-    // multiple of a power of two that is too large for the sum to become 0.
+    // Across a very thin box, rounding may make the coordinate 0, which would be no normal. The coordinate is
+    // then a multiple of a power of two that is too large for the sum to become 0.
     const F shift(0.298828125f);
     return {S::select(is_x, p.x + shift, zero), S::select(is_y, p.y + shift, zero),
             S::select(is_x | is_y, zero, p.z + shift)};

@@ -66,8 +66,7 @@ private:
     S::select(asked, F::load(further_.after.lane), F(kEveryCrossing)).store(further_.after.lane);
     find_after(further_.after, c);
     const F after = F::load(further_.after.lane);
-    c.near_hit =
-        c.near_hit & asked & (c.near > after); // ends even if the shape finds the same crossing again
+    c.near_hit = c.near_hit & asked & (c.near > after); // ends though shapes may find it again
     c.far_hit = c.far_hit & asked & (c.far > after);
     next_ = 1;
     if ((c.near_hit | c.far_hit).bits() == 0) return false;

@@ -54,7 +54,7 @@ template <class S> void keep_closest(const Crossings<S>& c, uint32_t self, HitPa
   const F nearest = F::load(hits.distance.lane);
   const M hit = near_valid | far_valid;
   const M not_farther = hit & (distance <= nearest);
-  // Of two hits at the same distance, that of the object with the lower offset counts, so that the result
+  // The hit of the object with the lower offset wins if two hits are at the same distance, so that the result
   // does not depend on the order of the tests.
   auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
   const I present = I::load(objects);

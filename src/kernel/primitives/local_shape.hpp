@@ -36,7 +36,8 @@ struct ClippedRays {
 
 /// The crossings of a ray that are wanted.
 struct AskedCrossings {
-  /// After the first crossing that is farther than this the others may be left out.
+  /// Distance after which one crossing suffices: once a ray has a crossing beyond it, the others may be left
+  /// out.
   float enough = kEveryCrossing;
   /// For each ray: crossings that are farther than this or behind the origin may be left out. nullptr: no
   /// limit.

@@ -103,8 +103,8 @@ template <class S, bool kOfHeavy, bool kMoves>
 
 namespace module_heavy {
 
-/// Intersects heavy shapes; see module_shapes::intersect(). They process as many lanes at a time as rare code
-/// does, and take time for each crossing.
+/// Intersects heavy shapes; see module_shapes::intersect(). Heavy shapes process as many lanes at a time as
+/// rare code does, and take time for each crossing.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
                                       const ExtraRecord& extra, uint32_t self, const AskedCrossings& asked,

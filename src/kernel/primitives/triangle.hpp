@@ -30,9 +30,9 @@ template <class S> struct TriangleSides {
   }
 };
 
-/// Returns the overlap of neighbouring triangles, times the determinant. It is as large as the rounding error
-/// of the barycentric coordinates may be, so that no ray slips between them: it grows with the distance over
-/// the triangle's size, and as the ray becomes parallel to the triangle.
+/// Returns the overlap of neighbouring triangles, times the determinant. The overlap is the largest rounding
+/// error of the barycentric coordinates, so that no ray slips between triangles: it grows with the distance
+/// over the triangle's size, and as the ray becomes parallel to the triangle.
 template <class S>
 [[gnu::always_inline]] inline typename S::F triangle_overlap(const V3<S>& from_v0, const V3<S>& edge1,
                                                              const V3<S>& edge2) {

@@ -42,8 +42,8 @@ static_assert(sizeof(SampleSquare<3>) == 64 && sizeof(SampleSquare<4>) == 80, "w
 
 constexpr uint32_t kSamplesOfSquare = 5;
 
-/// Returns the number of squares that are divided together. It grows with the number of packets in a bundle,
-/// which is `edge` * `edge`.
+/// Returns the number of squares that are divided together, which grows with the number of packets in a
+/// bundle, `edge` * `edge`.
 constexpr uint32_t squares_at_once(uint32_t edge) {
   return edge * edge * kSimdLanes / kSamplesOfSquare;
 }

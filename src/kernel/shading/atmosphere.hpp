@@ -177,7 +177,7 @@ template <class S> typename S::M are_none(const WordLanes& objects, uint32_t fir
   return object == I::splat(static_cast<int32_t>(kNoOffset));
 }
 
-/// Returns the distance of rays to their hits. As in POV-Ray, it is 1e10 if a ray hits nothing.
+/// Returns the distance of rays to their hits. As in POV-Ray, the distance is 1e10 if a ray hits nothing.
 template <class S> typename S::F length_of(const HitPacket& hits, uint32_t first) {
   return S::select(are_none<S>(hits.object, first), typename S::F(1e10f),
                    S::F::load(hits.distance.lane + first));

@@ -141,7 +141,7 @@ template <class S> struct HitObjects {
   uint32_t open = 0, two_sided = 0, inverse = 0; ///< lanes with the object_flag of the same name
 };
 
-/// Puts the objects that rays hit in their lanes, one by one. Lanes without a hit get the first object.
+/// Puts the objects that rays hit in their lanes, object by object. Lanes without a hit get the first object.
 template <class Spu>
 [[gnu::always_inline]] inline void gather_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                                   uint32_t lanes, HitObjects<typename Spu::simd>& o,

@@ -1,6 +1,6 @@
 // The ray tree of a packet of primary rays: the node that is being traced, the stack of waiting nodes, the
-// accumulated light, and the secondary rays of surfaces. It is cut by level and by contribution (adaptive
-// depth control, Hall and Greenberg 1983). Kernel dialect.
+// accumulated light, and the secondary rays of surfaces. The tree is cut by level and by contribution
+// (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"

@@ -1,4 +1,5 @@
-// The bumps pattern: smooth noise. As a normal it disturbs each coordinate separately. Kernel dialect.
+// The bumps pattern: smooth noise. As a normal the pattern disturbs each coordinate separately. Kernel
+// dialect.
 #pragma once
 
 #include "kernel/textures/bozo.hpp"

@@ -16,8 +16,8 @@ public:
   GradientNoise(SceneAccess<Spu>& scene, uint32_t table) : scene_(scene), table_(table) {}
 
   CELLTRACE_ONE_COPY F value(const V3<S>& p) const {
-    constexpr float kShift = 0.023157213f; // POV-Ray shifts points by 10,000,000.023:
-    constexpr uint32_t kCells = 10000000;  // this is the shift of the cells
+    constexpr float kShift = 0.023157213f; // fraction of POV-Ray's shift of points by 10,000,000.023
+    constexpr uint32_t kCells = 10000000;  // whole part of that shift, added to numbers of cells
     F sum(0.0f);
     const V3<S> shifted = {p.x + F(kShift), p.y + F(kShift), p.z + F(kShift)};
     for_each_cell_of<S>(shifted, [&](uint32_t lanes, const uint32_t(&cell)[3], const V3<S>& from) {

@@ -5,7 +5,7 @@
 
 namespace celltrace::kernel {
 
-/// Returns the largest difference that rounding may make to a coordinate in double precision.
+/// Returns the largest distance of a rounded coordinate from its value in double precision.
 template <class S> typename S::F lattice_epsilon(const typename S::F& x) {
   using F = typename S::F;
   constexpr float kEpsilon = 1e-5f; // many times the rounding of coordinates about 1

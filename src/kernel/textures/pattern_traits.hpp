@@ -44,7 +44,8 @@ struct RarePattern : BlendPattern {
 };
 
 /// A pattern with a colour and its transparency at every point, in place of a number and a map: colour(scene,
-/// points, record). It is a pigment, an entry of a pigment's map, or the pattern of a pigment_pattern.
+/// points, record). The pattern is a pigment, an entry of a pigment's map, or the pattern of a
+/// pigment_pattern.
 struct ColourPattern : RarePattern {
   static constexpr bool kIsColour = true;
 };
