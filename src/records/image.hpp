@@ -22,9 +22,8 @@ struct alignas(128) ImageHeader {
   uint32_t blend_offset, blend_count;
   float bounds_min[3];
   float bounds_max[3];
-  uint32_t group_offset,
-      group_count;        ///< GroupRecords of all objects; count 0: the scene has too few objects for groups
-  uint32_t longest_group; ///< objects
+  uint32_t group_offset, group_count; ///< GroupRecords of all objects; count 0: there are too few for groups
+  uint32_t longest_group;             ///< objects
   /// One word per group: the index of its prototype, its own index if it has copies, or kNoGroup. The count
   /// is 0 if no group is a copy.
   uint32_t prototype_offset, prototype_count;

@@ -163,8 +163,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     const F hole = S::max(one - ratio - rounding, zero), hole_square = hole * hole;
     const auto in_hole = (from_axis(slab.enter) < hole_square) & (from_axis(slab.leave) < hole_square);
     const auto near_enough = in_ball & comes_near & (slab.leave >= zero) & !in_hole;
-    if constexpr (S::kLanes != kSimdLanes)
-      return near_enough; // without a further test, for which there is no room for code
+    if constexpr (S::kLanes != kSimdLanes) return near_enough; // there is no room for more code
     const FloatLanes* const limit = rays.asked->limit;
     const auto in_time = limit != nullptr ? near_enough & (slab.enter <= F::load(limit->lane)) : near_enough;
     if (in_time.bits() == 0) return in_time;

@@ -22,8 +22,7 @@ namespace block {
 /// The end colours, of 5, 6 and 5 bits, and the positions of the pixels between them.
 template <class S> struct Fit {
   uint32_t ends[2];
-  typename S::F
-      thirds; ///< position of each pixel in thirds of the way from the first end to the second one, 0 to 3
+  typename S::F thirds; ///< by pixel: thirds of the way from the first end to the second one, 0 to 3
   uint32_t error;
 };
 

@@ -352,8 +352,7 @@ private:
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
   SampleBundle<Spu>* samples_;
-  RayNode&
-      scratch_; ///< node of the tracer while surfaces are shaded, otherwise of shadow rays that are walked
+  RayNode& scratch_; ///< node of the tracer while surfaces are shaded, else of walked shadow rays
   RayTracer<Spu> tracer_;
   Store& store_;
   ShadowTracer<Spu, kAccelerators> shadows_;

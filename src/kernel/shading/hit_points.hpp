@@ -19,8 +19,7 @@ template <class S> struct HitPoints {
   uint32_t spawning = 0;  ///< lanes from which secondary rays may go on (material_word::spawns)
   uint32_t textured = 0;  ///< lanes with materials that are more than the constants of their records
   uint32_t disturbed = 0; ///< lanes with materials that disturb normals; also in `textured`
-  uint32_t lit_behind = 0,
-           lit_through = 0; ///< lanes with material_word::lit_behind, and with object_flag::lit_through
+  uint32_t lit_behind = 0, lit_through = 0; ///< material_word::lit_behind, object_flag::lit_through
 
   uint32_t plain(uint32_t lanes) const { return lanes & ~(blended | textured); }
   /// Returns true if each of `lanes` has one material, and no secondary rays go on from there.
