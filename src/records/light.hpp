@@ -48,7 +48,7 @@ struct alignas(128) LightRecord {
   /// `selective`: offset of words with a bit for each set of lights, which is set if the set contains this
   /// light.
   uint32_t lit_sets;
-  uint32_t projector, projector_count; ///< `projected`: first ObjectRecord of the projector, and their number
+  uint32_t projector, projector_count; ///< `projected`: offset of the projector's first ObjectRecord; number
   /// Factor from |d|^fade_power to d^fade_power for a negative distance d in units of the fade distance: 1 or
   /// -1, or large enough to leave no light if the power is no real number. As in POV-Ray, distances behind a
   /// parallel light are negative.

@@ -52,8 +52,8 @@ template <class S> struct KeptCrossings : VectorLanes {
   }
   bool empty() const { return count_ == 0; }
   /// Multiplies the light by the transmittance of the surfaces that count: as POV-Ray starts a ray again at
-  /// each surface, it does not see the next one within kShadowEpsilon. Of two surfaces at one distance, the
-  /// one found first counts.
+  /// each surface, it does not see the next one within kShadowEpsilon. If two surfaces are at one distance,
+  /// the one found first counts.
   void finish() {
     V3<S> light = this->template load<S>();
     for (uint32_t i = 0; i < count_; ++i) {

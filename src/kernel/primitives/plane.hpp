@@ -6,7 +6,7 @@
 
 namespace celltrace::kernel {
 
-/// Intersects a plane. Of the map only the third row is read: the unit normal, and minus the distance.
+/// Intersects a plane, reading only the third row of the map: the unit normal, and minus the distance.
 template <class S>
 CELLTRACE_ONE_COPY void intersect_plane(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
                                         Crossings<S>& c) {

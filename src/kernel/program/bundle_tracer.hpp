@@ -34,7 +34,7 @@ template <class S, class PrimaryRays> struct BundleMember : LitPoints, PrimaryRa
   uint32_t lanes, hit; ///< `lanes`: pixels that have a ray; `hit`: lanes whose ray hits something
 };
 
-// A strategy's Trees decide whether rays stay in the packets of their trees. They have
+// A strategy's Trees decide whether rays stay in the packets of their trees. Trees have
 //
 //   PrimaryRays                       type whose `of(member)` returns the primary rays of a member
 //   search(column, row, put, fill)    finds the hits of primary rays; false: none, and all pixels are put
