@@ -10,7 +10,7 @@ struct Aabb {
   float max[3];
 };
 
-/// The smallest box around both.
+/// Returns the smallest box around both boxes.
 inline Aabb united(const Aabb& a, const Aabb& b) {
   Aabb both;
   for (int i = 0; i < 3; ++i) {
@@ -19,7 +19,7 @@ inline Aabb united(const Aabb& a, const Aabb& b) {
   }
   return both;
 }
-/// What lies in both: a box whose minimum is beyond its maximum if nothing does.
+/// Returns the common part of both boxes; if there is none, its minimum is beyond its maximum.
 inline Aabb intersected(const Aabb& a, const Aabb& b) {
   Aabb both;
   for (int i = 0; i < 3; ++i) {

@@ -6,8 +6,8 @@
 
 namespace celltrace::kernel {
 
-/// The angle of the point (x, y) to the x axis, toward the y axis, in turns of -0.5 to 0.5; absolute error
-/// below 1e-7 (Abramowitz and Stegun 4.4.49). Of the origin 0.
+/// Returns the angle of the point (x, y) from the x axis toward the y axis, in turns of -0.5 to 0.5; absolute
+/// error below 1e-7 (Abramowitz and Stegun 4.4.49). The origin has angle 0.
 template <class S>
 [[gnu::always_inline]] inline typename S::F turns_inline(const typename S::F& y, const typename S::F& x) {
   using F = typename S::F;
@@ -29,7 +29,7 @@ template <class S>
   const F half = S::select(x < zero, F(0.5f) - quadrant, quadrant);
   return S::select(y < zero, -half, half);
 }
-/// The same in one copy, which is always there: patterns of two modules ask for it.
+/// Returns turns_inline() from one resident copy, as patterns of two modules call it.
 template <class S> CELLTRACE_ONE_COPY typename S::F turns_of(const typename S::F& y, const typename S::F& x) {
   return turns_inline<S>(y, x);
 }

@@ -17,8 +17,8 @@ template <class S> struct V3 {
   friend V3 operator*(const V3& a, const typename S::F& s) { return {a.x * s, a.y * s, a.z * s}; }
 };
 
-/// Numbers that are in registers go to lanes without a detour through memory, where a processor would wait
-/// for the last of them.
+/// Returns four numbers as lanes. Numbers in registers do not go through memory one by one, where a processor
+/// would wait for the last store.
 template <class S> typename S::F4 four(float a, float b, float c, float d) {
   typedef float Four __attribute__((vector_size(16)));
   const Four numbers = {a, b, c, d};
@@ -30,14 +30,14 @@ template <class S> typename S::F4 four(float a, float b, float c, float d) {
 template <class S> V3<S> splat3(const float* v) {
   return {typename S::F(v[0]), typename S::F(v[1]), typename S::F(v[2])};
 }
-/// An affine map, three rows of four (xyz | offset).
+/// Maps a point by an affine map of three rows of four (xyz | offset).
 template <class S> V3<S> map_point(const float (&m)[12], const V3<S>& p) {
   using F = typename S::F;
   return {F(m[0]) * p.x + F(m[1]) * p.y + F(m[2]) * p.z + F(m[3]),
           F(m[4]) * p.x + F(m[5]) * p.y + F(m[6]) * p.z + F(m[7]),
           F(m[8]) * p.x + F(m[9]) * p.y + F(m[10]) * p.z + F(m[11])};
 }
-/// `inline`, as GCC otherwise calls it where vectors take two registers.
+/// Returns the dot product. `inline`, as GCC otherwise calls the function where vectors take two registers.
 template <class S> inline typename S::F dot(const V3<S>& a, const V3<S>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -50,31 +50,30 @@ template <class S> V3<S> select(const typename S::M& m, const V3<S>& a, const V3
 template <class S> typename S::F absolute_sum(const V3<S>& v) {
   return S::abs(v.x) + S::abs(v.y) + S::abs(v.z);
 }
-/// A vector of length 0 stays 0.
+/// Returns v with length 1; a vector of length 0 stays 0.
 template <class S> V3<S> normalise(const V3<S>& v) {
   const typename S::F length = S::sqrt(dot<S>(v, v));
   return v * (typename S::F(1.0f) / S::max(length, typename S::F(1e-30f)));
 }
-/// The greatest of the three components.
+/// Returns the greatest of the three components.
 template <class S> typename S::F max_component(const V3<S>& v) {
   return S::max(v.x, S::max(v.y, v.z));
 }
-/// Luminance with POV-Ray's weights.
+/// Returns the luminance with POV-Ray's weights.
 template <class S> typename S::F grey(const V3<S>& v) {
   return v.x * typename S::F(0.297f) + v.y * typename S::F(0.589f) + v.z * typename S::F(0.114f);
 }
 
-/// x without the greatest whole number below, which goes to `whole`. May be 1 where a negative x is close to
-/// 0.
+/// Returns x - floor(x) and stores floor(x) in `whole`. The result may be 1 if a negative x is close to 0.
 template <class S> typename S::F fraction(const typename S::F& x, typename S::I& whole) {
   const typename S::F below = S::floor(x);
   whole = S::to_int(below);
   return x - below;
 }
 
-/// Binary logarithm of x > 0 (normal numbers); absolute error below 2e-7 near 1, relative elsewhere.
-/// log(m) = 2 artanh((m-1)/(m+1)) with m in [sqrt(1/2), sqrt(2)], so that nothing cancels near 1. The series
-/// is interpolated at Chebyshev's points, to within 1e-9.
+/// Returns the binary logarithm of x > 0 (normal numbers); absolute error below 2e-7 near 1, relative
+/// elsewhere. log(m) = 2 artanh((m-1)/(m+1)) with m in [sqrt(1/2), sqrt(2)], so that nothing cancels near 1.
+/// The series is interpolated at Chebyshev's points, to within 1e-9.
 template <class S> typename S::F log2(const typename S::F& x) {
   using F = typename S::F;
   using I = typename S::I;
@@ -91,8 +90,9 @@ template <class S> typename S::F log2(const typename S::F& x) {
   return S::to_float(exponent) + f * series;
 }
 
-/// 2 to the power x; x is clamped to [-126, 126]; relative error below 3e-7. Between half powers by a
-/// polynomial that is interpolated at Chebyshev's points, to within 1e-8; in pairs, for the shorter chain.
+/// Returns 2 to the power x, clamped to [-126, 126]; relative error below 3e-7. Fractions, from -1/2 to 1/2,
+/// go through a polynomial that is interpolated at Chebyshev's points, to within 1e-8; its terms are added in
+/// pairs for a shorter chain.
 template <class S> typename S::F exp2(const typename S::F& x) {
   using F = typename S::F;
   using I = typename S::I;
@@ -104,19 +104,19 @@ template <class S> typename S::F exp2(const typename S::F& x) {
   return power * S::float_of(S::template shift_left<23>(whole + I::splat(127)));
 }
 
-/// x to the power y for x >= 0; 0 to any power is 0.
+/// Returns x to the power y for x >= 0; 0 to any power is 0.
 template <class S> typename S::F pow(const typename S::F& x, const typename S::F& y) {
   using F = typename S::F;
   const F positive = S::max(x, F(1e-37f));
   return S::select(x > F(1e-37f), exp2<S>(y * log2<S>(positive)), F(0.0f));
 }
 
-/// The nearest power toward 0 that whole_pow() knows: a whole number from 0 to 7.
+/// Returns y clamped and truncated to an exponent of whole_pow(): a whole number from 0 to 7.
 template <class S> typename S::I whole_power(const typename S::F& y) {
   using F = typename S::F;
   return S::to_int(S::min(S::max(y, F(0.0f)), F(7.0f)));
 }
-/// x to such a power, by products.
+/// Returns x to a power from 0 to 7, by multiplication.
 template <class S> typename S::F whole_pow(const typename S::F& x, const typename S::I& power) {
   using F = typename S::F;
   using I = typename S::I;
@@ -126,8 +126,8 @@ template <class S> typename S::F whole_pow(const typename S::F& x, const typenam
          S::select(without(4), one, second * second);
 }
 
-/// x to the power y for x >= 0, with fewer operations than pow(): relative error below 1e-5 for |y| <= 1, and
-/// y times that for larger powers, up to 1e38. What is below 1e-37 counts as that. The polynomials are
+/// Returns x to the power y for x >= 0, up to 1e38, with fewer operations than pow(): relative error below
+/// 1e-5 for |y| <= 1, and y times that for larger powers. x below 1e-37 counts as 1e-37. The polynomials are
 /// interpolated at Chebyshev's points.
 template <class S>
 [[gnu::always_inline]] inline typename S::F coarse_pow(const typename S::F& x, const typename S::F& y) {
@@ -140,7 +140,7 @@ template <class S>
       m2 * m2 * ((F(-1.229291006f) + m * F(0.265024293f)) + m2 * F(-0.024568535f));
   const F of_exponent = S::to_float(S::template shift_right<23>(bits) - I::splat(127));
   const F power = S::min(S::max((of_exponent + of_mantissa) * y + F(127.0f), F(0.0f)), F(254.0f));
-  const I exponent = S::to_int(power); // with its bias: truncated downward
+  const I exponent = S::to_int(power); // biased exponent, truncated downward
   const F r = power - S::to_float(exponent), r2 = r * r;
   const F mantissa =
       (F(0.999999898f) + r * F(0.693154490f)) +
@@ -148,11 +148,11 @@ template <class S>
   return mantissa * S::float_of(S::template shift_left<23>(exponent));
 }
 
-/// The sine of an angle in turns, in [0, 1]; absolute error below 3e-7.
+/// Returns the sine of an angle in turns, in [0, 1]; absolute error below 3e-7.
 template <class S> typename S::F sine_of_turns(const typename S::F& turns) {
   using F = typename S::F;
-  // About the middle, where the sine falls; beyond a quarter of a turn from there it is the same on the way
-  // back.
+  // The series is about the middle, where the sine falls. Angles beyond a quarter of a turn from there are
+  // mirrored at the quarter, where the sine is symmetric.
   const F from_middle = turns - F(0.5f);
   const F fold = S::select(from_middle < F(0.0f), F(-0.5f), F(0.5f)) - from_middle;
   const F x = F(6.28318531f) * S::select(S::abs(from_middle) > F(0.25f), fold, from_middle);
@@ -166,7 +166,7 @@ template <class S> typename S::F sine_of_turns(const typename S::F& turns) {
   return -(x * series);
 }
 
-/// Arc cosine of x in [0, 1]; absolute error below 3e-7 (Abramowitz and Stegun 4.4.46).
+/// Returns the arc cosine of x in [0, 1]; absolute error below 3e-7 (Abramowitz and Stegun 4.4.46).
 template <class S> typename S::F acos_unit(const typename S::F& x) {
   using F = typename S::F;
   const F p = F(1.5707963050f) +
@@ -178,8 +178,8 @@ template <class S> typename S::F acos_unit(const typename S::F& x) {
   return S::sqrt(S::max(F(1.0f) - x, F(0.0f))) * p;
 }
 
-/// Sine and cosine of x; absolute error below 2e-7 for |x| <= 100, and for larger x that of a rounding of x.
-/// Beyond 8192 x counts as that. Not inlined: local store has room for one copy.
+/// Computes the sine and cosine of x; the absolute error is below 2e-7 for |x| <= 100, and for larger x that
+/// of a rounding of x. x is clamped to [-8192, 8192]. Not inlined: local store has room for one copy.
 template <class S>
 CELLTRACE_ONE_COPY void sin_cos(const typename S::F& x, typename S::F& sine, typename S::F& cosine) {
   using F = typename S::F;

@@ -1,22 +1,25 @@
-// The tracer's code modules, of three regions. In each lies what never runs together. Kernel dialect.
+// The tracer's code modules, in three regions of local store. Modules of one region replace each other: they
+// never run together. Kernel dialect.
 //
-// Below each module stand its functions, of which cmake/celltrace_modules.cmake makes the SPU's linker
-// script. A class stands for all of its functions, a namespace for all in it; `Name<>` is a template with any
-// arguments, `Name<Type>`, `Name<3u>` and `Name<Enumeration(2)>` have these among them; `*Name` ends in Name;
-// `data:` begins with whose constants go along. Of two modules that name a function the first has it, so that
-// what names a part of another module stands before it. A module calls resident code, itself, and modules of
-// the other regions if these call none of its own. The tests of the programs' budgets check that each number
-// is one module's, that none takes more than its `bytes`, and that none calls another of its region.
+// The comment below each module lists its functions. cmake/celltrace_modules.cmake makes the SPU's linker
+// script from these lists. A class stands for all of its functions, a namespace for all of its contents;
+// `Name<>` is a template with any arguments, `Name<Type>`, `Name<3u>` and `Name<Enumeration(2)>` have these
+// among their arguments; `*Name` ends in Name; `data:` begins the list of functions and classes whose
+// constants belong to the module. If two modules name a function, it belongs to the first, so that a part of
+// another module's functions is named before these. A module calls resident code, itself, and modules of the
+// other regions if these do not call its region. The tests of the programs' budgets check that each number
+// belongs to one module, that no module takes more than its `bytes`, and that none calls another one of its
+// region.
 #pragma once
 
 #include "celltrace/spe/code_module.hpp"
 
 namespace celltrace::kernel::modules {
 
-// The first region: what asks no other module.
+// The first region: modules that call no other module.
 
-/// Intersections with the shapes that are no spheres, triangles and planes, and what is inside of shapes,
-/// which CSG asks; but for heavy ones.
+/// Intersections with shapes other than spheres, triangles, planes and heavy shapes, and the tests of points
+/// against solids for CSG.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 //   module_shapes, inside_local, drop_start, *SlabInterval, LocalPrimitive<BoxPrimitive>,
 //   LocalPrimitive<ConePrimitive>, LocalPrimitive<CylinderPrimitive>, LocalPrimitive<DiscPrimitive>,
@@ -24,37 +27,37 @@ constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 //   ConePrimitive::intersect_local, CylinderPrimitive::intersect_local, DiscPrimitive::intersect_local,
 //   EllipsoidPrimitive::intersect_local, PolygonPrimitive::intersect_local
 
-/// Patterns that few scenes have, many of which read tables of the scene image.
+/// Rare patterns, many of which read tables of the scene image.
 constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14464};
 //   module_rare, CracklePattern, ObjectPattern, *GradientNoise; data: *GradientNoise, CracklePattern.cst16,
 //   module_rare
 
-/// Warps but for turbulence.
+/// All warps but turbulence.
 constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 //   module_warps
 
-/// Surface coordinates and normals, where patterns ask for them.
+/// Surface coordinates and normals for patterns that need them.
 constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3968};
 //   find_surface_lanes, surface_coordinates_of; data: find_surface_lanes, surface_coordinates_of
 
-/// Patterns without noise, and those of noise with its tables.
+/// Patterns without noise, and patterns of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 //   module_patterns, value_of<PatternCode(1)>, *Pattern::value
 
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 //   module_noise, value_of<PatternCode(2)>, kernel::noise; data: kernel::noise
 
-/// The light that interiors absorb, the alpha behind them, and reflections with an exponent.
+/// The light that interiors absorb, the alpha behind interiors, and reflections with an exponent.
 constexpr CodeModule kFading = {"fading", 20, 0, 3968};
 //   RayTree<>::gather, RayTree<>::redirect, RayTree<>::fade_child, kernel::fade<>, kernel::is_inside
 
-/// The begin and the end of a frame: a program makes its objects, and reports.
+/// The beginning and the end of a frame: construction of the program's objects, and reports.
 constexpr CodeModule kStart = {"start", 3, 0, 12800};
 //   Tracer<>::Tracer, Tracer<>::start_phase, Tracer<>::begin_frame, Tracer<>::end_frame,
 //   Tracer<>::synchronize
 
-/// What becomes of the points of antialiased pictures, and which samples they need besides: by the fixed
-/// method, by the adaptive one, and either with alpha.
+/// Antialiasing: processing of the grid's points, and selection of further samples. One module each for the
+/// fixed and the adaptive method, without and with alpha.
 constexpr CodeModule kSampling = {"sampling", 18, 0, 13056};
 //   PixelSampler<SamplingMethod(1), 3u>, FixedSampler<3u>
 
@@ -67,52 +70,52 @@ constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 13056};
 constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 10624};
 //   PixelSampler<SamplingMethod(2), 4u>, AdaptiveSampler<4u>
 
-/// What primary rays hit, for main memory.
+/// First hits of primary rays, written to main memory.
 constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 1408};
 //   BundleTracer<>::put_first_hits
 
-/// The building of accelerators.
+/// Building of accelerators.
 constexpr CodeModule kBuild = {"build", 16, 0, 21504};
 //   Tracer<>::prepare, *build_grid, *emit_pairs, *write_lists, *RadixSort, *LocalSortTarget,
 //   *for_each_voxel, kernel::bounding_box, *bounds_in_world, kernel::overlaps, *_overlaps, *StreamReader,
 //   *StreamWriter
 
-// The second region: what shades, and asks patterns.
+// The second region: shading and evaluation of textures.
 
-/// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
+/// Intersections with heavy shapes. In the second region, as rays test heavy and other shapes in turn.
 constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8960};
 //   module_heavy, LocalPrimitive<TorusPrimitive>, TorusPrimitive::intersect_local, TorusPrimitive::Quartic,
 //   LocalPrimitive<QuadricPrimitive>, QuadricPrimitive::intersect_local,
 //   LocalPrimitive<SuperellipsoidPrimitive>, SuperellipsoidPrimitive::intersect_local,
 //   SuperellipsoidPrimitive::Line
 
-/// What is inside of shapes whose equations have powers, and the normals of these.
+/// Tests of points against shapes with equations of higher degree, and the normals of these shapes.
 constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
 //   module_heavy_points
 
-/// What is inside of meshes, and which crossings CSG sees of those without an inside. Likewise: where CSG has
-/// meshes, it asks both by turns.
+/// Tests of points against meshes, and the crossings of meshes without an inside vector in CSG. In the second
+/// region, as CSG with meshes calls this module and the one of shapes in turn.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 4864};
 //   module_meshes
 
-/// Where crossings are in polygons. Likewise, beside the shapes.
+/// Crossings with polygons. In the second region, as they are called in turn with other shapes.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 //   module_polygons
 
-/// Instances of meshes. Likewise.
+/// Instances of meshes. In the second region, as they are called in turn with other shapes.
 constexpr CodeModule kInstances = {"instances", 35, 1, 7808};
 //   module_instances
 
-/// Light that is not simply a point's.
+/// Lights other than simple point lights.
 constexpr CodeModule kLights = {"lights", 6, 1, 4864};
 //   module_lights, SpotLight::way_off, CylinderLight::way_off, kernel::beam_share, kernel::fade_share,
 //   kernel::make_parallel, kernel::aim_parallel
 
-/// The sampling of lights that have an area.
+/// Sampling of area lights.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9472};
 //   module_areas, kernel::AreaShadow; data: kJitterX, kJitterY
 
-/// The rays of cameras whose pictures are not flat, or which are far away.
+/// Rays of distant cameras and of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 7808};
 //   module_cameras, *Camera::bend, *Camera::turned, *RoundPicture, kernel::along_axes, kernel::sin_cos
 
@@ -120,48 +123,48 @@ constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
 //   disturb_normals, disturb_normal, detail::disturb_by, height_of, disturb_part, *slope_disturbance,
 //   TextureStage(1)
 
-/// The maps of textures: which of them count where.
+/// Maps of textures: selection of the entries that count at each point.
 constexpr CodeModule kMaps = {"maps", 27, 1, 7232};
 //   TextureStage(2)
 
-/// Pigments and normals, but for the patterns themselves.
+/// Pigments and normals, without the patterns themselves.
 constexpr CodeModule kTextures = {"textures", 9, 1, 7168};
 //   TextureStage(0), pigment_at, blend_colours, add_up_leaves, add_pigments, filter_of_texture,
 //   filter_of_layers
 
-/// What few finishes do with light, light from behind, and the materials of surfaces that look different from
+/// Rare features of finishes, light from behind, and the materials of surfaces that look different from
 /// inside.
 constexpr CodeModule kFinishes = {"finishes", 19, 1, 5312};
 //   *change_special, light_of_both_sides, film_factors, random_at, cosine_of_turns, take_inside_materials
 
-/// Rays that go on from surfaces.
+/// Secondary rays.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 8832};
 //   RayTree<>::spawn, RayTree<>::transmit, RayTree<>::reflect, RayTree<>::prepare_child, *cross_surfaces,
 //   *solid_crossing, kernel::refract, kernel::mirror, find_secondary_rays, secondary_rays_of,
 //   kernel::reflectivity, *fresnel
 
-// The third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
+// The third region: stages that run one at a time. Rays are not traced while surfaces are shaded.
 
-/// Where hits lie on objects, and the normals there.
+/// Positions of hits on objects, and the normals there.
 constexpr CodeModule kHits = {"hits", 5, 2, 7808};
 //   kernel::find_hit_points, detail::surface_of, kernel::local_normal
 
-/// Tests of objects that have a shape of the first region, or are parts of a CSG.
+/// Tests of objects with a shape of the first region, and of parts of CSG.
 constexpr CodeModule kObjects = {"objects", 12, 2, 7424};
 //   test_closest_of_other, occluded_by_other, occluded_by_instance, test_instance, ObjectTests<>::accept,
 //   ObjectTests<>::accepted, csg_accepted
 
-/// Shading of surfaces with textures, or of several materials.
+/// Shading of surfaces with textures or with several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7168};
 //   SurfaceShading<>::shade_composed, SurfaceShading<>::shade_share, SurfaceShading<>::shade_whole,
 //   SurfaceShading<>::shade_layers
 
-/// What rays pass through on their way or see before what they hit or behind it.
+/// Atmosphere: fogs and rainbows that rays pass through or see before or behind what they hit.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7168};
 //   light_along, SeenLight<>, ArrivingLight<>, through_fog, lanes_in_the_open, ground_density, arc_share,
 //   cross_rainbows, see_rainbow, detail::dim_clear, bow_colour
 
-/// What rays see that hit nothing, where there is a sky.
+/// The sky that is seen by rays without a hit.
 constexpr CodeModule kSky = {"sky", 34, 2, 2048};
 //   kernel::add_sky, add_sky_layers, see_through
 
@@ -169,7 +172,7 @@ constexpr CodeModule kSky = {"sky", 34, 2, 2048};
 constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5632};
 //   begin_shadow_walk, hits_of_walk, step_shadow_walk, filter_light, add_caustics
 
-/// Pixels become blocks of BC1.
+/// Encoding of pixels as blocks of BC1.
 constexpr CodeModule kEncoding = {"encoding", 32, 2, 6976};
 //   PixelWriter<>::send_blocks, kernel::encode_block, kernel::block, kernel::extend_pixels
 

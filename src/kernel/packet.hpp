@@ -12,7 +12,7 @@
 
 namespace celltrace::kernel {
 
-/// One value for each lane, in local store.
+/// One value in each lane, in local store.
 struct alignas(64) FloatLanes {
   float lane[kSimdLanes];
 };
@@ -20,7 +20,7 @@ struct alignas(64) WordLanes {
   uint32_t lane[kSimdLanes];
 };
 
-/// One vector for each lane.
+/// One vector in each lane.
 struct VectorLanes {
   FloatLanes x, y, z;
 
@@ -30,7 +30,7 @@ struct VectorLanes {
     using F = typename S::F;
     return {F::load(x.lane), F::load(y.lane), F::load(z.lane)};
   }
-  /// As many lanes as S has, from `first` on.
+  /// Loads as many lanes as S has, beginning at lane `first`.
   template <class S> V3<S> load_from(uint32_t first) const {
     using F = typename S::F;
     return {F::load(x.lane + first), F::load(y.lane + first), F::load(z.lane + first)};
@@ -40,7 +40,7 @@ struct VectorLanes {
     v.y.store(y.lane + first);
     v.z.store(z.lane + first);
   }
-  /// The vector of lane `i`, in all lanes.
+  /// Returns the vector of lane `i` in all lanes.
   template <class S> V3<S> of(uint32_t i) const {
     using F = typename S::F;
     return {F(x.lane[i]), F(y.lane[i]), F(z.lane[i])};
@@ -64,7 +64,7 @@ template <class Lanes>
   copy_lane(from.z, lane, to.z, to_lane);
 }
 
-/// Sets some lanes of a vector to the same three values. If these are `all` lanes that matter, `into` need
+/// Sets some lanes of a vector to the same three values. If `lanes` are `all` lanes that matter, `into` need
 /// not be initialised.
 template <class Spu>
 [[gnu::always_inline]] inline void put_in_lanes(bool all, const typename Spu::simd::M& lanes,
@@ -87,7 +87,7 @@ struct RayPacket {
   copy_lane(from.start_object, lane, to.start_object, to_lane);
 }
 
-/// The closest hit of each ray: its distance, the object's offset (kNoOffset: none), and its barycentric
+/// The closest hit of each ray: its distance, the object's offset (kNoOffset: no hit), and its barycentric
 /// coordinates in a triangle.
 struct HitPacket {
   WordLanes object;
@@ -102,14 +102,14 @@ struct HitPacket {
   copy_lane(from.v, lane, to.v, to_lane);
 }
 
-/// Copies what there is of all lanes.
+/// Copies all lanes of a packet's members.
 template <class Spu, class Packet>
 [[gnu::always_inline]] inline void copy_packet(const Packet& from, Packet& to) {
   Strategy<Spu>::copy_packet(from, to);
 }
 
-/// A ray query of one packet. If `hits` is given: find the closest hits of the rays. Otherwise, for shadow
-/// rays: multiply `light` by the transmittance up to `distance`.
+/// A ray query of one packet. With `hits`, the closest hits of the rays are searched. Without, the rays are
+/// shadow rays, and `light` is multiplied by the transmittance up to `distance`.
 struct RayQuery {
   const RayPacket* rays;
   HitPacket* hits;
@@ -122,12 +122,12 @@ struct RayQuery {
 struct Interval {
   float low, high;
 };
-/// The smallest interval that contains both.
+/// Returns the smallest interval that contains both.
 inline Interval united(const Interval& a, const Interval& b) {
   return {smaller(a.low, b.low), larger(a.high, b.high)};
 }
 
-/// The interval of the values in all lanes.
+/// Returns the smallest interval that contains the values of all lanes.
 template <class S> Interval interval_of(const typename S::F& values) {
   Interval all;
   S::extremes(values, all.low, all.high);

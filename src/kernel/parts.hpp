@@ -1,5 +1,5 @@
-// Rare code works on a packet's lanes part by part: as many at a time as Spu::rare_simd has, all of them
-// where code takes no local store. Kernel dialect.
+// Processing of a packet's lanes in parts. Rare code processes as many lanes at a time as Spu::rare_simd has;
+// where code takes no local store, these are all lanes. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -7,10 +7,10 @@
 
 namespace celltrace::kernel {
 
-/// A packet's lanes are one part.
+/// True if one part has all of a packet's lanes.
 template <class Spu> constexpr bool kOnePart = Spu::rare_simd::kLanes == kSimdLanes;
 
-/// All of what belongs to a packet where its lanes are one part, otherwise what `cut()` makes of it.
+/// Returns `whole`, which belongs to a packet, if one part has all lanes, otherwise the result of `cut()`.
 template <class Spu, class Whole, class Cut>
 [[gnu::always_inline]] inline decltype(auto) whole_or(const Whole& whole, [[maybe_unused]] const Cut& cut) {
   if constexpr (kOnePart<Spu>)
@@ -25,7 +25,7 @@ template <class Spu, class Visit> [[gnu::always_inline]] inline void for_each_pa
     visit(first);
 }
 
-/// Of the lanes in a bit mask, those of the part from `first` on.
+/// Returns the bits or values of the part that begins at lane `first`.
 template <class Spu> uint32_t part_of(uint32_t lanes, uint32_t first) {
   return lanes >> first & ((1u << Spu::rare_simd::kLanes) - 1);
 }
@@ -56,8 +56,8 @@ void set_part(V3<typename Spu::simd>& vectors, uint32_t first, const V3<typename
   set_part<Spu>(vectors.z, first, part.z);
 }
 
-/// Gives lanes other than `lanes`, which are some, the point of the first of them, where that saves time:
-/// where packets are one part, noise takes less for lanes in one cell.
+/// Moves idle lanes, those not in `lanes`, to the point of the first lane of `lanes`, where that saves time:
+/// if a packet is one part, noise is computed faster for lanes in one cell. `lanes` must not be empty.
 template <class Spu>
 void move_idle_lanes([[maybe_unused]] V3<typename Spu::rare_simd>& points, [[maybe_unused]] uint32_t lanes) {
   using S = typename Spu::rare_simd;
@@ -76,7 +76,7 @@ void move_idle_lanes([[maybe_unused]] V3<typename Spu::rare_simd>& points, [[may
   }
 }
 
-/// Sets `result` to what `compute` makes of each part of `values`: all are numbers or vectors.
+/// Sets `result` to the results of `compute` for each part of `values`, which are numbers or vectors.
 template <class Spu, class Result, class Compute, class... Values>
 [[gnu::always_inline]] inline void by_parts(Result& result, Compute compute, const Values&... values) {
   for_each_part<Spu>(

@@ -17,8 +17,8 @@ inline float absolute_sum(const float (&v)[3]) {
   return magnitude(v[0]) + magnitude(v[1]) + magnitude(v[2]);
 }
 
-/// Square root by Newton's iteration from above; setup code, where a library call would cost more than it
-/// saves.
+/// Returns the square root by Newton's iteration from above. For setup code, where a library call would cost
+/// more than it saves.
 inline float square_root(float x) {
   if (x <= 0.0f) return 0.0f;
   float guess = x > 1.0f ? x : 1.0f;

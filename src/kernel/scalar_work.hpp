@@ -1,9 +1,9 @@
-// Charges for SpuBase::compute(): what an SPU executes in the kernels besides the SIMD facade's arithmetic.
-// That is control flow, scalar loads with their rotations, and quadwords that functions pass through local
-// store. Kernel dialect.
+// Charges for SpuBase::compute(): the instructions that an SPU executes in the kernels besides the SIMD
+// facade's arithmetic, which are control flow, scalar loads with their rotations, and quadwords that
+// functions pass through local store. Kernel dialect.
 //
-// Fitted to what the machine code of the real SPE program (spu-elf-g++ 9.3, -O2) executes, by
-// tools/calibrate-charges.sh; see docs/calibration.md. The script writes the numbers.
+// The charges are fitted to the executed machine code of the real SPE program (spu-elf-g++ 9.3, -O2) by
+// tools/calibrate-charges.sh, which writes the numbers; see docs/calibration.md.
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
@@ -12,7 +12,7 @@ namespace celltrace::kernel {
 
 namespace scalar_work {
 
-// Each is {fixed, floating, memory, shuffle, branches, shift, waits, misses}.
+// Each constant is {fixed, floating, memory, shuffle, branches, shift, waits, misses}.
 
 // --- accel/traversal.hpp and what it includes ---
 /// Setting up the traversal of the grid with a packet.
@@ -27,7 +27,7 @@ constexpr ScalarWork kListedObject = {11, 0, 5, 14, 0, 0, 21, 6, "kListedObject"
 constexpr ScalarWork kFrustum = {424, 12, 275, 124, 67, 14, 692, 492, "kFrustum"};
 /// Expanding a node of the BVH: the children that a frustum hits, pushed in order of distance.
 constexpr ScalarWork kBvhNode = {0, 2, 3, 19, 6, 6, 58, 0, "kBvhNode"};
-/// A child of it that is tested against the frusta of packets or the rays of a packet.
+/// Testing a child of a node against the frusta of packets or the rays of a packet.
 constexpr ScalarWork kBvhChild = {97, 0, 62, 41, 15, 14, 0, 123, "kBvhChild"};
 /// Preparing the rays of a packet for slab tests, and one such test.
 constexpr ScalarWork kRaysOfPacket = {21, 0, 50, 11, 12, 8, 22, 13, "kRaysOfPacket"};
@@ -41,16 +41,16 @@ constexpr ScalarWork kTestEllipsoid = {281, 0, 659, 68, 33, 10, 280, 140, "kTest
 constexpr ScalarWork kTestTriangle = {94, 0, 399, 2, 11, 2, 0, 0, "kTestTriangle"};
 constexpr ScalarWork kTestPlane = {80, 0, 73, 9, 22, 7, 21, 146, "kTestPlane"};
 constexpr ScalarWork kTest[4] = {kTestSphere, kTestTriangle, kTestPlane, kTestEllipsoid};
-/// Merging its result into the closest hits.
+/// Merging the result of a test into the closest hits.
 constexpr ScalarWork kClosest = {47, 0, 15, 9, 19, 6, 35, 92, "kClosest"};
-/// Merging its result into the occlusion of shadow rays.
+/// Merging the result of a test into the occlusion of shadow rays.
 constexpr ScalarWork kShadow = {14, 0, 17, 10, 17, 6, 36, 85, "kShadow"};
 /// The attenuation of one shadow ray by a translucent surface.
 constexpr ScalarWork kFilter = {139, 0, 129, 47, 25, 2, 58, 242, "kFilter"};
 
 // --- textures ---
-/// A pattern's value with what comes of it: its place in a tree of maps, the colours or normals there. Not
-/// fitted but estimated from textures.pov and patterns.pov, as it stands for code of many kinds.
+/// Evaluating a pattern, including its place in a tree of maps and the colours or normals there. Not fitted
+/// but estimated from textures.pov and patterns.pov, as it stands for code of many kinds.
 constexpr ScalarWork kPattern = {1300, 0, 800, 100, 110, 40, 900, 550, "kPattern"};
 
 // --- shading/ray_tracer.hpp and what it calls ---

@@ -1,4 +1,5 @@
-// Every read of the scene by the tracer goes through here, and so through the software cache. Kernel dialect.
+// Access to the scene: the tracer reads all records through this class and so through the software cache.
+// Kernel dialect.
 #pragma once
 
 #include "celltrace/cache.hpp"
@@ -21,15 +22,16 @@
 
 namespace celltrace::kernel {
 
-/// A record that stays while others are read: itself where records are read in place, otherwise a copy.
+/// A record that stays valid while others are read: a reference where records are read in place, otherwise a
+/// copy.
 template <class Spu, class Record> using Kept = typename Strategy<Spu>::template Kept<Record>;
-/// The same of one record after the other, a copy of which has `room`.
+/// Keeps one record after another, in `room` where a copy is necessary.
 template <class Spu, class Record>
 [[gnu::always_inline]] inline const Record* keep(const Record* record, Record& room) {
   return Strategy<Spu>::keep(record, room);
 }
 
-/// The software cache that a frame asks for.
+/// Returns the configuration of the software cache for a frame.
 inline CacheConfig cache_config(const FrameBlock& frame) {
   if (frame.cache_enabled == 0) return CacheConfig::off();
   return CacheConfig::of(frame.cache_ways, frame.cache_sets,
@@ -41,7 +43,7 @@ template <class Spu> class SceneAccess {
 public:
   SceneAccess(Spu& spu, const CacheConfig& config, ea_t image) : cache_(spu, config, image) {}
 
-  /// The scene image where records are read in place, else null.
+  /// Returns the scene image where records are read in place, else null.
   const uint8_t* image() { return Strategy<Spu>::image(cache_); }
   const ObjectRecord* object(uint32_t offset) { return read<ObjectRecord>(offset, DataKind::object); }
   const ObjectRecord* object_apart(uint32_t offset) {
@@ -87,18 +89,18 @@ public:
   const MapEntryRecord* map_entry(uint32_t offset) {
     return read_apart<MapEntryRecord>(offset, DataKind::material);
   }
-  /// A record of one of the tables of patterns.
+  /// Returns a record of one of the patterns' tables.
   template <class Record> const Record* pattern_table(uint32_t offset) {
     return read_apart<Record>(offset, DataKind::material);
   }
   const NormalRecord* normal(uint32_t offset) { return read_apart<NormalRecord>(offset, DataKind::material); }
   const LightRecord* light(uint32_t offset) { return read_apart<LightRecord>(offset, DataKind::light); }
-  /// By value: a voxel's list is read while its record would have to stay.
+  /// Returns a voxel by value, as its list is read while its record would have to stay valid.
   CellRecord cell(const GridRecord& grid, uint32_t index) {
     return *read<CellRecord>(grid.cell_offset + index * static_cast<uint32_t>(sizeof(CellRecord)),
                              DataKind::list);
   }
-  /// How many objects each voxel of `lanes` lists.
+  /// Returns the number of objects that each voxel of `lanes` lists.
   typename Spu::simd::I listed_in(const GridRecord& grid, const typename Spu::simd::I& cells,
                                   uint32_t lanes) {
     using I = typename Spu::simd::I;
@@ -110,33 +112,33 @@ public:
   const NodeRecord* node(uint32_t offset) { return read<NodeRecord>(offset, DataKind::list); }
   uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }
 
-  /// Calls `visit(offset)` for each object of a list until it returns true. The next object is on its way
+  /// Calls `visit(offset)` for each object of a list until it returns true. The next object is fetched
   /// meanwhile.
   template <class Visit> void for_each_listed(uint32_t list, uint32_t count, const Visit& visit) {
     for_each_of({list, count, 0}, visit);
   }
-  /// The same of a leaf.
+  /// Calls `visit(offset)` for each object of a leaf in the same way.
   template <class Visit> void for_each_object(const NodeRef& leaf, const Visit& visit) {
     for_each_of({leaf.child, leaf_word::count(leaf.leaf), leaf_word::step_bytes(leaf.leaf)}, visit);
   }
 
-  /// As the cache's, of a ref of the BVH.
+  /// Prefetches a node or leaf of the BVH, as SoftwareCache::hint() does.
   void hint(const NodeRef& ref) {
     cache_.hint(ref.child);
     if (!ref.is_leaf())
-      cache_.hint(ref.child + sizeof(NodeRecord) / 2); // a node has two of a PC's lines
+      cache_.hint(ref.child + sizeof(NodeRecord) / 2); // a node has two of a PC's cache lines
     else if (leaf_word::count(ref.leaf) == 2)
       cache_.hint(ref.child + leaf_word::step_bytes(ref.leaf));
   }
 
-  /// The knowledge that patterns have of points before they are asked.
+  /// Returns the cache of what patterns found out about points before.
   typename Strategy<Spu>::template KnownPatterns<Spu>& known_patterns() { return known_patterns_; }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
 
-  /// Objects that follow each other by `step` bytes from `first` on, or if that is 0, whose offsets do, a
-  /// word each.
+  /// A sequence of objects. Their offsets follow each other by `step` bytes from `first` on; if `step` is 0,
+  /// `first` is the offset of a list of their offsets, one word each.
   struct Sequence {
     uint32_t first, count, step;
   };
@@ -155,13 +157,13 @@ private:
       if (visit(self) || i == objects.count) return;
     }
   }
-  /// The offset of one of them; of those after the first one, on its way.
+  /// Returns the offset of a member of a sequence and prefetches the member unless it is the first.
   uint32_t member(const Sequence& objects, uint32_t i) { return Strategy<Spu>::member(*this, objects, i); }
 
   template <class T> const T* read(uint32_t offset, DataKind kind) {
     return cache_.template get<T>(offset, kind);
   }
-  /// Reads records that the innermost loops do not want.
+  /// Reads a record that the innermost loops do not use.
   template <class T> const T* read_apart(uint32_t offset, DataKind kind) {
     return Strategy<Spu>::template read_apart<T>(cache_, offset, kind);
   }

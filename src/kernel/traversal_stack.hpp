@@ -12,13 +12,13 @@ struct NodeRef {
   bool is_leaf() const { return leaf != 0; }
 };
 
-/// Some leaves of a node of the BVH: bit i of `leaves` is for child i.
+/// Some leaves below a node of the BVH: bit i of `leaves` is child i.
 struct NodeLeaves {
-  uint32_t node, leaves; ///< the offset of the node first
+  uint32_t node, leaves; ///< `node` is an offset
 };
 
-/// Where each of four children goes that are pushed by distance: behind those that are farther, and of those
-/// at the same distance behind the first.
+/// Ranks four children by distance: a child's place is behind those of children that are farther, and of
+/// children at the same distance behind those of the earlier ones.
 [[gnu::always_inline]] inline void rank_descending(const float (&key)[4], uint32_t (&place)[4]) {
   for (uint32_t i = 0; i < 4; ++i)
     place[i] = i;
@@ -30,13 +30,14 @@ struct NodeLeaves {
     }
 }
 
-/// At most `kMaxSplitPackets` packets of a bundle traverse a node separately; each has an entry of its own.
-/// `kLevels`: of nodes. The builder keeps a BVH within 48.
+/// The stack of a traversal. At most `kMaxSplitPackets` packets of a bundle traverse a node separately, each
+/// with an entry of its own. `kLevels` is the largest number of levels of the BVH, which the builder limits
+/// to 48.
 template <uint32_t kMaxSplitPackets, uint32_t kLevels = 48> class TraversalStack {
 public:
   /// A node or leaf to traverse. `lanes`: the rays of a packet, or the packets of a bundle, that hit it.
   /// `enter`: a lower bound of their distances to it. `rays`: if one packet of a bundle traverses it
-  /// separately, the rays of that packet that hit it; otherwise 0.
+  /// separately, the rays of that packet that hit it, otherwise 0.
   struct Entry {
     NodeRef ref;
     uint32_t lanes;
@@ -57,8 +58,8 @@ public:
   }
 
 private:
-  /// A node has four children, each with an entry for every packet that splits. One of these entries is
-  /// popped before the next level is pushed.
+  /// Number of entries: a node has four children, each with an entry for every packet that splits, and one of
+  /// these entries is popped before the next level is pushed.
   static constexpr uint32_t kEntries = (4 * kMaxSplitPackets - 1) * kLevels + 8;
 
   Entry entries_[kEntries];

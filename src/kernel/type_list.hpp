@@ -5,12 +5,12 @@
 
 namespace celltrace::kernel {
 
-/// Each type T has a kName.
+/// A list of types, each with a kName. The number of a type is its index.
 template <class... T> struct TypeList {
   static constexpr uint32_t kCount = sizeof...(T);
   static constexpr const char* kNames[] = {T::kName...};
 
-  /// The place of a type.
+  /// Returns the index of a type.
   template <class Wanted> static constexpr uint32_t number() {
     constexpr bool found[] = {is_same<Wanted, T>()...};
     uint32_t number = 0;
@@ -19,7 +19,7 @@ template <class... T> struct TypeList {
     return number;
   }
 
-  /// Calls `visit(T())` for the type of a number; nothing if there is none.
+  /// Calls `visit(T())` for the type with a number, or nothing if there is none.
   template <class Visit> [[gnu::always_inline]] static inline void dispatch(uint32_t wanted, Visit visit) {
     uint32_t number = 0;
     ((wanted == number++ ? visit(T()) : void()), ...);

@@ -8,29 +8,29 @@
 namespace celltrace::kernel {
 
 namespace fog_flag {
-constexpr uint32_t ground = 0x1;          ///< thins out with the height
-constexpr uint32_t turbulent = 0x2;       ///< `turbulence` clears it
-constexpr uint32_t first_generator = 0x4; ///< of noise, as pattern_flag's
+constexpr uint32_t ground = 0x1;          ///< grows thinner with height
+constexpr uint32_t turbulent = 0x2;       ///< `turbulence` thins it out in places
+constexpr uint32_t first_generator = 0x4; ///< noise generator 1, as with pattern_flag::first_generator
 } // namespace fog_flag
 
-/// Heights are along `up`, in units of the altitude, and 0 where the fog begins to thin out.
+/// A fog. Heights are measured along `up` in units of the fog's altitude, from 0 where it begins to thin out.
 struct alignas(128) FogRecord {
-  float colour[3]; ///< of what it adds
-  float least;     ///< share of light that passes in any case
-  float tint[3];   ///< of what passes
+  float colour[3]; ///< colour of the light that the fog adds
+  float least;     ///< least share of light that passes at any depth
+  float tint[3];   ///< colour factors of the light that passes
   float inverse_distance;
-  float up[3]; ///< over the altitude
+  float up[3]; ///< unit vector divided by the altitude
   float offset;
   uint32_t flags;
   float turbulence_depth;
   TurbulenceWords turbulence;
-  float turbulence_offset[3]; ///< added to points that are multiplied by its amount
+  float turbulence_offset[3]; ///< added to points after these are multiplied by the turbulence amount
   uint32_t unused[9];
 };
 static_assert(sizeof(FogRecord) == 128, "one a line");
 
-/// A bow around the axis `direction`, in the plane of `up` and `right`; all three of unit length and at right
-/// angles. Angles are in turns.
+/// A rainbow around the axis `direction`. `direction`, `up` and `right` are unit vectors at right angles to
+/// each other. Angles are in turns.
 struct alignas(128) RainbowRecord {
   float direction[3];
   float angle; ///< from the axis to the middle of the bow
@@ -38,10 +38,10 @@ struct alignas(128) RainbowRecord {
   float inverse_width;
   float right[3];
   float inverse_distance;
-  float jitter;       ///< of the place across the bow, by which the colours are chosen
-  float falloff, arc; ///< along the bow from `up`: where it begins to fade and where it ends
-  float inverse_fade; ///< of the way in between; 0: it does not fade
-  uint32_t entries;   ///< offset of the first MapEntryRecord, of colours
+  float jitter;       ///< amplitude of random moves of the position across the bow that selects a colour
+  float falloff, arc; ///< angles along the bow from `up`: where it begins to fade, and where it ends
+  float inverse_fade; ///< 1 / (arc - falloff); 0: the ends do not fade
+  uint32_t entries;   ///< offset of the first MapEntryRecord of the colour map
   uint32_t entry_count;
   uint32_t unused[14];
 };

@@ -5,31 +5,36 @@
 
 namespace celltrace::kernel {
 
-/// How a camera's rays lie to each other: from one point through a plane, parallel from a plane, or as the
-/// code module of cameras makes them.
+/// Geometry of a camera's rays: `pinhole` rays leave one point through a plane, `parallel` rays leave a
+/// plane, and `made` rays are computed by the code module of cameras.
 enum class RaySheaf : uint32_t { pinhole, parallel, made };
 
-/// Flat cameras: through pixel (x, y) goes base + (x - middle_x)*dx + (y - middle_y)*dy, as a direction from
-/// `origin` (not normalised) or as an origin with direction `origin`; `middle_y` may be another row than that
-/// in the middle. Curved ones: `origin` is their location, and `base`, `dx` and `dy` are their axes forward,
-/// right and up; pixel (x, y) is at ((x - middle_x) * step_x, (middle_y - y) * step_y) of their picture,
-/// which the kind turns into a ray.
+/// A camera.
 ///
-/// Rays of a camera that is far away start just before the scene, in the plane that is `ahead` away along the
-/// unit vector `base`. Unless they are parallel they are then made as those of curved cameras are, flat ones
-/// too, and `origin` is where the middle one starts.
+/// Flat cameras: base + (x - middle_x)*dx + (y - middle_y)*dy belongs to pixel (x, y). The sum is the
+/// direction (not normalised) of a ray from `origin`, or for parallel rays the ray's origin, and `origin` is
+/// the direction. `middle_y` may differ from the middle row.
+///
+/// Curved cameras: `origin` is the location; `base`, `dx` and `dy` are the axes forward, right and up. Pixel
+/// (x, y) is at ((x - middle_x) * step_x, (middle_y - y) * step_y) of the camera's picture, and the kind of
+/// camera turns this position into a ray.
+///
+/// Rays of a distant camera start just before the scene, in the plane at distance `ahead` along the unit
+/// vector `base`. Unless they are parallel, they are then `made`, even if the camera is flat, and `origin` is
+/// the start of the middle ray.
 struct alignas(16) CameraRecord {
   float origin[3];
-  uint32_t kind; ///< its place in the list of cameras/list.hpp
+  uint32_t kind; ///< index of the camera's type in cameras/list.hpp
   float base[3];
-  float bend; ///< curved: what else the kind needs
+  float bend; ///< further parameter of a curved camera
   float dx[3];
   float middle_x;
   float dy[3];
   float middle_y;
   float step_x, step_y;
-  /// 0: rays start at the camera. A ray starts ahead / dot(direction, axis) away from it, where the axis is
-  /// `base`, or `origin` of parallel rays.
+  /// Distance along the camera's axis from the camera to the start of rays; 0: rays start at the camera. A
+  /// ray starts ahead / dot(direction, axis) away from the camera; the axis is `base`, or `origin` for
+  /// parallel rays.
   float ahead;
   uint32_t sheaf; ///< RaySheaf
 };

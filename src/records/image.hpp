@@ -5,7 +5,7 @@
 
 namespace celltrace::kernel {
 
-/// Beyond this nobody counts what may go on from surfaces.
+/// Limit of ImageHeader::surface_nodes.
 constexpr uint32_t kMostSurfaceNodes = 0x10000;
 
 /// Head of a scene image.
@@ -22,12 +22,12 @@ struct alignas(128) ImageHeader {
   uint32_t blend_offset, blend_count;
   float bounds_min[3];
   float bounds_max[3];
-  uint32_t group_offset, group_count; ///< all objects by group, or nothing: there are few
+  uint32_t group_offset, group_count; ///< GroupRecords of all objects; count 0: there are too few for groups
   uint32_t longest_group;             ///< objects
-  /// By group, the group that it is a copy of, its own index if it has copies, or kNoGroup; or nothing: there
-  /// are no copies.
+  /// One word per group: the index of its prototype, its own index if it has copies, or kNoGroup. The count
+  /// is 0 if no group is a copy.
   uint32_t prototype_offset, prototype_count;
-  /// Objects without bounds, just before the others; no accelerator has them.
+  /// Number of objects without bounds, which are in no accelerator; they precede the others in the table.
   uint32_t unbounded_count;
   uint32_t csg_offset, csg_count;           ///< CsgRecords
   uint32_t csg_step_offset, csg_step_count; ///< CsgSteps
@@ -36,26 +36,29 @@ struct alignas(128) ImageHeader {
   uint32_t space_step_offset, space_step_count;
   uint32_t map_entry_offset, map_entry_count;
   uint32_t normal_offset, normal_count;
-  uint32_t sky; ///< offset of the uppermost layer's MaterialRecord, whose pigments count; kNoOffset: none
+  uint32_t sky; ///< offset of the MaterialRecord of the sky's uppermost layer, of which only the pigments are
+                ///< used; kNoOffset: no sky
   uint32_t mesh_grid_offset, mesh_grid_count;         ///< MeshGridRecords
-  uint32_t mesh_word_offset, mesh_word_count;         ///< words of theirs
+  uint32_t mesh_word_offset, mesh_word_count;         ///< words of MeshGridRecords: starts and lists of cells
   uint32_t mesh_triangle_offset, mesh_triangle_count; ///< MeshTriangleRecords
   uint32_t fog_offset, fog_count;                     ///< FogRecords
   uint32_t finish_offset, finish_count;               ///< FinishRecords
   uint32_t light_ways;                                ///< bits of light_way
-  uint32_t feature_offset, feature_count;             ///< FeatureRecords: kFeatures of them, or none
-  uint32_t gradient_offset, gradient_count;           ///< GradientRecords: likewise
+  uint32_t feature_offset, feature_count;             ///< kFeatures FeatureRecords, or none
+  uint32_t gradient_offset, gradient_count;           ///< kGradients GradientRecords, or none
   uint32_t wave_offset, wave_count;                   ///< WaveRecords
-  uint32_t light_set_count;                           ///< sets of lights, of which object_flag has numbers
-  uint32_t light_word_offset, light_word_count;       ///< words of LightRecord::lit_sets
-  uint32_t polygon_edge_offset, polygon_edge_count;   ///< PolygonEdgeRecords
-  uint32_t rainbow_offset, rainbow_count;             ///< RainbowRecords
-  uint32_t slope_offset, slope_count;                 ///< SlopeRecords
-  uint32_t projector_count; ///< ObjectRecords of projectors, just before those without bounds
-  uint32_t surface_nodes; ///< that what the rays of a node hit may push, at most; kMostSurfaceNodes: or more
+  uint32_t light_set_count; ///< number of sets of lights; object_flag::light_set_shift numbers them
+  uint32_t light_word_offset, light_word_count;     ///< words of LightRecord::lit_sets
+  uint32_t polygon_edge_offset, polygon_edge_count; ///< PolygonEdgeRecords
+  uint32_t rainbow_offset, rainbow_count;           ///< RainbowRecords
+  uint32_t slope_offset, slope_count;               ///< SlopeRecords
+  uint32_t projector_count; ///< number of projectors' ObjectRecords, which precede the unbounded objects in
+                            ///< the table
+  uint32_t surface_nodes;   ///< largest number of nodes that the surfaces hit by a node's rays may push;
+                            ///< kMostSurfaceNodes: as many or more
   uint32_t instance_offset, instance_count;         ///< InstanceRecords
-  uint32_t mesh_object_offset, mesh_object_count;   ///< ObjectRecords of the meshes of instances
-  uint32_t mesh_node_offset, mesh_node_count;       ///< NodeRecords of their BVHs
+  uint32_t mesh_object_offset, mesh_object_count;   ///< ObjectRecords of instanced meshes
+  uint32_t mesh_node_offset, mesh_node_count;       ///< NodeRecords of the BVHs of instanced meshes
   uint32_t crossed_mesh_offset, crossed_mesh_count; ///< CrossedMeshRecords
   uint32_t unused[15];
 };

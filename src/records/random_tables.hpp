@@ -5,19 +5,19 @@
 
 namespace celltrace::kernel {
 
-// Tables of random numbers, which the image has if a pattern reads them. All are POV-Ray's.
+// The image has a table if a pattern reads it. All random numbers are POV-Ray's.
 
-/// A random point in each of the unit cells of space, whose corner (x, y, z) gives the number
-/// h(h(h(x) ^ y) ^ z), each coordinate modulo kFeatures, where h() is `hash` of the record of a number.
+/// A random point in a unit cell of space. The cell with corner (x, y, z) has the record with number h(h(h(x)
+/// ^ y) ^ z), each coordinate modulo kFeatures, where h(n) is `hash` of record n.
 struct alignas(16) FeatureRecord {
-  float place[3]; ///< in its cell, 0 to 1
+  float place[3]; ///< position in its cell, 0 to 1
   uint32_t hash;
 };
 static_assert(sizeof(FeatureRecord) == 16, "eight a line");
 constexpr uint32_t kFeatures = 4096;
 
-/// Of the noise of generator 3. The corner (x, y, z) of a cell has the gradient of record
-/// next(next(x) + y) + z, all modulo kGradients.
+/// A gradient of noise generator 3. The corner (x, y, z) of a cell has the gradient of record next(next(x) +
+/// y) + z, all modulo kGradients.
 struct alignas(16) GradientRecord {
   float gradient[3];
   uint32_t next;
@@ -25,10 +25,10 @@ struct alignas(16) GradientRecord {
 static_assert(sizeof(GradientRecord) == 16, "eight a line");
 constexpr uint32_t kGradients = 2048;
 
-/// Of ripples and waves: where one comes from, and how often it comes.
+/// A source of ripples or waves and its frequency.
 struct alignas(16) WaveRecord {
   float source[3];
-  float frequency; ///< of waves; ripples are all of 1
+  float frequency; ///< for waves; all ripples have frequency 1
 };
 static_assert(sizeof(WaveRecord) == 16, "eight a line");
 

@@ -1,5 +1,6 @@
-// Builds the uniform grid. Objects stream through local store, and each emits a pair of voxel and object for
-// every voxel that it touches. Sorted by voxel, these pairs become the lists of the voxels. Kernel dialect.
+// Builder of the uniform grid. Objects stream through local store, and each emits a pair of voxel and object
+// for every voxel that it touches. Sorted by voxel, these pairs become the lists of the voxels. Kernel
+// dialect.
 #pragma once
 
 #include "kernel/accel/object_bounds.hpp"
@@ -25,7 +26,8 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
   objects.for_each(
       frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
         const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
-        // The normals of a smooth triangle do not matter, but what CSG leaves of it does.
+        // Records of smooth triangles need not be read for their normals, but CSG parts have their bounds
+        // there.
         constexpr uint32_t kSmoothAndWhole = object_flag::smooth | object_flag::csg;
         if (object.extra != kNoOffset && (object.kind_and_flags & kSmoothAndWhole) != object_flag::smooth)
           Strategy<Spu>::fetch(spu, extra, frame.image + object.extra, kExtraTag);

@@ -12,11 +12,11 @@ template <class S> struct LaneInterval {
   static LaneInterval splat(const Interval& same) {
     return {typename S::F(same.low), typename S::F(same.high)};
   }
-  /// The interval that contains those of all lanes.
+  /// Returns the interval that contains the intervals of all lanes.
   Interval all() const { return {interval_of<S>(low).low, interval_of<S>(high).high}; }
 };
 
-/// The RayBounds of a packet in each lane.
+/// The RayBounds of one packet in each lane.
 template <class S> struct LaneRayBounds { LaneInterval<S> origin[3], direction[3]; };
 
 /// The vector type with a lane for each packet of a bundle: 4 on an SPE, 16 where memory is direct.
@@ -56,7 +56,7 @@ public:
       a.far_inverse[packet] = slab.far_inverse;
     }
   }
-  /// Sets those of all packets at once.
+  /// Sets the frusta of all packets at once.
   void set(const LaneRayBounds<S>& bounds, uint32_t octant) {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const bool backward = ((octant >> axis) & 1) != 0;

@@ -1,9 +1,10 @@
-// Traverses the BVH with the packets of a bundle. Kernel dialect.
+// Traversal of the BVH with the packets of a bundle. Kernel dialect.
 //
 // Coherent packets are traversed together. The frustum of the bundle is tested against the four children of a
 // node at once; each child that it hits is tested against the frusta of all packets at once, which lie in
-// SIMD lanes. A node that few of the packets hit is traversed by each of them separately (PacketTraversal).
-// Divergent packets do not join the bundle: each is traversed by itself, in groups of similar rays.
+// SIMD lanes. A node that few of the packets hit is traversed by each of these packets separately
+// (PacketTraversal). Divergent packets do not join the bundle: each is traversed alone, in groups of similar
+// rays.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -14,18 +15,18 @@ namespace celltrace::kernel {
 
 /// Traverses the BVH with bundles. A strategy's BundleSteps have:
 ///
-///   intersect_mixed(query)              whether a packet has been traversed with rays of several octants
-///   end_view()                          the rays of the bundle do not pass through one point
-///   view()                              the BundleView of a bundle whose rays do, or null
-///   trusts_frusta()                     whether leaves are hit by frusta, without slab tests of rays
-///   doubted_at(child)                   packets of which rays are tested all the same
-///   set_own_frustum(packet, query, frustum)   the frustum of a packet that leaves its bundle
-///   shortening(packet)                  distances in a packet's frustum over distances along its rays
-///   LeafTests(objects, view)            tests of the bundle's packets against leaves
-///   add_leaf(tests, queries, leaf, packets)   whether a leaf is done with, or waits; `packets` become those
-///                                       whose results may have changed
-///   test_object(self, packets, queries)       otherwise, for each object of the leaf
-///   test_deferred(tests, queries, bundled)    tests leaves that wait, unless they had better go on to
+///   intersect_mixed(query)              traverses a packet with rays of several octants; false: it did not
+///   end_view()                          is called if the bundle's rays do not pass through one point
+///   view()                              BundleView of the bundle if its rays pass through a point, else null
+///   trusts_frusta()                     true if frusta suffice at leaves, without slab tests of rays
+///   doubted_at(child)                   packets whose rays are tested in spite of trusts_frusta()
+///   set_own_frustum(packet, query, frustum)   sets the frustum of a packet that leaves its bundle
+///   shortening(packet)                  ratio of distances in a packet's frustum to distances along its rays
+///   LeafTests(objects, view)            type of the tests of the bundle's packets against leaves
+///   add_leaf(tests, queries, leaf, packets)   tests or defers a leaf, and limits `packets` to those whose
+///                                       results may have changed; false: it did neither
+///   test_object(self, packets, queries)       tests an object of a leaf for which add_leaf() returned false
+///   test_deferred(tests, queries, bundled)    tests deferred leaves, unless they can wait for the next one
 template <class Spu> class BvhTraversal : public Strategy<Spu>::template BundleSteps<BvhTraversal<Spu>, Spu> {
   using Steps = typename Strategy<Spu>::template BundleSteps<BvhTraversal, Spu>;
   friend Steps;
@@ -40,7 +41,7 @@ public:
         rays_of_frame_(static_cast<float>(frame.width * frame.height)) {}
 
   /// Answers the queries, at most one for each packet of a bundle. Hits must have been reset. Occluded lanes
-  /// are removed from queries for light.
+  /// are removed from queries of shadow rays.
   void intersect(RayQuery* queries, uint32_t count) { intersect(queries, count, 0); }
   /// Answers one query.
   void intersect(RayQuery& query) {
@@ -53,7 +54,7 @@ private:
 
   NodeRef root() const { return {bvh_.node_offset, 0}; }
 
-  /// Resets the stack to the root, for these packets.
+  /// Resets the stack to the root node for some packets.
   Stack& begin(uint32_t packets) {
     Stack& stack = packet_traversal_.stack();
     stack.shrink(0);
@@ -96,8 +97,8 @@ private:
     }
   }
 
-  /// The lanes that `lane` is grouped with: on level 0 the whole packet, on level 1 its block of 2x2 rays, on
-  /// level 2 itself.
+  /// Returns the lanes that are grouped with `lane`: on level 0 the whole packet, on level 1 the block of 2x2
+  /// rays, on level 2 the lane alone.
   static uint32_t subset_of(uint32_t level, uint32_t lane) {
     if (level == 0) return 0xFFFF;
     return level == 1 ? 0x33u << (lane & 0xAu) : 1u << lane;
@@ -105,7 +106,7 @@ private:
 
   // --- a bundle of packets ---
 
-  /// Answers all queries but those of the packets `answered`.
+  /// Answers all queries except those of the packets in `answered`.
   void intersect(RayQuery* queries, uint32_t count, uint32_t answered) {
     uint32_t remaining = 0;
     for (uint32_t packet = 0; packet < count; ++packet)
@@ -115,8 +116,8 @@ private:
     for_each_lane(remaining, [&](uint32_t packet) { intersect_packet(queries[packet]); });
   }
 
-  /// Traverses those of the packets together whose rays all have similar directions in one octant. Returns
-  /// which packets these are.
+  /// Traverses the packets whose rays all have similar directions in one octant together. Returns these
+  /// packets.
   uint32_t intersect_bundle(RayQuery* queries, uint32_t packets) {
     const RayQuery& first = queries[__builtin_ctz(packets)];
     const uint32_t octant = octant_of(*first.rays, static_cast<uint32_t>(__builtin_ctz(first.lanes)));
@@ -147,8 +148,8 @@ private:
     return bundled;
   }
 
-  /// Traverses what is on the stack, with the frusta of the packets `bundled`. `order` is that of slab tests
-  /// with frusta, `ray_order` that with rays: they differ where frusta are those of reversed rays.
+  /// Traverses the nodes on the stack with the frusta of the packets `bundled`. `order` is for slab tests
+  /// with frusta, `ray_order` for those with rays: they differ if frusta are those of reversed rays.
   void traverse_bundle(RayQuery* queries, const SlabOrder& order, const SlabOrder& ray_order,
                        uint32_t bundled) {
     max_tfar_ = PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance; // until the first leaf has been tested
@@ -160,15 +161,15 @@ private:
     traverse_nodes(visitor, ref, false);
   }
 
-  /// The traversal of a bundle, for traverse_nodes(). Nodes that few packets hit are traversed by each of
-  /// them separately.
+  /// The traversal of a bundle, for traverse_nodes(). A node that few packets hit is traversed by each of
+  /// these packets separately.
   struct BundleVisitor {
     BvhTraversal& traversal;
     typename Steps::LeafTests& leaves;
     RayQuery* const queries;
     const SlabOrder &order, &ray_order;
     const uint32_t bundled;
-    uint32_t packets = 0; ///< that hit the node or leaf
+    uint32_t packets = 0; ///< packets that hit the node or leaf
 
     [[gnu::always_inline]] bool expand(NodeRef& ref) {
       return traversal.expand(queries, order, ray_order, packets, ref);
@@ -223,7 +224,7 @@ private:
     }
     update_tfar(packets, queries);
   }
-  /// The task of an entry for one packet. Sets the packet's frustum on first use.
+  /// Returns the task of a stack entry for one packet. Sets the packet's frustum on first use.
   typename PacketTraversal<Spu>::Task task_of(RayQuery* queries, const typename Stack::Entry& entry) {
     const auto packet = static_cast<uint32_t>(__builtin_ctz(entry.lanes));
     RayQuery& query = queries[packet];
@@ -234,7 +235,7 @@ private:
     return {&ray_groups_[packet], &query, query.lanes, entry.rays, entry.ref};
   }
 
-  /// The rays of a packet prepared for slab tests, on first use.
+  /// Returns the rays of a packet prepared for slab tests, which happens on first use.
   const OctantRays<S>& rays_of(const RayQuery& query, uint32_t packet) {
     if ((known_rays_ & (1u << packet)) == 0) {
       objects_.scene().spu().compute(scalar_work::kRaysOfPacket);
@@ -244,8 +245,8 @@ private:
     return ray_groups_[packet].rays;
   }
 
-  /// As PacketTraversal::expand(), with the frusta of packets in place of rays. Rays are tested only for
-  /// leaves, for packets that split from the bundle, and for loose frusta.
+  /// Intersects the children of node `ref` with the frusta of packets; see PacketTraversal::expand(). Rays
+  /// are tested only for leaves, for packets that split from the bundle, and for loose frusta.
   bool expand(const RayQuery* queries, const SlabOrder& order, const SlabOrder& ray_order, uint32_t packets,
               NodeRef& ref) {
     objects_.scene().spu().compute(scalar_work::kBvhNode);
@@ -284,20 +285,20 @@ private:
     return false;
   }
 
-  /// Packets split early where triangles are assumed to be smaller than what is between `rays`, so many in a
-  /// picture.
+  /// Sets how many packets may split: kMaxSplitPackets if triangles are probably smaller than the gaps
+  /// between `rays`, the number of rays in the picture, otherwise one.
   void set_max_split_packets(float rays) {
     constexpr uint32_t kMost = PacketTraversal<Spu>::kMaxSplitPackets;
     if constexpr (kMost != 1)
       max_split_packets_ = object_count_ * float{tuning::kPixelsOfSmallObject} <= rays ? 1 : kMost;
   }
-  /// Whether the packets that hit a node traverse it separately.
+  /// Returns true if the packets that hit a node traverse it separately.
   bool should_split(uint32_t packets) const {
     if constexpr (PacketTraversal<Spu>::kMaxSplitPackets == 1) return is_single(packets);
     return static_cast<uint32_t>(__builtin_popcount(packets)) <= max_split_packets_;
   }
 
-  /// Returns those of the packets that have no ray that hits child `i`. hit_rays_ receives the rays that do.
+  /// Returns the packets that have no ray that hits child `i`. hit_rays_ receives the rays that hit it.
   uint32_t packets_that_miss(const float (&bounds)[6][4], const SlabOrder& order, uint32_t i,
                              const RayQuery* queries, uint32_t packets) {
     uint32_t missing = 0;
@@ -328,7 +329,8 @@ private:
   void update_tfar(uint32_t packets, const RayQuery* queries) {
     for_each_lane(packets, [&](uint32_t packet) { update_tfar(queries[packet], packet); });
   }
-  /// A packet that is wholly occluded has a negative tfar: it hits no further node.
+  /// Updates the tfar of a packet. A packet whose rays are all occluded gets a negative tfar, so that it hits
+  /// no further node.
   void update_tfar(const RayQuery& query, uint32_t packet) {
     if (query.hits != nullptr)
       tfar_[packet] = PacketTraversal<Spu>::tfar_of(query, query.lanes) * Steps::shortening(packet);
@@ -343,17 +345,18 @@ private:
   const BvhRecord& bvh_;
   PacketTraversal<Spu> packet_traversal_;
   const float object_count_, rays_of_frame_;
-  uint32_t max_split_packets_ = 1;              ///< of the bundle
-  RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< by packet; intersect_packet() uses the first
+  uint32_t max_split_packets_ = 1;              ///< for the current bundle
+  RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< index: packet; intersect_packet() uses the first
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;
-  Frustum<S> bundle_frustum_;                  ///< contains all of frusta_
-  uint32_t hit_rays_[kBundlePackets<Spu>];     ///< by packet, of the child that was tested last
-  uint32_t misses_[kBundlePackets<Spu>];       ///< by packet: nodes that its frustum hit, but no ray
-  uint32_t loose_ = 0;                         ///< packets whose frusta are loose
-  float max_tfar_ = 0.0f;                      ///< the greatest of tfar_
-  uint32_t octant_ = 0;                        ///< of all rays of the bundle
-  uint32_t known_rays_ = 0, known_frusta_ = 0; ///< packets whose part of ray_groups_ is set
-  /// By packet, in distances of its frustum. Negative: the packet hits nothing.
+  Frustum<S> bundle_frustum_;              ///< contains all of frusta_
+  uint32_t hit_rays_[kBundlePackets<Spu>]; ///< index: packet; rays that hit the child that was tested last
+  uint32_t misses_[kBundlePackets<Spu>]; ///< index: packet; number of nodes that its frustum hit, but none of
+                                         ///< its rays
+  uint32_t loose_ = 0;                   ///< packets whose frusta are loose
+  float max_tfar_ = 0.0f;                ///< maximum of tfar_
+  uint32_t octant_ = 0;                  ///< octant of all rays of the bundle
+  uint32_t known_rays_ = 0, known_frusta_ = 0; ///< packets whose rays or frusta in ray_groups_ are set
+  /// Greatest distance of each packet, measured in its frustum. Negative: the packet hits nothing.
   alignas(64) float tfar_[kBundlePackets<Spu>] = {};
 };
 

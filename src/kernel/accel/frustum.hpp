@@ -1,7 +1,7 @@
-// Rays against the bounds of BVH nodes: the rays of a packet against one node, and their frustum against four
-// nodes at a time. The frustum is given by intervals that contain the origins and directions of its rays: a
-// node that it misses is missed by every one of them (interval arithmetic: Boulos, Wald and Shirley,
-// Geometric and arithmetic culling methods for entire ray packets, 2006). Kernel dialect.
+// Tests of rays against the bounds of BVH nodes: the rays of a packet against one node, and their frustum
+// against four nodes at a time. A frustum is given by intervals that contain the origins and directions of
+// its rays: a node that it misses is missed by each of its rays (interval arithmetic: Boulos, Wald and
+// Shirley, Geometric and arithmetic culling methods for entire ray packets, 2006). Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -10,28 +10,29 @@
 
 namespace celltrace::kernel {
 
-/// Whether at most one bit is set.
+/// Returns true if at most one bit is set.
 inline bool is_single(uint32_t lanes) {
   return (lanes & (lanes - 1)) == 0;
 }
 
 namespace detail {
 
-/// Components of directions closer to 0 are replaced by this, with the same sign: 1 / direction stays finite.
+/// Least absolute value of a direction's components: smaller ones are replaced by it, with the same sign, so
+/// that 1 / direction stays finite.
 constexpr float kTinyDirection = 1e-12f;
-/// Relative epsilon of the distance to a node's far plane. That is rounded three times, and a ray that only
-/// grazes the node must not miss it.
+/// Relative epsilon of the distance to a node's far plane, as a factor. The distance is rounded three times,
+/// and a ray that only grazes the node must not miss it.
 constexpr float kRoundedUp = 1.000001f;
 
 } // namespace detail
 
-/// The octant of a ray's direction: bit a is set if it is negative on axis a.
+/// Returns the octant of a ray's direction: bit a is set if the direction is negative on axis a.
 inline uint32_t octant_of(const RayPacket& rays, uint32_t lane) {
   return (rays.direction.x.lane[lane] < 0.0f ? 1u : 0u) | (rays.direction.y.lane[lane] < 0.0f ? 2u : 0u) |
          (rays.direction.z.lane[lane] < 0.0f ? 4u : 0u);
 }
 
-/// The lanes whose directions are in an octant.
+/// Returns the lanes whose directions are in an octant.
 template <class S>
 [[gnu::always_inline]] inline uint32_t lanes_in_octant(const RayPacket& rays, uint32_t octant) {
   const typename S::F zero(0.0f);
@@ -42,8 +43,8 @@ template <class S>
   return same(x, octant & 1) & same(y, octant & 2) & same(z, octant & 4);
 }
 
-/// The order of planes in the slab test: which rows of NodeRecord::bounds are the near and the far planes for
-/// rays of an octant, axis by axis.
+/// The order of planes in the slab test: the rows of NodeRecord::bounds with the near and the far planes for
+/// rays of an octant, for each axis.
 struct SlabOrder {
   explicit SlabOrder(uint32_t octant)
       : near{octant & 1, 2 + ((octant >> 1) & 1), 4 + ((octant >> 2) & 1)}, far{near[0] ^ 1, near[1] ^ 1,
@@ -52,12 +53,12 @@ struct SlabOrder {
   uint32_t near[3], far[3];
 };
 
-/// The rays of one octant, prepared for slab tests. Results of lanes of other octants are undefined.
+/// The rays of one octant, prepared for slab tests. Results for lanes in other octants are undefined.
 template <class S> class OctantRays {
 public:
   using F = typename S::F;
 
-  /// Undefined until set() has been called.
+  /// Leaves the rays undefined until set() is called.
   OctantRays() = default;
   CELLTRACE_ONE_COPY void set(const RayPacket& rays, uint32_t octant) {
     origin_ = rays.origin.template load<S>();
@@ -91,14 +92,14 @@ private:
 struct RayBounds {
   Interval origin[3], direction[3];
 
-  /// Whether all directions are of one octant.
+  /// Returns true if all directions are in one octant.
   bool is_in(uint32_t octant) const {
     for (uint32_t axis = 0; axis < 3; ++axis)
       if (((octant >> axis) & 1) != 0 ? !(direction[axis].high < 0.0f) : !(direction[axis].low >= 0.0f))
         return false;
     return true;
   }
-  /// Sum of the differences of directions on all axes.
+  /// Returns the sum of the differences of directions over all axes.
   float direction_spread() const {
     float sum = 0.0f;
     for (const Interval& each : direction)
@@ -113,7 +114,7 @@ struct RayBounds {
   }
 };
 
-/// The bounds of the rays in `lanes`, of which there is at least one.
+/// Returns the bounds of the rays in `lanes`, which are at least one.
 template <class S> CELLTRACE_ONE_COPY RayBounds bounds_of(const RayPacket& rays, uint32_t lanes) {
   using F = typename S::F;
   const auto active = S::M::from_bits(lanes);
@@ -127,7 +128,7 @@ template <class S> CELLTRACE_ONE_COPY RayBounds bounds_of(const RayPacket& rays,
   const auto is_same = [&](const FloatLanes& values) {
     return F::load(values.lane) == F(values.lane[active_lane]);
   };
-  // Primary rays have a common origin: three reductions fewer.
+  // Primary rays have a common origin, which saves three reductions.
   const auto same_origin = is_same(rays.origin.x) & is_same(rays.origin.y) & is_same(rays.origin.z);
   const bool common_origin = (same_origin.bits() & lanes) == lanes;
   RayBounds bounds;
@@ -139,7 +140,7 @@ template <class S> CELLTRACE_ONE_COPY RayBounds bounds_of(const RayPacket& rays,
   return bounds;
 }
 
-/// The bounds of one ray.
+/// Returns the bounds of one ray.
 inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
   const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
@@ -152,10 +153,10 @@ inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   return bounds;
 }
 
-/// The operands of the slab test for a frustum on one axis. The least distance to a near plane is that from
-/// the nearest origin along the steepest ray; the greatest distance to a far plane is that from the farthest
-/// origin along the flattest ray. Planes behind the origins give negative distances, whose size does not
-/// matter: near ones are clamped to 0, and far ones are a miss.
+/// Operands of the slab test for a frustum on one axis. The least distance to a near plane is that from the
+/// nearest origin along the steepest ray; the greatest distance to a far plane is that from the farthest
+/// origin along the flattest ray. The distance of a plane behind the origins is negative, whose size does not
+/// matter: for near planes it is clamped to 0, and for far planes it is a miss.
 struct Slab {
   float near_origin, near_inverse, far_origin, far_inverse;
 };
@@ -173,10 +174,10 @@ template <class S> class Frustum {
 public:
   using F4 = typename S::F4;
 
-  /// Undefined until set() has been called.
+  /// Leaves the frustum undefined until set() is called.
   Frustum() = default;
 
-  /// Bounds rays that all have this octant.
+  /// Sets the bounds to those of rays in one octant.
   void set(const RayBounds& bounds, uint32_t octant) {
     for (uint32_t axis = 0; axis < 3; ++axis)
       set(axis, slab_of(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0));

@@ -1,4 +1,4 @@
-// Traverses the uniform grid with packets. Kernel dialect.
+// Traversal of the uniform grid with packets. Kernel dialect.
 //
 // All rays of a packet step at once, each through voxels of its own. An object in a voxel of one ray is
 // tested against the whole packet, and the hit filter keeps the other rays from testing it again when they
@@ -20,9 +20,10 @@ public:
   GridTraversal(ObjectTests<Spu>& objects, const GridRecord& grid)
       : objects_(objects), scene_(objects.scene()), grid_(grid) {}
 
-  // Not inlined: the stack frame of a traversal would otherwise be part of the caller's all the time.
+  // The functions are not inlined: the stack frame of a traversal would otherwise always be part of the
+  // caller's.
 
-  /// As Traversal's; `hits` have been reset.
+  /// Finds closest hits as Traversal::find_closest() does; `hits` have been reset.
   CELLTRACE_ONE_COPY void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
     objects_.hit_filter().begin_packet();
     walk(rays, lanes, [&](const VoxelWalk<S>& at, uint32_t listing) {
@@ -31,7 +32,7 @@ public:
     });
   }
 
-  /// As Traversal's; returns the lanes that are not occluded.
+  /// Multiplies `light` as Traversal::transmittance() does. Returns the lanes that are not occluded.
   CELLTRACE_ONE_COPY uint32_t transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
                                             VectorLanes& light) {
     objects_.hit_filter().begin_packet();
@@ -49,17 +50,18 @@ public:
     return lit;
   }
 
-  // --- one voxel, for callers that step by themselves; the hit filter has to know the packet ---
+  // --- one voxel, for callers that step through the grid themselves; the hit filter has to know the packet
+  // ---
 
-  /// Tests the objects of a voxel.
+  /// Tests the objects of a voxel for closest hits.
   void find_closest_in(uint32_t cell, const RayPacket& rays, HitPacket& hits) {
     for_each_object(cell, [&](uint32_t self) {
       if (objects_.hit_filter().first_test(self)) objects_.test_closest(rays, self, hits);
       return false;
     });
   }
-  /// The same for the shadow rays in `lanes`, which are in the voxel from `enter` to `leave`. Removes
-  /// occluded lanes from `lit`.
+  /// Tests the objects of a voxel against the shadow rays in `lanes`, which are in the voxel from `enter` to
+  /// `leave`. Removes occluded lanes from `lit`.
   void transmittance_in(uint32_t cell, uint32_t lanes, const FloatLanes& enter, const FloatLanes& leave,
                         const RayPacket& rays, const FloatLanes& distance, VectorLanes& light,
                         uint32_t& lit) {
@@ -71,7 +73,7 @@ public:
   }
 
 private:
-  /// Steps through the grid and calls `visit(walk, lanes whose voxels are not empty)` in all voxels. It
+  /// Steps through the grid and calls `visit(walk, lanes whose voxels are not empty)` in all voxels. `visit`
   /// returns the lanes that continue; rays in their last voxel must not be among them.
   template <class Visit> void walk(const RayPacket& rays, uint32_t lanes, Visit visit) {
     scene_.spu().compute(scalar_work::kVoxelWalk);
@@ -89,7 +91,7 @@ private:
     objects_.counters().visits += voxels;
   }
 
-  /// Calls `visit(cell, lanes in it)` for each of the voxels that `lanes` are in.
+  /// Calls `visit(cell, lanes in it)` for each voxel that some of `lanes` are in.
   template <class Visit> void for_each_cell(const I& cells, uint32_t lanes, Visit visit) {
     if (lanes == 0) return;
     WordLanes each;

@@ -1,6 +1,6 @@
-// Steps the rays of a packet through the uniform grid by a 3D DDA (Amanatides and Woo, A Fast Voxel Traversal
-// Algorithm for Ray Tracing, 1987). Each lane is in a voxel of its own, and all lanes step at once. What is
-// done in a voxel is left to the caller. Kernel dialect.
+// Steps of a packet's rays through the uniform grid by a 3D DDA (Amanatides and Woo, A Fast Voxel Traversal
+// Algorithm for Ray Tracing, 1987). Each lane is in a voxel of its own, and all lanes step at once. The
+// caller decides what to do in a voxel. Kernel dialect.
 #pragma once
 
 #include "kernel/packet.hpp"
@@ -10,19 +10,19 @@
 
 namespace celltrace::kernel {
 
-/// Larger than any distance along a ray.
+/// Distance that is larger than any along a ray.
 constexpr float kFarAway = 1e30f;
 
-/// The voxels that the rays of a packet are in. A voxel is entered at the distance at which the one before
-/// was left. The first one is entered at -kFarAway and the last one left at kFarAway, so that no hit at the
-/// border of the grid is missed by rounding.
+/// The voxels that the rays of a packet are in. A ray enters a voxel at the distance at which it leaves the
+/// previous one. The first voxel is entered at -kFarAway and the last one left at kFarAway, so that rounding
+/// hides no hit at the border of the grid.
 template <class S> class VoxelWalk {
 public:
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
 
-  /// Starts with `lanes` where they enter the grid.
+  /// Starts `lanes` where their rays enter the grid.
   VoxelWalk(const GridRecord& grid, const RayPacket& rays, uint32_t lanes) {
     const V3<S> origin = rays.origin.template load<S>();
     const V3<S> direction = rays.direction.template load<S>();
@@ -32,7 +32,7 @@ public:
     const V3<S> at = origin + direction * span.enter;
     set_voxels(grid, direction, {voxel_at(grid, 0, at.x), voxel_at(grid, 1, at.y), voxel_at(grid, 2, at.z)});
   }
-  /// Continues with `lanes` where another walk of the same rays was, by its place().
+  /// Continues `lanes` at the place() of another walk of the same rays.
   VoxelWalk(const GridRecord& grid, const RayPacket& rays, uint32_t lanes, const I& place) : lanes_(lanes) {
     const V3<S> direction = rays.direction.template load<S>();
     cross_slabs(grid, rays.origin.template load<S>(), direction);
@@ -42,20 +42,20 @@ public:
                 S::to_float(S::template shift_right<2 * kPlaceBits>(place) & mask)});
   }
 
-  /// The rays that are in the grid; the results of other lanes are undefined.
+  /// Returns the rays that are in the grid; the results of other lanes are undefined.
   uint32_t lanes() const { return lanes_; }
-  /// The voxels' indices, and the distances at which the rays leave them.
+  /// Return the indices of the voxels, and the distances at which the rays leave them.
   const I& cell() const { return cell_; }
   const F& leave() const { return leave_; }
 
-  /// The coordinates of the voxels, 10 bits each: enough to continue in another walk.
+  /// Returns the coordinates of the voxels, 10 bits each, from which another walk can continue.
   I place(const GridRecord& grid) const {
     return x_.voxel(grid.cells[0]) | S::template shift_left<kPlaceBits>(y_.voxel(grid.cells[1])) |
            S::template shift_left<2 * kPlaceBits>(z_.voxel(grid.cells[2]));
   }
 
-  /// Steps `lanes` to their next voxels and drops all other lanes. Each has to have a next voxel: the last
-  /// one is left at kFarAway, beyond any hit and any light.
+  /// Steps `lanes` to their next voxels and drops all other lanes. Each ray must have a next voxel: it leaves
+  /// the last one at kFarAway, beyond any hit and any light.
   void step(uint32_t lanes) {
     lanes_ = lanes;
     cell_ = cell_ + of_axis(x_.stride, y_.stride, z_.stride);
@@ -73,10 +73,10 @@ private:
     F steps;   ///< voxels between the current one and the grid's border
     F last;    ///< distance to that border
     F spacing; ///< distance between planes of voxels
-    I stride;  ///< from a voxel's index to the next one's
+    I stride;  ///< step from a voxel's index to the next one's
 
-    /// The distance at which the voxel is left. It is computed from the voxel's number: by adding up steps it
-    /// would drift over hundreds of voxels.
+    /// Returns the distance at which the voxel is left. The distance is computed from the voxel's number, as
+    /// a sum of steps would drift over hundreds of voxels.
     F border() const { return last - steps * spacing; }
     I voxel(uint32_t cells) const {
       const F forward = F(static_cast<float>(cells - 1)) - steps;
@@ -84,7 +84,7 @@ private:
     }
   };
 
-  /// The segments of the rays in the grid, from `enter` to `leave`. Rays that are `outside` have none.
+  /// The segments of the rays in the grid, from `enter` to `leave`. Rays that are `outside` have no segment.
   struct GridSpan {
     F enter, leave;
     M outside;
@@ -106,15 +106,15 @@ private:
     span.enter = S::select(parallel, span.enter, S::max(span.enter, S::min(to_low, to_high)));
     span.leave = S::select(parallel, span.leave, S::min(span.leave, S::max(to_low, to_high)));
     span.outside = span.outside | (parallel & ((origin < low) | (origin > high)));
-    // The border of the grid, computed as those of its voxels are, so that they agree.
+    // The border of the grid is computed as those of its voxels are, so that they agree.
     const M backward = direction < F(0.0f);
     const F far_border(grid.min[axis] + static_cast<float>(grid.cells[axis]) * grid.cell_size[axis]);
     a.last = S::select(parallel, F(kFarAway), (S::select(backward, low, far_border) - origin) * inverse);
     a.spacing = S::select(parallel, F(0.0f), S::abs(inverse) * F(grid.cell_size[axis]));
   }
-  /// The number of the voxel that contains a coordinate of the scene.
+  /// Returns the number of the voxel that contains a scene coordinate.
   static F voxel_at(const GridRecord& grid, int axis, const F& at) {
-    // Clamped before the conversion, which is undefined for large numbers.
+    // The number is clamped before the conversion, which is undefined for large numbers.
     const F last(static_cast<float>(grid.cells[axis] - 1));
     const F voxels = (at - F(grid.min[axis])) * F(grid.inverse_cell_size[axis]);
     return S::to_float(S::to_int(S::max(S::min(voxels, last), F(0.0f))));
@@ -127,7 +127,7 @@ private:
     cell_ = S::to_int(cell);
     choose_axis(x_.border(), y_.border(), z_.border());
   }
-  /// Sets one axis up. Returns what the coordinate adds to the voxel's index.
+  /// Initialises one axis. Returns the coordinate's part of the voxel's index.
   static F set_axis(const GridRecord& grid, int axis, uint32_t stride, const F& voxel, const F& direction,
                     Axis& a) {
     const M backward = direction < F(0.0f);
@@ -145,7 +145,7 @@ private:
     const M more = of_axis(x_.steps, y_.steps, z_.steps) > F(0.0f);
     leave_ = S::select(more, S::select(xy_before_z_, nearer, z), F(kFarAway));
   }
-  /// The value for the axis on which each ray leaves its voxel.
+  /// Returns the value for the axis on which each ray leaves its voxel.
   template <class Lanes> Lanes of_axis(const Lanes& x, const Lanes& y, const Lanes& z) const {
     return S::select(xy_before_z_, S::select(x_before_y_, x, y), z);
   }

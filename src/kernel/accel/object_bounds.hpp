@@ -1,4 +1,4 @@
-// The bounds of objects, and which voxels of the grid they touch. Kernel dialect.
+// Bounds of objects, and the voxels of the grid that they touch. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/list.hpp"
@@ -8,14 +8,15 @@
 
 namespace celltrace::kernel {
 
-/// Whether its ExtraRecord says where an object may be. Triangles have surface coordinates there.
+/// Returns true if the object's ExtraRecord has its bounds. Triangles with surface coordinates have these
+/// instead.
 constexpr bool has_own_bounds(uint32_t flags) {
   constexpr uint32_t kMapped = object_flag::by_surface | static_cast<uint32_t>(ObjectKind::triangle);
   return (flags & object_flag::csg) != 0 &&
          (flags & (object_flag::by_surface | object_flag::kind_mask)) != kMapped;
 }
 
-/// The object's axis-aligned bounding box. `extra`: its ExtraRecord, if it has one.
+/// Returns the axis-aligned bounding box of an object. `extra` is its ExtraRecord, if it has one.
 inline Aabb bounding_box(const ObjectRecord& object, const ExtraRecord& extra = {}) {
   const float* limits = extra.bounds;
   Aabb box = {{limits[0], limits[1], limits[2]}, {limits[3], limits[4], limits[5]}};
@@ -25,25 +26,25 @@ inline Aabb bounding_box(const ObjectRecord& object, const ExtraRecord& extra = 
   return box;
 }
 
-/// Whether the object may touch a box; some shapes say so of a box near them, too.
+/// Returns true if the object may touch a box; for some shapes also if the box is only near.
 inline bool overlaps(const ObjectRecord& object, const Aabb& box, const ExtraRecord& extra = {}) {
   bool result = false;
   if ((object.kind_and_flags & object_flag::csg) != 0 || is_instance(object.kind_and_flags))
-    return true; // those within its bounds
+    return true; // any box within its bounds
   Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask,
                        [&](auto shape) { result = decltype(shape)::overlaps(object, extra, box); });
   return result;
 }
 
-/// Whose charges a kind has: shapes without any of their own have those of the ellipsoid, which is most like
-/// them.
+/// Returns the kind whose charges are used: shapes without charges of their own have those of the ellipsoid,
+/// to which they are most similar.
 inline uint32_t charged_kind(uint32_t kind) {
   constexpr auto kLast = static_cast<uint32_t>(ObjectKind::ellipsoid);
   return kind < kLast ? kind : kLast;
 }
 
-/// Calls `visit(cell)` for each voxel that the object touches. Voxels count as a little larger than they are,
-/// by more than what the rounding of rays and points amounts to.
+/// Calls `visit(cell)` for each voxel that the object touches. Voxels are extended by more than the rounding
+/// errors of rays and points.
 template <class Spu, class Visit>
 void for_each_voxel(Spu& spu, const GridRecord& grid, const ObjectRecord& object, const ExtraRecord& extra,
                     Visit visit) {

@@ -1,5 +1,5 @@
-// Tests of ray packets against single objects, whichever accelerator has found them: closest hits, and the
-// transmittance of shadow rays. Kernel dialect.
+// Tests of ray packets against single objects for both accelerators: closest hits, and the transmittance of
+// shadow rays. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -16,19 +16,19 @@ namespace celltrace::kernel {
 
 /// Counters of a frame, for its report.
 struct TraversalCounters {
-  uint64_t tests[kObjectKinds] = {}; ///< by kind
+  uint64_t tests[kObjectKinds] = {}; ///< index: kind
   uint64_t visits = 0;               ///< voxels entered by rays, or nodes of the BVH expanded
 };
 
-/// Mailboxing (Amanatides and Woo 1987): remembers which objects have been tested against the current packet,
-/// so that an object in several voxels or leaves is tested once. Direct mapped: a collision costs a second
-/// test.
+/// Mailboxing (Amanatides and Woo 1987): remembers the objects that have been tested against the current
+/// packet, so that an object in several voxels or leaves is tested once. Direct mapped: a collision costs a
+/// second test.
 class HitFilter {
 public:
   /// Forgets all objects. Returns the packet's number, for resume_packet().
   uint32_t begin_packet() { return packet_ = ++last_packet_; }
   void resume_packet(uint32_t packet) { packet_ = packet; }
-  /// True the first time that an object is asked for with the current packet; may be true again later.
+  /// Returns true on the first query for an object with the current packet; may return true again later.
   bool first_test(uint32_t object) {
     Entry& entry = entries_[(object >> 6) & (kEntries - 1)];
     if (entry.packet == packet_ && entry.object == object) return false;
@@ -46,12 +46,12 @@ private:
   uint32_t packet_ = 0, last_packet_ = 0;
 };
 
-/// The segment of each ray beyond `enter` up to `leave`, or without these the whole ray.
+/// The segment of each ray beyond `enter` and up to `leave`; the whole ray if these are null.
 struct RaySegment {
   const FloatLanes* enter;
   const FloatLanes* leave;
 
-  /// The lanes whose `distance` is within.
+  /// Returns the lanes whose `distance` is within the segment.
   template <class S> uint32_t contains(const typename S::F& distance) const {
     using F = typename S::F;
     if (enter == nullptr) return 0xFFFF;
@@ -61,14 +61,15 @@ struct RaySegment {
 
 /// Tests packets against objects of the scene, and merges the results. A strategy's ObjectShortcuts have:
 ///
-///   begin_occlusion(self)               shadow rays are about to be tested against an object
-///   end_occlusion(self, flags, dark)    an object has occluded lanes
-///   dims_at_once(at, crossings, lanes, light, dark)   whether a translucent surface that is crossed dims
-///                                       `light`, which may become another one; if not, `dark` lanes end
-///                                       there
-///   test_closest_shortly(rays, record, self, hits)    whether a test is done, of an object that is not
-///   simple test_occlusion_shortly(rays, record, self, distance, light, dark)   the same of one that is
-///   opaque forget_occluders()                  the records may be another scene's
+///   begin_occlusion(self)               is called before shadow rays are tested against an object
+///   end_occlusion(self, flags, dark)    is called with the lanes that an object occludes
+///   dims_at_once(at, crossings, lanes, light, dark)   true if a crossed translucent surface attenuates
+///                                       `light`, which may become another one, at once; if not, shadow rays
+///                                       of `dark` lanes end there
+///   test_closest_shortly(rays, record, self, hits)    tests an object that is not simple; false: it did not
+///   test_occlusion_shortly(rays, record, self, distance, light, dark)   tests an opaque object that is not
+///                                       simple against shadow rays; false: it did not
+///   forget_occluders()                  is called when the records may be another scene's
 template <class Spu>
 class ObjectTests : public Strategy<Spu>::template ObjectShortcuts<ObjectTests<Spu>, Spu> {
   using Shortcuts = typename Strategy<Spu>::template ObjectShortcuts<ObjectTests, Spu>;
@@ -82,7 +83,8 @@ public:
 
   explicit ObjectTests(SceneAccess<Spu>& scene) : scene_(scene) {}
 
-  // Some are not inlined: the tests are most of the program's code, and one copy of each saves local store.
+  // Some functions are not inlined: the tests are most of the program's code, and one copy of each saves
+  // local store.
 
   /// Tests an object and keeps hits that are closer than those in `hits`.
   CELLTRACE_ONE_COPY void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
@@ -95,8 +97,8 @@ public:
 
   /// Returns the lanes that an object occludes. An opaque object is tested against all lanes of the packet,
   /// the first time only. A translucent object attenuates the light of `lanes` by each crossing within
-  /// `segment`: one that lies in several voxels is tested in each of them, but every crossing counts once.
-  /// Lanes that this leaves without light are returned.
+  /// `segment`: an object in several voxels is tested in each of them, but every crossing counts once. Lanes
+  /// without light after that are returned, too.
   CELLTRACE_ONE_COPY uint32_t occluded(const RayPacket& rays, uint32_t self, uint32_t lanes,
                                        const FloatLanes& distance, VectorLanes& light,
                                        const RaySegment& segment = {nullptr, nullptr}) {
@@ -105,7 +107,7 @@ public:
     const uint32_t flags = object.kind_and_flags;
     const uint32_t material = material_word::offset(object.material);
     if ((flags & object_flag::no_shadow) != 0) return 0;
-    // Of instances, which take long, only the rays that are asked for: they may come back for others.
+    // Tests of instances take long and are limited to `lanes`; other rays may have to be tested later.
     const bool all_at_once = !is_instance(flags) || segment.enter != nullptr;
     if ((flags & object_flag::opaque) != 0 && all_at_once && !hit_filter_.first_test(self)) return 0;
     Shortcuts::begin_occlusion(self);
@@ -119,13 +121,14 @@ public:
     Shortcuts::end_occlusion(self, flags, dark & lanes);
     return dark;
   }
-  /// Tests the objects that no accelerator has, and so many of the others. They lie before these: as in
-  /// POV-Ray, where one is at the same distance as another object, it is what is seen.
+  /// Tests the unbounded objects, which are in no accelerator, and the first `others` of the other objects.
+  /// Unbounded objects precede the others: as in POV-Ray, they are seen if another object is at the same
+  /// distance.
   void test_unbounded(const FrameBlock& frame, RayQuery& query, uint32_t others = 0) {
     test_list(frame.object_offset - frame.unbounded_count * kObjectBytes, frame.unbounded_count + others,
               query);
   }
-  /// The same of `count` objects from `self` on.
+  /// Tests `count` objects that follow each other from offset `self` on.
   void test_list(uint32_t self, uint32_t count, RayQuery& query) {
     hit_filter_.begin_packet();
     for (uint32_t i = 0; i < count && query.lanes != 0; ++i, self += kObjectBytes) {
@@ -136,7 +139,7 @@ public:
     }
   }
 
-  /// Lanes whose near or far crossing lies between their origin and the light.
+  /// Lanes whose near or far crossing lies between the ray's origin and the light.
   struct ShadowHits {
     uint32_t near, far;
   };
@@ -149,28 +152,29 @@ public:
 
   static constexpr auto kObjectBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
 
-  /// The lanes of the rays to be tested that come from a mirror, as no others see or do not see some objects.
+  /// Sets the lanes of the rays under test that come from a mirror, as the visibility of some objects depends
+  /// on that.
   void set_reflected(uint32_t lanes) { reflected_ = lanes; }
 
   SceneAccess<Spu>& scene() { return scene_; }
   HitFilter& hit_filter() { return hit_filter_; }
   TraversalCounters& counters() { return counters_; }
   const TraversalCounters& counters() const { return counters_; }
-  /// The records may be another scene's from now on.
+  /// Resets counters and forgets occluders: the records may be another scene's from now on.
   void begin_frame() {
     counters_ = TraversalCounters();
     Shortcuts::forget_occluders();
   }
 
 private:
-  /// Spheres, triangles and planes that are no parts of a CSG, and seen by all rays: their code is always
-  /// there, and their test reads no further record.
+  /// Returns true for spheres, triangles and planes that are not part of a CSG and are visible to all rays:
+  /// their code is resident, and their tests read no further record.
   static bool is_simple(uint32_t flags) {
     return (flags & (object_flag::kind_mask | object_flag::csg | object_flag::selective)) <=
            static_cast<uint32_t>(ObjectKind::plane);
   }
 
-  /// As occluded(), for crossings with the object.
+  /// Returns the lanes that an object with these crossings occludes; see occluded().
   uint32_t occluded_by(const RayPacket& rays, const Crossings<S>& c, uint32_t flags, uint32_t material,
                        uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
                        const RaySegment& segment) {
@@ -183,7 +187,7 @@ private:
     if (far != 0) dark |= cross_translucent(rays, c.far, c, flags, material, far, light);
     return dark;
   }
-  /// As attenuate(), unless what the surface lets through is kept for later.
+  /// Attenuates `light` by a surface as attenuate() does, unless a shortcut keeps the crossing for later.
   uint32_t cross_translucent(const RayPacket& rays, const F& at, const Crossings<S>& c, uint32_t flags,
                              uint32_t material, uint32_t lanes, VectorLanes& light) {
     VectorLanes* dimmed = &light;
@@ -192,7 +196,7 @@ private:
     return attenuate(rays, at, c, flags, material, lanes, *dimmed);
   }
 
-  // Objects that are not simple: their crossings are several pairs, and count where the CSG's condition
+  // Objects that are not simple have several pairs of crossings, which count if the condition of the CSG
   // holds.
 
   CELLTRACE_ONE_COPY void test_closest_of_other(const RayPacket& rays, const ObjectRecord& record,
@@ -217,7 +221,7 @@ private:
         accept(rays, other.csg(), near, far, false, reflected_, c);
       }
       keep_closest<S>(c, self, hits);
-      const F least(kMinHitDistance); // other crossings of rays that have a hit are farther
+      const F least(kMinHitDistance); // other crossings of rays with a hit are farther
       other.end(((c.near_hit & (c.near > least)) | (c.far_hit & (c.far > least))).bits());
     }
   }
@@ -254,7 +258,7 @@ private:
     counters_.visits += work.nodes;
     counters_.tests[static_cast<uint32_t>(ObjectKind::triangle)] += work.triangles;
   }
-  /// All instances are opaque.
+  /// Returns the lanes that an instance occludes; all instances are opaque.
   CELLTRACE_ONE_COPY uint32_t occluded_by_instance(const RayPacket& rays, const ObjectRecord& record,
                                                    uint32_t lanes, const FloatLanes& distance) {
     HitPacket hits;
@@ -269,7 +273,8 @@ private:
   /// The crossings of a packet with an object that is not simple.
   class Other {
   public:
-    /// Those up to `limit`, of which one beyond `enough` may do; not of an object that is a part of a CSG.
+    /// Looks for crossings up to `limit`. If a ray has one beyond `enough`, its others need not be found,
+    /// unless the object is part of a CSG.
     Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self, float enough,
           const FloatLanes& limit)
         : tests_(tests), rays_(rays), self_(self) {
@@ -294,14 +299,14 @@ private:
       module_polygons::cut_out(tests.scene_, extra, pairs[0]);
     }
 
-    /// Goes on to the next pair that some ray has; false: there is none.
+    /// Advances to the next pair of crossings of any ray; false: there is none.
     bool next() {
       return sequence_.next([this](const FloatLanes& after, Crossings<S>& c) { find_after(after, c); });
     }
     Crossings<S>& crossings() { return sequence_.current(); }
-    /// No more crossings of these rays are asked for.
+    /// Ends the search for crossings of some rays.
     void end(uint32_t lanes) { sequence_.end(lanes); }
-    /// The offset of the object's condition.
+    /// Returns the offset of the object's CSG condition.
     uint32_t csg() const { return csg_; }
 
   private:
@@ -323,15 +328,15 @@ private:
     CrossingSequence<S, Primitives::kSomeGoOn> sequence_;
   };
 
-  /// Leaves those of the crossings in `near` and `far` that satisfy the condition; of a ray's two the far one
-  /// may be left out unless `asks_both`.
+  /// Removes crossings that do not satisfy the condition; `near` and `far` are the candidates. If a ray's
+  /// near crossing is accepted, its far one may be left out unless `asks_both`.
   void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, bool asks_both,
               uint32_t reflected, Crossings<S>& c) {
     c.near_hit = accepted(rays, condition, c.near, near.bits(), reflected);
     const uint32_t known = asks_both ? 0 : c.near_hit.bits();
     c.far_hit = accepted(rays, condition, c.far, far.bits() & ~known, reflected);
   }
-  /// Not inlined: it is asked in four places.
+  /// Returns the lanes of crossings that satisfy the condition. Not inlined, as it is called in four places.
   CELLTRACE_ONE_COPY M accepted(const RayPacket& rays, uint32_t condition, const F& distance, uint32_t lanes,
                                 uint32_t reflected) {
     if (lanes == 0) return M::none();
@@ -341,7 +346,7 @@ private:
   }
 
   /// Multiplies the light of `lanes` by the transmittance of a translucent surface that they cross at `at`.
-  /// Returns those of which hardly any is left: a ray with less than 1e-10 of it in each channel can stop.
+  /// Returns the lanes with hardly any light left: a ray can stop with less than 1e-10 in each channel.
   CELLTRACE_ONE_COPY uint32_t attenuate(const RayPacket& rays, const F& at, const Crossings<S>& c,
                                         uint32_t flags, uint32_t material, uint32_t lanes,
                                         VectorLanes& light) {
@@ -349,7 +354,8 @@ private:
     using RF = typename R::F;
     scene_.spu().compute(scalar_work::kFilter);
     const V3<S> points = rays.origin.template load<S>() + rays.direction.template load<S>() * at;
-    // Copies: by reference the crossings would be copied, where nothing is translucent too.
+    // The copies avoid a copy of all crossings by reference, which would be made even if nothing is
+    // translucent.
     const F all_u = c.u, all_v = c.v;
     uint32_t dark = 0;
     for_each_part<Spu>([&](uint32_t first) {
@@ -367,7 +373,7 @@ private:
     return dark;
   }
 
-  /// Of a simple object.
+  /// Tests a simple object.
   Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
     ++counters_.tests[kind];

@@ -1,4 +1,4 @@
-// Traverses the BVH with one packet of rays, from any node on. Kernel dialect.
+// Traversal of the BVH with one packet of rays, from any node on. Kernel dialect.
 //
 // The nearest child is traversed first. If the packet's frustum hits several children of a node, each of them
 // is tested against the rays themselves, because a frustum may hit what lies between its rays; if it hits one
@@ -13,7 +13,7 @@
 
 namespace celltrace::kernel {
 
-/// Rays of a packet that are traversed together; their directions are of one octant.
+/// A group of a packet's rays that are traversed together; their directions are in one octant.
 template <class S> struct RayGroup {
   OctantRays<S> rays;
   Frustum<S> frustum;
@@ -21,13 +21,13 @@ template <class S> struct RayGroup {
 
 /// Traverses the BVH with packets. A strategy's PacketSteps have:
 ///
-///   kMaxInterleaved                     traversals at a time, at most
-///   interleaves()                       whether traverse_interleaved() is faster than one after the other
-///   tnear(query)                        the distance before which rays leave nodes whose hits are too near
-///   test_leaf(leaf, group, query)       whether the objects of a leaf have been tested together
-///   Deferred                            leaves that wait until there `are_enough()`
-///   defer(slot, state, leaf, query)     whether a leaf waits
-///   test_deferred(slot, state, query)   tests those that wait
+///   kMaxInterleaved                     largest number of interleaved traversals
+///   interleaves()                       true if traverse_interleaved() is faster than one after the other
+///   tnear(query)                        distance up to which nodes may be left out, as hits are too near
+///   test_leaf(leaf, group, query)       tests the objects of a leaf together; false: it did not
+///   Deferred                            type of the deferred leaves, which wait until there `are_enough()`
+///   defer(slot, state, leaf, query)     defers a leaf; false: it did not
+///   test_deferred(slot, state, query)   tests the deferred leaves
 template <class Spu>
 class PacketTraversal : public Strategy<Spu>::template PacketSteps<PacketTraversal<Spu>, Spu> {
   using Steps = typename Strategy<Spu>::template PacketSteps<PacketTraversal, Spu>;
@@ -38,15 +38,14 @@ public:
   using F = typename S::F;
   using M = typename S::M;
 
-  /// Relative epsilon of tfar, as a factor. Distances to hits are rounded; and a node at the distance of a
-  /// hit must still be traversed, because it may hold an object at the same distance that precedes in the
-  /// scene.
+  /// Relative epsilon of tfar, as a factor. Distances to hits are rounded, and a node at the distance of a
+  /// hit must still be traversed: it may hold an object at the same distance that comes first in the scene.
   static constexpr float kTfarSlack = 1.00001f;
   static constexpr uint32_t kMaxSplitPackets = kBundlePackets<Spu> >= 16 ? tuning::kMaxSplitPackets : 1;
   using Stack = TraversalStack<kMaxSplitPackets>;
 
-  /// A node to traverse with a packet. `lanes` are the rays of the packet that `group` consists of, `hit`
-  /// those of them that hit the node.
+  /// A node to traverse with a packet. `lanes` are the packet's rays in `group`, `hit` those of them that hit
+  /// the node.
   struct Task {
     const RayGroup<S>* group;
     RayQuery* query;
@@ -70,8 +69,8 @@ public:
     visitor.end();
   }
 
-  /// The same for several tasks, each of a different packet, interleaved: while the node that one traversal
-  /// needs is fetched from memory, another one advances.
+  /// Traverses the subtrees of several tasks, each of a different packet, interleaved: while the node that
+  /// one traversal needs is fetched from memory, another one advances.
   void traverse_interleaved(const Task* tasks, uint32_t count, const SlabOrder& order) {
     Interleaved interleaved[kMaxInterleaved];
     for (uint32_t i = 0; i < count; ++i) {
@@ -87,7 +86,7 @@ public:
         const auto i = static_cast<uint32_t>(__builtin_ctz(left));
         Interleaved& traversal = interleaved[i];
         objects_.hit_filter().resume_packet(traversal.packet);
-        // A copy of the state, which can stay in registers until the traversal is suspended.
+        // The copy of the state can stay in registers until the traversal is suspended.
         const Task& task = tasks[i];
         PacketVisitor<true> visitor = {*this,       slots_[i],       order,      *task.group,
                                        *task.query, traversal.state, task.lanes, traversal.floor};
@@ -100,11 +99,11 @@ public:
       }
   }
 
-  /// The tfar of each ray: the distance of its closest hit so far, or of the light.
+  /// Returns the tfar of each ray: the distance of its closest hit so far, or of the light.
   static F tfar(const RayQuery& query) {
     return F::load(query.hits != nullptr ? query.hits->distance.lane : query.distance->lane);
   }
-  /// The greatest tfar of the rays in `group`, with kTfarSlack. Distances are positive.
+  /// Returns the greatest tfar of the rays in `group`, times kTfarSlack. Distances are positive.
   CELLTRACE_ONE_COPY static float tfar_of(const RayQuery& query, uint32_t group) {
     if (is_single(group)) {
       const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
@@ -114,7 +113,7 @@ public:
     return kTfarSlack * interval_of<S>(S::select(M::from_bits(group), tfar(query), F(0.0f))).high;
   }
 
-  /// Tests the objects of a leaf, which the rays in `group` hit.
+  /// Tests the objects of a leaf that the rays in `group` hit.
   void test_objects(const NodeRef& leaf, uint32_t group, RayQuery& query) {
     if (Steps::test_leaf(leaf, group, query)) return;
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
@@ -128,8 +127,8 @@ public:
   }
 
 private:
-  /// What is being traversed: the rays in `group`, with their frustum, up to `tfar`. Stack entries below
-  /// `floor` belong to others.
+  /// State of a traversal: the rays in `group`, with their frustum, up to `tfar`. Stack entries below `floor`
+  /// belong to other traversals.
   struct TraversalState {
     const Frustum<S>* frustum;
     uint32_t group, floor;
@@ -140,7 +139,7 @@ private:
   struct Slot {
     Stack stack;
     [[no_unique_address]] typename Steps::Deferred deferred;
-    Frustum<S> single; ///< of the ray that has been split off
+    Frustum<S> single; ///< frustum of a ray that has been split off
   };
 
   /// An interleaved traversal that is suspended.
@@ -150,8 +149,8 @@ private:
     uint32_t floor, packet; ///< `packet` identifies it for the hit filter
   };
 
-  /// A traversal for traverse_nodes(). If it is one of several, it is suspended where it needs a node that
-  /// was prefetched only just now.
+  /// A traversal for traverse_nodes(). An interleaved one is suspended when it needs a node that has just
+  /// been prefetched.
   template <bool kInterleaved> struct PacketVisitor {
     PacketTraversal& traversal;
     Slot& slot;
@@ -160,7 +159,7 @@ private:
     RayQuery& query;
     TraversalState state;
     const uint32_t lanes, floor;
-    bool hinted = false; ///< the last node was expanded, and one of its children is to be traversed next
+    bool hinted = false; ///< true after the last node was expanded if one of its children is traversed next
 
     [[gnu::always_inline]] bool expand(NodeRef& ref) {
       [[maybe_unused]] const uint32_t size = slot.stack.size();
@@ -193,8 +192,8 @@ private:
   }
 
   /// Pops the next node or leaf; false if there is none. A node that only one ray of the group `whole` hits
-  /// is traversed for that ray only: its own frustum is tighter and hits fewer children. The group continues
-  /// once the stack is back at its entries.
+  /// is traversed for that ray only, whose own frustum is tighter and hits fewer children. The group
+  /// continues once the stack is back at the group's entries.
   bool pop_next(Slot& slot, TraversalState& state, const TraversalState& whole, const RayQuery& query,
                 NodeRef& ref) {
     const uint32_t lanes = whole.group;
@@ -227,14 +226,15 @@ private:
     state = {&slot.single, ray, slot.stack.size(), tfar_of(query, ray)};
   }
 
-  /// Tests the objects of a leaf, or defers it with a few others until after a node is expanded. Meanwhile
-  /// its objects are prefetched; and while they are tested, the children of that node are.
+  /// Tests the objects of a leaf, or defers the leaf with a few others until after a node is expanded.
+  /// Meanwhile its objects are prefetched; and while they are tested, the children of that node are
+  /// prefetched.
   void intersect_leaf(Slot& slot, TraversalState& state, const NodeRef& leaf, RayQuery& query) {
     if (Steps::defer(slot, state, leaf, query)) return;
     test_objects(leaf, state.group, query);
     update_state(slot, state, query);
   }
-  /// Shortens tfar after hits, or ends the traversal of a group that is wholly occluded.
+  /// Shortens tfar after hits, or ends the traversal of a group whose rays are all occluded.
   void update_state(Slot& slot, TraversalState& state, const RayQuery& query) {
     if (query.hits != nullptr)
       state.tfar = tfar_of(query, state.group);
@@ -243,7 +243,7 @@ private:
   }
 
   /// Intersects the children of node `ref` with the group. If its frustum hits one child, `ref` becomes that
-  /// child and the result is true. If it hits several, those that are hit by a ray are pushed.
+  /// child and the result is true. If it hits several, the children that a ray hits are pushed.
   bool expand(Slot& slot, const TraversalState& state, const OctantRays<S>& rays, const SlabOrder& order,
               const RayQuery& query, NodeRef& ref) {
     objects_.scene().spu().compute(scalar_work::kBvhNode);
@@ -264,7 +264,7 @@ private:
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(hit));
       hit &= hit - 1;
       objects_.scene().spu().compute(scalar_work::kBvhChild);
-      // For a single ray, the frustum is the ray.
+      // The frustum of a single ray is as tight as the ray.
       const uint32_t lanes =
           is_single(group) ? group : rays.intersect(node.bounds, order, i, each_tfar, tnear(query)) & group;
       if (lanes == 0) continue;

@@ -1,12 +1,12 @@
-// What PREPARE FRAME has to say about an accelerator. Kernel dialect.
+// The result of building an accelerator. Kernel dialect.
 #pragma once
 
 #include <stdint.h>
 
 namespace celltrace::kernel {
 
-/// `entries`: (voxel, object) pairs of a grid, nodes of a BVH. If there was no room for so many,
-/// nothing was built.
+/// The result of PREPARE FRAME. `entries` counts (voxel, object) pairs of a grid or nodes of a BVH. If memory
+/// did not suffice for them, nothing was built.
 struct PrepareResult {
   uint32_t entries;
   bool built;

@@ -1,4 +1,4 @@
-// Sorts pairs in main memory by a radix sort, least significant digit first. Kernel dialect.
+// Radix sort of pairs in main memory, least significant digit first. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/stream.hpp"
@@ -16,13 +16,13 @@ constexpr uint32_t kSortDigitBits = 8, kSortBuckets = 1u << kSortDigitBits;
 
 template <class Spu> class RadixSort {
 public:
-  /// Allocates its buffers in local store. Uses tags 8 to 15, and those of `reader`.
+  /// Allocates the buffers in local store. Uses tags 8 to 15, and those of `reader`.
   RadixSort(Spu& spu, StreamReader<Spu, SortPair>& reader)
       : spu_(spu), reader_(reader), next_(spu.template allocate<uint32_t>(kSortBuckets)),
         begin_(spu.template allocate<uint32_t>(kSortBuckets)), target_(spu, begin_, next_) {}
 
   /// Sorts `count` pairs that lie at buffers[0] by the low `bits` of their keys, stably; buffers are 128-byte
-  /// aligned and of equal size. Returns which of them holds the result.
+  /// aligned and of equal size. Returns the index of the buffer with the result.
   uint32_t sort(const ea_t (&buffers)[2], uint32_t count, uint32_t bits) {
     uint32_t from = 0;
     for (uint32_t shift = 0; shift < bits; shift += kSortDigitBits, from ^= 1)
@@ -58,9 +58,9 @@ private:
 
   Spu& spu_;
   StreamReader<Spu, SortPair>& reader_;
-  uint32_t* next_;  ///< by bucket: the place of its next pair
-  uint32_t* begin_; ///< by bucket: that of its first one
-  /// Puts pairs to the next places of their buckets; after finish() they have arrived.
+  uint32_t* next_;  ///< index: bucket; index of its next pair
+  uint32_t* begin_; ///< index: bucket; index of its first pair
+  /// Stores pairs at the next places of their buckets; after finish() they are in main memory.
   typename Strategy<Spu>::template SortTarget<Spu> target_;
 };
 

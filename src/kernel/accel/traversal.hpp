@@ -1,5 +1,5 @@
-// Ray queries by the accelerator that the frame has: closest hits, and the transmittance toward a light.
-// Kernel dialect.
+// Ray queries with the frame's accelerator: closest hits, and the transmittance toward a light. Kernel
+// dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -8,15 +8,16 @@
 
 namespace celltrace::kernel {
 
-/// Accelerators that a program can use: bits, so that what it never uses takes no local store.
+/// Sets of accelerators that a program can use, as bits; code of accelerators that it never uses takes no
+/// local store.
 constexpr uint32_t kGridOnly = 1u << static_cast<uint32_t>(AcceleratorKind::grid);
 constexpr uint32_t kBvhOnly = 1u << static_cast<uint32_t>(AcceleratorKind::bvh);
 constexpr uint32_t kAnyAccelerator = kGridOnly | kBvhOnly;
 
 /// Answers ray queries with the uniform grid or the BVH. A strategy's BundleQueries have:
 ///
-///   intersect_toward(queries, count, light)   whether the queries toward a light have been answered together
-///   lists_all()                         whether all objects are tested, without an accelerator
+///   intersect_toward(queries, count, light)   answers the queries toward a light together; false: it did not
+///   lists_all()                         true if all objects are tested, without an accelerator
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 class Traversal : public Strategy<Spu>::template BundleQueries<Traversal<Spu, kAccelerators>, Spu> {
   using Bundles = typename Strategy<Spu>::template BundleQueries<Traversal, Spu>;
@@ -29,7 +30,7 @@ public:
   Traversal(SceneAccess<Spu>& scene, const FrameBlock& frame)
       : Bundles(frame), frame_(frame), objects_(scene), grid_(objects_, frame.grid), bvh_(objects_, frame) {}
 
-  /// Finds the closest hit of each ray in `lanes`, of which `reflected` come from a mirror. The results of
+  /// Finds the closest hit of each ray in `lanes`; the `reflected` lanes come from a mirror. The results of
   /// other lanes are undefined.
   void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits, uint32_t reflected = 0) {
     RayQuery query = {&rays, &hits, nullptr, nullptr, lanes};
@@ -38,16 +39,16 @@ public:
     objects_.set_reflected(0);
   }
 
-  /// Multiplies `light` of each ray in `lanes` by the transmittance between its origin and `distance` along
-  /// it: 0 if an opaque object occludes it, otherwise the product over the translucent surfaces that it
-  /// crosses. The light of other lanes becomes 0.
+  /// Multiplies `light` of each ray in `lanes` by the transmittance between the ray's origin and `distance`:
+  /// 0 if an opaque object occludes it, otherwise the product over the translucent surfaces that it crosses.
+  /// The light of other lanes becomes 0.
   void transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
     intersect_packet(query);
   }
 
-  /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
-  /// do, before the light; the light of the others becomes 0.
+  /// Shortens shadow rays to their first crossing with the projector of a light. Returns the lanes that cross
+  /// it before the light; the light of the other lanes becomes 0.
   CELLTRACE_ONE_COPY uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                       FloatLanes& distance, VectorLanes& colour) {
     HitPacket hits;
@@ -62,8 +63,8 @@ public:
   }
 
   /// Answers all queries, at most one for each packet of a bundle, either all for hits or all for light. If
-  /// their rays are coherent, this is faster than packet by packet. Not inlined, as intersect_packet() is
-  /// not: local store has room for one copy of each.
+  /// the rays are coherent, this is faster than packet by packet. Not inlined, like intersect_packet(): local
+  /// store has room for one copy of each.
   CELLTRACE_ONE_COPY void intersect(RayQuery* queries, uint32_t count) {
     reset_hits(queries, count);
     intersect_listed(queries, count);
@@ -85,7 +86,7 @@ public:
     clear_occluded(&query, 1);
   }
 
-  /// The same for shadow rays toward one light. May change the order of the queries.
+  /// Answers queries of shadow rays toward one light. May change the order of the queries.
   void intersect(RayQuery* queries, uint32_t count, const LightRecord& light) {
     if (!Bundles::intersect_toward(queries, count, light)) intersect(queries, count);
   }
@@ -116,7 +117,7 @@ private:
       store_words<S>(hits->object, S::I::splat(-1));
     }
   }
-  /// Tests the objects that no accelerator has, and all others if they are few.
+  /// Tests the objects that are in no accelerator, and all others if they are few.
   void intersect_listed(RayQuery* queries, uint32_t count) {
     if (frame_.unbounded_count != 0 || Bundles::lists_all()) test_listed(queries, count);
   }
@@ -126,7 +127,7 @@ private:
       objects_.test_unbounded(frame_, queries[i], others);
   }
 
-  /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.
+  /// Sets the light of a query to 0 in lanes that are occluded or were not in the query.
   CELLTRACE_ONE_COPY static void clear_occluded(const RayQuery* queries, uint32_t count) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t i = 0; i < count; ++i) {

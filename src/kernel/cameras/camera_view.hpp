@@ -1,4 +1,4 @@
-// What kinds of cameras make rays of. Kernel dialect.
+// Input and output of the kinds of cameras. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -7,29 +7,31 @@
 
 namespace celltrace::kernel {
 
-/// What all rays of a camera have in common.
+/// The common property of all rays of a camera.
 enum class SharedByRays { origin, direction, nothing };
 
-/// The picture of a curved camera: what kinds are told of it, by whom fills a CameraRecord.
+/// Parameters of a curved camera's picture, from which the kind computes a CameraPicture for the
+/// CameraRecord.
 struct CameraView {
   double angle, vertical_angle; ///< radians
   double width, height;         ///< lengths of right and up
 };
-/// Where its pixels are: from the middle it reaches half a width to both sides, and half a height.
+/// The extent of a curved camera's picture: half a width to the left and right of the middle, and half a
+/// height up and down.
 struct CameraPicture {
   double half_width, half_height;
-  double middle = 0; ///< the vertical coordinate there
-  double bend = 0;   ///< of the record
+  double middle = 0; ///< vertical coordinate of the middle
+  double bend = 0;   ///< CameraRecord::bend
 };
 
-/// Where the rays of a packet are on the picture of a curved camera, and what becomes of them.
+/// The positions of a packet's rays on the picture of a curved camera, and the resulting rays.
 template <class S> struct CameraRays {
   V3<S> origin;
   V3<S> direction;    ///< along the camera's axes: right, up and forward; of any length
-  typename S::F x, y; ///< from the middle, in the units of the CameraPicture
+  typename S::F x, y; ///< distance from the middle, in the units of the CameraPicture
 };
 
-/// A vector along the axes of a camera in the scene.
+/// Converts a vector along the axes of a camera to the scene's axes.
 template <class S> V3<S> along_axes(const CameraRecord& camera, const V3<S>& v) {
   return splat3<S>(camera.dx) * v.x + splat3<S>(camera.dy) * v.y + splat3<S>(camera.base) * v.z;
 }

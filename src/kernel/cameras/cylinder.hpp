@@ -1,4 +1,5 @@
-// Pictures on a cylinder, which stands or lies, seen from its middle or from its axis. Kernel dialect.
+// Cameras that project onto a standing or lying cylinder, seen from its middle or from its axis. Kernel
+// dialect.
 #pragma once
 
 #include "kernel/cameras/camera_view.hpp"
@@ -7,13 +8,13 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// Columns are angles, rows heights.
+/// Columns are angles, rows are heights.
 struct StandingCylinder {
   static constexpr bool kIsFlat = false;
   static constexpr bool kHasUnitAxes = true;
   static constexpr CameraPicture picture(const CameraView& view) { return {view.angle / 2, view.height / 2}; }
 };
-/// Rows are angles, columns widths.
+/// Rows are angles, columns are widths.
 struct LyingCylinder {
   static constexpr bool kIsFlat = false;
   static constexpr bool kHasUnitAxes = true;
@@ -22,7 +23,7 @@ struct LyingCylinder {
 
 } // namespace detail
 
-/// POV-Ray's `cylinder 1`: standing, seen from a point.
+/// POV-Ray's `cylinder 1`: a standing cylinder seen from a point.
 struct Cylinder1Camera : detail::StandingCylinder {
   static constexpr const char* kName = "cylinder 1";
   static constexpr SharedByRays kShared = SharedByRays::origin;
@@ -35,7 +36,7 @@ struct Cylinder1Camera : detail::StandingCylinder {
   }
 };
 
-/// `cylinder 2`: lying, seen from a point.
+/// POV-Ray's `cylinder 2`: a lying cylinder seen from a point.
 struct Cylinder2Camera : detail::LyingCylinder {
   static constexpr const char* kName = "cylinder 2";
   static constexpr SharedByRays kShared = SharedByRays::origin;
@@ -48,7 +49,7 @@ struct Cylinder2Camera : detail::LyingCylinder {
   }
 };
 
-/// `cylinder 3`: standing, each row seen from its height.
+/// POV-Ray's `cylinder 3`: a standing cylinder, each row seen from its own height.
 struct Cylinder3Camera : detail::StandingCylinder {
   static constexpr const char* kName = "cylinder 3";
   static constexpr SharedByRays kShared = SharedByRays::nothing;
@@ -62,7 +63,7 @@ struct Cylinder3Camera : detail::StandingCylinder {
   }
 };
 
-/// `cylinder 4`: lying, each column seen from its place.
+/// POV-Ray's `cylinder 4`: a lying cylinder, each column seen from its own position.
 struct Cylinder4Camera : detail::LyingCylinder {
   static constexpr const char* kName = "cylinder 4";
   static constexpr SharedByRays kShared = SharedByRays::nothing;

@@ -1,4 +1,5 @@
-// A round picture: what is so far from its middle is in a direction so far from the middle's. Kernel dialect.
+// The fisheye camera: a round picture in which the distance from the middle is proportional to the angle from
+// the direction of view. Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/round_picture.hpp"

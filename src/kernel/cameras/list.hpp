@@ -1,15 +1,15 @@
-// All kinds of cameras. The order gives each its number in records, and is that of Camera::Kind. Kernel
+// All kinds of cameras. The order determines their numbers in records, and is that of Camera::Kind. Kernel
 // dialect.
 //
 // A kind C has
 //   kName
-//   kIsFlat       whether pixels are in a plane, evenly
-//   kShared       what all its rays have in common; if it is flat, origin or direction, and the plane gives
-//                 the other
+//   kIsFlat       true if pixels are evenly spaced in a plane
+//   kShared       the common property of all its rays; for a flat camera the origin or the direction, and the
+//                 plane determines the other one
 // and if it is not flat
-//   kHasUnitAxes          whether its axes are of unit length
-//   picture(view)         where its pixels are
-//   bend(record, rays)    from the places on the picture the directions, along the camera's axes, and the
+//   kHasUnitAxes          true if its axes are unit vectors
+//   picture(view)         returns the extent of the picture
+//   bend(record, rays)    computes directions, along the camera's axes, from positions on the picture, and
 //                         origins if they are not the location. Returns the lanes that have a ray.
 #pragma once
 
@@ -30,12 +30,12 @@ using Cameras = TypeList<PerspectiveCamera, OrthographicCamera, SphericalCamera,
                          Cylinder4Camera, FisheyeCamera>;
 template <class C> constexpr uint32_t kCameraKind = Cameras::number<C>();
 
-/// Whether all rays leave one point through a plane.
+/// Returns true if all rays leave one point through a plane.
 constexpr bool is_pinhole(const CameraRecord& camera) {
   return camera.sheaf == static_cast<uint32_t>(RaySheaf::pinhole);
 }
 
-/// How far rays of a camera that is far away start from it.
+/// Returns the distance from a distant camera to the start of its rays.
 template <class S> typename S::F way_to_start(const CameraRecord& camera, const V3<S>& direction) {
   const bool is_parallel = camera.sheaf == static_cast<uint32_t>(RaySheaf::parallel);
   return

@@ -1,4 +1,4 @@
-// Parallel rays from a plane. Kernel dialect.
+// The orthographic camera: parallel rays from a plane. Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/camera_view.hpp"

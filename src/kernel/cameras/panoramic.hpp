@@ -1,4 +1,4 @@
-// A cylinder of 180 degrees whose height has no end. Kernel dialect.
+// The panoramic camera: a cylinder of 180 degrees and infinite height. Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/camera_view.hpp"
@@ -20,7 +20,7 @@ struct PanoramicCamera {
     typename S::F sine_x, cosine_x, sine_y, cosine_y;
     sin_cos<S>(rays.x, sine_x, cosine_x);
     sin_cos<S>(rays.y, sine_y, cosine_y);
-    // All times the cosine, which is positive, as the tangent may be large.
+    // All components are multiplied by the cosine, which is positive, as the tangent may be large.
     rays.direction = {sine_x * cosine_y, sine_y, cosine_x * cosine_y};
     return 0xFFFF;
   }

@@ -1,4 +1,4 @@
-// From a point through a plane. Kernel dialect.
+// The perspective camera: rays from a point through a plane. Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/camera_view.hpp"

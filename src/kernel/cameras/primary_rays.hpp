@@ -1,4 +1,4 @@
-// Render ray packet: the sixteen rays through a 4x4 block of pixels. Kernel dialect.
+// Primary rays of packets: the sixteen rays through a 4x4 block of pixels. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -19,7 +19,7 @@ alignas(64) constexpr float kLaneY[kSimdLanes] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 
 
 namespace module_cameras {
 
-/// The rays of a curved camera, or of one that is far away; returns the lanes that have one.
+/// Makes the rays of a curved or distant camera; returns the lanes that have a ray.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t bend(Spu& spu, const CameraRecord& camera, const typename Spu::simd::F& x,
                                  const typename Spu::simd::F& y, RayPacket& packet) {
@@ -54,8 +54,8 @@ CELLTRACE_ONE_COPY uint32_t bend(Spu& spu, const CameraRecord& camera, const typ
 
 } // namespace module_cameras
 
-/// Rays through points of the picture, `x` to the right of its middle and `y` below it, in pixels. Returns
-/// the lanes that have one: not all cameras see something in every pixel. What those do not see is black.
+/// Makes rays through points of the picture, `x` to the right of its middle and `y` below it, in pixels.
+/// Returns the lanes that have a ray: some cameras see nothing in some pixels, which are black.
 template <class Spu>
 uint32_t make_rays_through(Spu& spu, const CameraRecord& camera, const typename Spu::simd::F& x,
                            const typename Spu::simd::F& y, RayPacket& packet) {
@@ -74,8 +74,8 @@ uint32_t make_rays_through(Spu& spu, const CameraRecord& camera, const typename 
   return 0xFFFF;
 }
 
-/// Where the pixels of the packet at (column, row) are, both counted in packets. From the middle that the
-/// record says: about it nothing cancels.
+/// Return the positions of the pixels of the packet at (column, row), both counted in packets. Positions are
+/// relative to the middle that the record specifies, as nothing cancels there.
 template <class S> typename S::F pixels_across(const FrameBlock& frame, uint32_t column) {
   using F = typename S::F;
   return F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - frame.camera.middle_x);
@@ -85,7 +85,7 @@ template <class S> typename S::F pixels_down(const FrameBlock& frame, uint32_t r
   return F::load(detail::kLaneY) + F(static_cast<float>(row * kPacketEdge) - frame.camera.middle_y);
 }
 
-/// Rays of the packet at (column, row), as make_rays_through().
+/// Makes the rays of the packet at (column, row); see make_rays_through().
 template <class Spu>
 uint32_t make_primary_rays(Spu& spu, const FrameBlock& frame, uint32_t column, uint32_t row,
                            RayPacket& packet) {
@@ -94,7 +94,7 @@ uint32_t make_primary_rays(Spu& spu, const FrameBlock& frame, uint32_t column, u
                            packet);
 }
 
-/// Lanes of the packet that lie in the picture.
+/// Returns the lanes of a packet that lie in the picture.
 inline uint32_t lanes_in_picture(const FrameBlock& frame, uint32_t column, uint32_t row) {
   if ((column + 1) * kPacketEdge <= frame.width && (row + 1) * kPacketEdge <= frame.height) return 0xFFFF;
   const uint32_t columns = frame.width - column * kPacketEdge;

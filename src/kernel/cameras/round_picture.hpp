@@ -1,4 +1,4 @@
-// A circle of radius 1, outside of which a picture has no rays. Kernel dialect.
+// Positions on a round picture, which has no rays outside a circle of radius 1. Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/camera_view.hpp"
@@ -6,9 +6,9 @@
 namespace celltrace::kernel {
 
 template <class S> struct RoundPicture {
-  typename S::F radius;    ///< how far from the middle
-  typename S::F right, up; ///< the unit vector away from there; in the middle 0
-  uint32_t lanes;          ///< inside
+  typename S::F radius;    ///< distance from the middle
+  typename S::F right, up; ///< unit vector away from the middle; 0 in the middle
+  uint32_t lanes;          ///< lanes inside the circle
 
   explicit RoundPicture(const CameraRays<S>& rays) {
     using F = typename S::F;

@@ -1,4 +1,4 @@
-// All around: columns are longitudes, rows latitudes. Kernel dialect.
+// The spherical camera: columns are longitudes, rows are latitudes. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -16,7 +16,7 @@ struct SphericalCamera {
     return {view.angle / 2, view.vertical_angle / 2};
   }
 
-  /// The axes have to be at right angles, as they are in records of cameras that are far away.
+  /// Computes directions for axes at right angles, as those in records of distant cameras are.
   template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine_x, cosine_x, sine_y, cosine_y;
     sin_cos<S>(rays.x, sine_x, cosine_x);
@@ -25,8 +25,8 @@ struct SphericalCamera {
     return 0xFFFF;
   }
 
-  /// Directions in the scene. As in POV-Ray, forward turns about right and then about up, whatever their
-  /// angle is: a camera with the other hand sees upside down.
+  /// Returns directions in the scene. As in POV-Ray, forward turns about right and then about up, whatever
+  /// angles the axes have: a camera of the other handedness sees upside down.
   template <class S> static V3<S> turn(const CameraRecord& camera, const CameraRays<S>& rays) {
     const typename S::F zero(0.0f);
     const V3<S> raised = turned<S>(splat3<S>(camera.base), splat3<S>(camera.dx), zero - rays.y);
@@ -34,7 +34,7 @@ struct SphericalCamera {
   }
 
 private:
-  /// By Rodrigues's formula.
+  /// Returns `v` turned about a unit vector, by Rodrigues's formula.
   template <class S>
   CELLTRACE_ONE_COPY static V3<S> turned(const V3<S>& v, const V3<S>& axis, const typename S::F& angle) {
     typename S::F sine, cosine;

@@ -1,4 +1,4 @@
-// Angles in place of the lengths of a perspective picture. Kernel dialect.
+// The ultra_wide_angle camera: angles take the place of a perspective picture's lengths. Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/camera_view.hpp"

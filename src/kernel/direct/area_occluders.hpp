@@ -1,7 +1,7 @@
-// What may be in the way between surfaces and a light that has an area. Kernel dialect.
+// Possible occluders between surfaces and an area light. Kernel dialect.
 //
-// The points of a packet and the places of the light are in a box each. What is between them is where a box
-// is that changes from the one to the other as time t goes from 0 to 1: on each axis, both of its planes move
+// The points of a packet and the places of the light are in a box each. The space between them is swept by a
+// box that changes from one to the other as time t goes from 0 to 1: on each axis, both of its planes move
 // evenly, so that a node is touched while two linear inequalities hold (shaft culling: Haines and Wallace,
 // Shaft culling for efficient ray-traced radiosity, 1991).
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace celltrace::kernel {
 
-/// A box that moves from where surfaces are to where a light is.
+/// A box that moves from surfaces to a light.
 template <class S> class Shaft {
 public:
   using F = typename S::F;
@@ -45,7 +45,7 @@ public:
     }
   }
 
-  /// Which children of a node it touches, bit i for child i.
+  /// Returns the children of a node that the shaft touches, bit i for child i.
   uint32_t intersect(const float (&bounds)[6][4]) const {
     F4 enter = F4::splat(0.0f), leave = F4::splat(1.0f);
     for (const Side& side : sides_) {
@@ -58,7 +58,8 @@ public:
     return not_above_bits(enter, leave);
   }
 
-  /// Whether all of it is on one side of the plane normal * p + offset = 0, given as four numbers.
+  /// Returns true if the whole shaft is on one side of the plane normal * p + offset = 0, given as four
+  /// numbers.
   bool is_beside(const float* plane) const {
     Interval both = {plane[3], plane[3]}, other = both;
     for (uint32_t axis = 0; axis < 3; ++axis) {
@@ -68,7 +69,7 @@ public:
     return (both.low > 0.0f && other.low > 0.0f) || (both.high < 0.0f && other.high < 0.0f);
   }
 
-  /// Whether a sphere contains all of it.
+  /// Returns true if a sphere contains the whole shaft.
   bool is_in_sphere(const float* centre, float square_of_radius) const {
     const auto square_of_way = [&](const Interval(&box)[3]) {
       float sum = 0.0f;
@@ -83,15 +84,16 @@ public:
   }
 
 private:
-  /// Far more than rounding moves the planes of nodes and rays.
+  /// Epsilons of the planes, which are much larger than the rounding errors of nodes and rays.
   static constexpr float kRelativeEpsilon = 1e-5f;
   static constexpr float kEpsilon = 1e-6f;
   static constexpr float kTiny = 1e-30f;
 
-  /// One of the box's planes, and the plane of a node that it has to be before or behind: from or until when.
+  /// A plane of the moving box, the plane of a node that it has to pass, and whether this begins or ends the
+  /// contact.
   struct Side {
     float begin, inverse;
-    uint32_t row; ///< of NodeRecord::bounds
+    uint32_t row; ///< row of NodeRecord::bounds
     bool ends;
   };
 
@@ -101,7 +103,8 @@ private:
     const float moved = backward ? smaller(way, -kTiny) : larger(way, kTiny);
     sides_[number] = {begin, 1.0f / moved, row, is_low != backward};
   }
-  /// Places are jittered by half the distance between them, and circles are a little off the middle.
+  /// Returns half the extent of a light in units of its axis: places are jittered by half the distance
+  /// between them, and circles are slightly off the middle.
   static float half_extent(uint32_t places, float inverse) {
     return places > 1 ? 0.502f + 0.5f * inverse : 0.002f;
   }
@@ -114,13 +117,13 @@ private:
   Side sides_[6];
 };
 
-/// The objects that may be between a packet's surfaces and a light.
+/// The possible occluders between a packet's surfaces and a light.
 template <class Spu> class AreaOccluders {
 public:
   using S = typename Spu::simd;
 
-  /// What is known after gather(): the objects themselves, all of them opaque; or only the nodes of the BVH
-  /// that are touched and have leaves; or nothing, as they are too many or the light is parallel.
+  /// Result of gather(): the objects, all of them opaque; or only the nodes of the BVH that are touched and
+  /// have leaves; or nothing, if there are too many or the light is parallel.
   enum class Known { objects, nodes, nothing };
 
   Known gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
@@ -129,7 +132,7 @@ public:
     first_heavy_ = kMost;
     if (is_parallel(light)) return Known::nothing;
     const Shaft<S> shaft(rays, lanes, light);
-    bool are_known = true; // the objects
+    bool are_known = true; // true while all objects are known
     const auto add_object = [&](const Occluder& object) {
       are_known = are_known && add(tests, rays, lanes, shaft, object);
       return !are_known;
@@ -148,7 +151,7 @@ public:
 
   static constexpr uint32_t kMostPackets = tuning::kMostAreaPackets;
 
-  /// Removes occluded lanes from queries for the light of places, kMostPackets at most.
+  /// Removes occluded lanes from queries for the light of places, of which there are at most kMostPackets.
   void test(ObjectTests<Spu>& tests, RayQuery* queries, uint32_t count) const {
     uint32_t packets = 0;
     for (uint32_t i = 0; i < count; ++i)
@@ -161,12 +164,12 @@ public:
   }
 
 private:
-  /// An object of a leaf, which is this child of a node.
+  /// An object of a leaf, which is child `child` of `node`.
   struct Occluder {
     uint32_t self, node, child;
   };
 
-  /// Adds an object unless all rays of `lanes` to the light miss it for certain.
+  /// Adds an object unless all rays of `lanes` to the light certainly miss it; false: it cannot be added.
   bool add(ObjectTests<Spu>& tests, const RayPacket& rays, uint32_t lanes, const Shaft<S>& shaft,
            const Occluder& occluder) {
     const uint32_t self = occluder.self;
@@ -180,7 +183,7 @@ private:
         return true;
       break;
     case ObjectKind::sphere:
-      // Skies are spheres around everything.
+      // Skies are often spheres around the whole scene.
       if (shaft.is_in_sphere(object.geometry, object.geometry[3] * object.geometry[3])) return true;
       break;
     default:
@@ -197,11 +200,10 @@ private:
     for_each_lane(packets, [&](uint32_t i) { asking |= (queries[i].lanes != 0 ? 1u : 0u) << i; });
     return asking;
   }
-  /// The same for objects whose tests take long. Of rays that have been occluded, or miss the leaf, nothing
-  /// is computed.
+  /// Tests objects whose tests take long. Rays that are occluded already, or miss the leaf, are left out.
   void test_heavy(ObjectTests<Spu>& tests, RayQuery* queries, uint32_t packets) const {
-    uint32_t lanes[kMost][kMostPackets]; // that hit the leaf
-    uint32_t hitting[kMost] = {};        // packets
+    uint32_t lanes[kMost][kMostPackets]; // by object and packet, rays that hit the leaf
+    uint32_t hitting[kMost] = {};        // by object, packets with such rays
     for_each_lane(packets, [&](uint32_t i) {
       const RayQuery& query = queries[i];
       const MixedRays<S> rays(*query.rays);
@@ -225,7 +227,7 @@ private:
     }
   }
 
-  /// False: there are too many nodes.
+  /// Gathers bounded objects and nodes; false: there are too many nodes.
   template <class Add>
   bool gather_bounded(ObjectTests<Spu>& tests, const FrameBlock& frame, const Shaft<S>& shaft,
                       const Add& add_object) {
@@ -253,11 +255,11 @@ private:
     return true;
   }
 
-  /// The builder keeps a BVH within 48 levels, with four children a node.
+  /// Capacity for a BVH of at most 48 levels, as the builder makes, with four children per node.
   static constexpr uint32_t kMostNodes = 3 * 48 + 4;
 
   static constexpr uint32_t kMost = tuning::kMostAreaOccluders;
-  Occluder objects_[kMost]; ///< those whose tests take long are at the end
+  Occluder objects_[kMost]; ///< objects whose tests take long are at the end
   uint32_t cheap_count_ = 0, first_heavy_ = kMost;
   NodeLeaves nodes_[tuning::kMostAreaNodes];
   uint32_t node_count_ = 0;

@@ -1,11 +1,10 @@
-// The places of a light with an area in pairs with the surfaces that ask for them. Kernel dialect, where
-// memory is direct.
+// Sampling of area lights in pairs of a place and a surface that needs it. Kernel dialect, for direct memory.
 //
-// Of the small quads of the light's grid only few surfaces of a packet ask for a place, each for others. So
-// all that the quads of one size ask for is gathered. Pairs of a surface and a place fill packets, which are
-// tested together: an object is read once for many of them, and none waits for the result of another. That is
-// why these pairs are not the lanes of a WavefrontQueue, whose body has one packet at a time (soft.pov takes
-// 0.82 of its time by sixteen).
+// Only few surfaces of a packet need a given place for the small quads of the light's grid. Therefore all
+// places that the quads of one size need are gathered. Pairs of a surface and a place fill packets, which are
+// tested together: an object is read once for many of them, and none waits for the result of another. For
+// this reason the pairs are not lanes of a WavefrontQueue, whose body has one packet at a time (soft.pov
+// takes 0.82 of its time by sixteen).
 #pragma once
 
 #include "kernel/lights/area_shadow.hpp"
@@ -14,8 +13,7 @@
 
 namespace celltrace::kernel {
 
-/// Where the places of a light are on its grid, in rows. The first ones are found when they are first asked
-/// for.
+/// Positions of a light's places on its grid, in rows. The first ones are computed on first use.
 class LightGrid {
 public:
   struct Place {
@@ -23,12 +21,12 @@ public:
   };
 
   static bool has_room_for(const LightRecord& light) { return light.columns * light.rows <= kMostPlaces; }
-  /// Larger: AreaPairs takes more of the stack; smaller: places of more lights are asked one by one.
+  /// Larger: AreaPairs takes more of the stack; smaller: more lights are sampled one place at a time.
   static constexpr uint32_t kMostPlaces = 41 * 41;
 
-  /// The places are those of this light from now on.
+  /// Sets the light whose places are used from now on.
   void set(const LightRecord& light) {
-    if (light.columns == columns_) return; // a place's numbers do not depend on how many rows there are
+    if (light.columns == columns_) return; // a place's numbers do not depend on the number of rows
     columns_ = light.columns;
     for (Place& place : places_)
       place.column = kUnknown;
@@ -41,7 +39,7 @@ public:
   }
 
 private:
-  /// Larger: less of local store is left for others; smaller: places of more lights are found again for each
+  /// Larger: less local store is left for others; smaller: places of more lights are computed again for each
   /// packet.
   static constexpr uint32_t kKept = 17 * 17;
   static constexpr float kUnknown = -1.0f;
@@ -56,16 +54,16 @@ private:
   Place places_[kKept];
 };
 
-/// What share of the light comes tinted from places, by place and lane.
+/// Tints: the shares of the light that come through tinted, by place and lane.
 template <class S> class AreaTints {
 public:
-  /// Nothing is known of the places from now on.
+  /// Forgets all tints.
   void begin(uint32_t places) {
     for (uint32_t i = 0; i < places; ++i)
       lanes_[i] = 0;
     count_ = 0;
   }
-  /// That of a lane, which has none yet. False: there is no room for it.
+  /// Sets the tint of a lane, which has none yet. False: there is no room for it.
   bool set(uint32_t place, uint32_t lane, const VectorLanes& from, uint32_t from_lane) {
     if (lanes_[place] == 0) {
       if (count_ == kMost) return false;
@@ -79,7 +77,7 @@ public:
     return true;
   }
   uint32_t lanes(uint32_t place) const { return lanes_[place]; }
-  /// The tint in lanes that have one, or else white where they are lit, and black where not.
+  /// Returns the tint in lanes that have one; in others white if they are lit, and black if not.
   [[gnu::always_inline]] V3<S> of(uint32_t place, uint32_t lit) const {
     using F = typename S::F;
     const F white = S::select(S::M::from_bits(lit), F(1.0f), F(0.0f));
@@ -89,7 +87,7 @@ public:
   }
 
 private:
-  /// Places that there is room for, 192 bytes each. With more the packet's places are asked one by one.
+  /// Capacity in places, 192 bytes each. If more are tinted, the light is sampled one place at a time.
   static constexpr uint32_t kMost = 512;
 
   uint32_t count_ = 0;
@@ -97,14 +95,14 @@ private:
   VectorLanes tints_[kMost];
 };
 
-/// `kTinted`: light may come tinted.
+/// Samples an area light; if `kTinted`, its light may be tinted by translucent objects.
 template <class Spu, bool kTinted> class AreaPairs {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;
 
-  /// Whether it samples a light: not if that is parallel, or has more places than there is room for.
+  /// Returns true if a light can be sampled: it is not parallel, and does not have too many places.
   static bool can_sample(const LightRecord& light) {
     return LightGrid::has_room_for(light) && !is_parallel(light);
   }
@@ -122,12 +120,12 @@ public:
     }
   }
 
-  /// Finds the share of a light of which the sampling has begun. `test(queries, count)` leaves those of the
-  /// queries' lanes to which light comes: all of it, or where it may come tinted, what it makes of the
-  /// queries' lights, which are white. To the others none does. There are kMostPackets at most. False: light
-  /// comes tinted from more places than there is room for, and the share is not found.
+  /// Finds the share of a light whose sampling has begun. `test(queries, count)` leaves in the queries the
+  /// lanes that all light reaches; if light may be tinted, the lanes that some light reaches, and in the
+  /// queries' lights, which are white before, their tints. `count` is at most kMostPackets. False: too many
+  /// places are tinted, and the share was not found.
   template <class Test> bool sample(const Test& test) {
-    F share[kCorners] = {F(0.0f), F(0.0f), F(0.0f), F(0.0f)}; // of each corner; the sums are exact
+    F share[kCorners] = {F(0.0f), F(0.0f), F(0.0f), F(0.0f)}; // one for each corner; the sums are exact
     uint32_t count = 1;
     quads_[0][0] = area_.quad;
     for (uint32_t level = 0; count + block_count_ != 0; ++level) {
@@ -154,7 +152,7 @@ public:
     ((share[0] + share[1]) + (share[2] + share[3])).store(area_.share.lane);
     return true;
   }
-  /// The lanes of the surfaces that a packet of pairs is of, for tests.
+  /// Returns the lanes of the surfaces in a packet of pairs, for tests.
   const int32_t* surface_lanes(uint32_t packet) const { return lane_ + packet * S::kLanes; }
 
 private:
@@ -162,14 +160,14 @@ private:
   static constexpr uint32_t kMostPlaces = LightGrid::kMostPlaces;
   static constexpr uint32_t kMostPackets = tuning::kMostAreaPackets;
   static constexpr uint32_t kMostPairs = kMostPackets * S::kLanes;
-  static constexpr uint32_t kSlack = S::kLanes; ///< vectors are stored anywhere
+  static constexpr uint32_t kSlack = S::kLanes; ///< vectors are stored at any offset
 
   /// Pairs of some lanes with one place.
   struct Run {
     uint32_t place, lanes, first;
   };
 
-  /// The numbers of those at the corners of a quad, in the order of theirs.
+  /// The numbers of the places at the corners of a quad, in the order of LightQuad::corner().
   struct Corners {
     uint32_t place[kCorners];
   };
@@ -182,14 +180,14 @@ private:
     for (const uint32_t place : corners_of(q).place)
       wanted_[place] |= q.lanes;
   }
-  /// The same for a quad of 3 x 3 places that is divided, and has asked for its corners.
+  /// Marks the places between the corners of a divided quad of 3 x 3 places as wanted.
   void want_between(const LightQuad& q) {
     int32_t* const first = wanted_ + q.top * columns_ + q.left;
     const uint32_t places[] = {1, columns_, columns_ + 1, columns_ + 2, 2 * columns_ + 1};
     for (const uint32_t place : places)
       first[place] |= q.lanes;
   }
-  /// Asks for what is wanted of places and was not before.
+  /// Asks for places that are wanted and have not been asked for.
   template <class Test> void ask_wanted(const Test& test) {
     const uint32_t places = columns_ * light_.rows;
     for (uint32_t first = 0; first < places; first += S::kLanes) {
@@ -218,12 +216,12 @@ private:
   static constexpr uint32_t packets_of(uint32_t pairs) { return (pairs + S::kLanes - 1) / S::kLanes; }
   uint32_t packet_count() const { return packets_of(pair_count_); }
 
-  /// LightGrid::Place, by lane.
+  /// LightGrid::Place in each lane.
   struct Places {
     F column, row, jitter_x, jitter_y;
   };
-  /// The light that comes from places; of it the ray. `of_surface(by lane)` is that of the lanes of the
-  /// surfaces.
+  /// Returns the ray of the light from places; nothing else is set. `of_surface(lanes)` picks the values of
+  /// the surfaces' lanes.
   template <class OfSurface>
   [[gnu::always_inline]] IncidentLight<S> aim(const V3<S>& to_middle, Places at,
                                               const OfSurface& of_surface) const {
@@ -237,7 +235,7 @@ private:
     return from_place;
   }
 
-  /// Tests all that has been asked for.
+  /// Tests all pairs that have been asked for.
   template <class Test> [[gnu::noinline]] void test_packets(const Test& test) {
     aim_pairs();
     test(queries_, packet_count());
@@ -246,7 +244,7 @@ private:
     run_count_ = pair_count_ = 0;
   }
   void aim_pairs() {
-    // The last lanes without a pair are as good as any.
+    // The last lanes have no pair, and may have any values.
     I::splat(0).store_unaligned(lane_ + pair_count_);
     for (float* const numbers : {column_, row_, jitter_x_, jitter_y_})
       F(0.0f).store_unaligned(numbers + pair_count_);
@@ -277,7 +275,7 @@ private:
     }
     queries_[i] = {&rays_[i].rays, nullptr, &rays_[i].distance, light, lanes};
   }
-  /// Gives places what comes tinted, and leaves the queries only those lanes to which all light comes.
+  /// Stores the tints of places, and leaves in the queries only the lanes that all light reaches.
   void take_tints() {
     uint32_t tinted[kMostPackets], any = 0; // lanes
     for (uint32_t i = 0; i < packet_count(); ++i) {
@@ -301,7 +299,7 @@ private:
       }
     }
   }
-  /// Gives places the lanes of the pairs that are lit.
+  /// Stores the lit lanes of the pairs' places.
   void take_pairs() {
     const uint32_t last = packets_of(pair_count_);
     for (uint32_t i = 0; i < run_count_; ++i) {
@@ -312,7 +310,7 @@ private:
     }
   }
 
-  /// Adds the mean of a quad's corners where they agree, and divides it where not.
+  /// Adds the mean of a quad's corners where they agree, and divides the quad elsewhere.
   template <class Push> void finish(const LightQuad& q, F (&share)[kCorners], const Push& push) {
     const Corners corners = corners_of(q);
     uint32_t lit[kCorners], any = 0, all = ~0u;
@@ -347,7 +345,7 @@ private:
     else
       q.divide(divided, push);
   }
-  /// Those to which light comes tinted from some of the places.
+  /// Returns the lanes with a tint at some of the places.
   template <uint32_t kCount> uint32_t lanes_tinted_at(const uint32_t (&places)[kCount]) const {
     uint32_t tinted = 0;
     if constexpr (kTinted)
@@ -355,7 +353,7 @@ private:
         tinted |= tints_.lanes(place);
     return tinted;
   }
-  /// Lanes in which neighbouring corners differ so much that the quad is looked at closer.
+  /// Returns the lanes in which neighbouring corners differ so much that the quad has to be divided.
   uint32_t disagreement(const Corners& corners, const uint32_t (&lit)[kCorners]) const {
     constexpr uint32_t kRound[] = {0, 1, 3, 2};
     const V3<S> whole = area_.whole.template load<S>();
@@ -369,7 +367,7 @@ private:
     }
     return differ;
   }
-  /// Adds a part of the whole light to what comes tinted.
+  /// Adds a part of the whole light to the tinted light.
   void add_tinted(const V3<S>& part, uint32_t lanes) {
     const F zero(0.0f);
     const V3<S> none = {zero, zero, zero};
@@ -383,7 +381,7 @@ private:
     constexpr uint32_t kPlaces = 9;
     constexpr float kTimes[kPlaces] = {1.0f, 2.0f, 1.0f, 2.0f, 4.0f, 2.0f, 1.0f, 2.0f, 1.0f};
     constexpr uint32_t kShares[kPlaces] = {0, 1, 2, 3, 0,
-                                           1, 2, 3, 2}; // so that no sum waits for the last one
+                                           1, 2, 3, 2}; // so that no sum waits for the previous one
     const uint32_t begin = q.top * columns_ + q.left;
     const uint32_t places[kPlaces] = {begin,
                                       begin + 1,
@@ -417,22 +415,22 @@ private:
   LightGrid& grid_;
   [[no_unique_address]] Present<AreaTints<S>, kTinted> tints_;
   const uint32_t columns_;
-  bool is_full_ = false; ///< there was no room for all tints
-  // Lanes, by place: those that want to know of it, have asked, and are lit. A few more places are none.
+  bool is_full_ = false; ///< true if there was no room for all tints
+  // Lanes by place: those that want it, have asked for it, and are lit. The places beyond the last one are
+  // unused.
   alignas(64) int32_t wanted_[kMostPlaces + kSlack], asked_[kMostPlaces + kSlack];
   uint16_t lit_[kMostPlaces];
-  LightQuad quads_[2][kMostPlaces];   ///< of a size each by turns
-  LightQuad blocks_[kMostPlaces / 4]; ///< of 3 x 3 places that are to be divided
+  LightQuad quads_[2][kMostPlaces];   ///< quads of one size each, in turn
+  LightQuad blocks_[kMostPlaces / 4]; ///< quads of 3 x 3 places that are to be divided
   uint32_t block_count_ = 0;
-  // What is to be tested: many lanes with a place each; pairs of which places, and by pair its lane and where
-  // the place is.
+  // Pairs to be tested: runs with one place each, and by pair its lane and the position of its place.
   Run runs_[kMostPackets * S::kLanes];
   uint32_t run_count_ = 0, pair_count_ = 0;
   alignas(64) int32_t lane_[kMostPairs + kSlack];
   alignas(64) float column_[kMostPairs + kSlack], row_[kMostPairs + kSlack];
   alignas(64) float jitter_x_[kMostPairs + kSlack], jitter_y_[kMostPairs + kSlack];
   ShadowRays rays_[kMostPackets];
-  VectorLanes came_[kMostPackets]; ///< by packet, of white light; with tints
+  VectorLanes came_[kMostPackets]; ///< by packet, the result for white light; with tints
   RayQuery queries_[kMostPackets];
 };
 

@@ -1,4 +1,4 @@
-// Builds the BVH where main memory can be dereferenced, on any number of SPEs. Kernel dialect.
+// Builder of the BVH in direct memory, on any number of SPEs. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/object_bounds.hpp"
@@ -16,7 +16,7 @@ template <class Spu> class Builder {
 public:
   using S = typename Spu::simd;
 
-  /// SPE `self` of a team.
+  /// Makes the builder of SPE `self` of a team.
   Builder(Spu& spu, const FrameBlock& frame, uint32_t self)
       : frame_(frame), memory_(frame), prototypes_(frame), self_(self),
         image_(WorkMemory::pointer<uint8_t>(frame.image)),
@@ -33,7 +33,7 @@ public:
     if (step == 1 && frame_.group_count != 0) build_treelets();
     if (step == 2 && prototypes_.any()) copy_treelets();
   }
-  /// The size of the BVH, valid after the last step.
+  /// Returns the number of nodes of the BVH, valid after the last step.
   uint32_t nodes() const { return memory_.team->nodes; }
 
 private:
@@ -60,8 +60,8 @@ private:
     if (prototypes_.any()) find_prototypes(treelets.count());
   }
 
-  /// Notes the treelets of prototypes. A prototype takes the depth of its deepest copy, so that what is built
-  /// there stays within kMaxDepth wherever it is copied to.
+  /// Registers the treelets of prototypes. A prototype takes the depth of its deepest copy, so that its nodes
+  /// stay within kMaxDepth in every copy.
   void find_prototypes(uint32_t treelets) {
     for (uint32_t t = 0; t < treelets; ++t)
       if (!is_copy(memory_.treelets[t])) memory_.treelet_of[group_of(memory_.treelets[t])] = t;
@@ -72,7 +72,7 @@ private:
       if (place.depth < treelet.place.depth) place.depth = treelet.place.depth;
     }
   }
-  /// The index of a treelet's first group.
+  /// Returns the index of a treelet's first group.
   uint32_t group_of(const Treelet& treelet) const { return memory_.groups[treelet.begin].value; }
   bool is_copy(const Treelet& treelet) const { return prototypes_.is_copy(group_of(treelet)); }
   Treelet& prototype_of(const Treelet& copy) const {
@@ -93,9 +93,9 @@ private:
     }
   }
 
-  /// Step 2: takes treelets that no other SPE has taken, and makes the copies among them. Nodes of copies lie
-  /// in the order of the treelets without gaps; therefore each SPE counts the nodes of those that others
-  /// make.
+  /// Step 2: takes treelets that no other SPE has taken, and makes the copies among them. Nodes of copies
+  /// follow each other in the order of the treelets without gaps; therefore each SPE also counts the nodes of
+  /// the copies that others make.
   void copy_treelets() {
     const uint32_t treelets = memory_.team->treelets;
     NodeRecord* next = nodes_ + memory_.team->built_nodes;
@@ -131,7 +131,7 @@ private:
     }
   }
 
-  /// What is added to the offsets in a leaf to copy it, modulo 2^32.
+  /// Differences between the offsets in a copied leaf and in the original, modulo 2^32.
   struct Relocation {
     uint32_t objects, list;
   };
@@ -153,7 +153,7 @@ private:
       child = copy_leaf(original.parent->child[original.slot], leaf, relocation);
     }
 
-    Reference* node_bounds = spare_;               // of nodes that are complete
+    Reference* node_bounds = spare_;               // of finished nodes
     for (uint32_t n = prototype.nodes; n-- > 0;) { // children have higher indices
       LaneAabb<S> children[kChildren];
       LaneAabb<S> whole = LaneAabb<S>::empty();
@@ -184,7 +184,7 @@ private:
     return first + relocation.list;
   }
   uint32_t& word_at(uint32_t offset) const { return *reinterpret_cast<uint32_t*>(image_ + offset); }
-  /// The bounds of the objects in a leaf, which is encoded as in NodeRecord.
+  /// Returns the bounds of the objects in a leaf, which is encoded as in NodeRecord.
   LaneAabb<S> leaf_bounds(uint32_t first, uint32_t word) const {
     const uint32_t step = leaf_word::step_bytes(word);
     LaneAabb<S> bounds = LaneAabb<S>::empty();
@@ -231,11 +231,11 @@ private:
     }
   }
 
-  /// The place of a word of the BVH's list in the image.
+  /// Returns the offset in the image of a word of the BVH's list.
   uint32_t list_offset(uint32_t word) const { return frame_.bvh.list_offset + word * 4; }
 
-  /// Builds the BVH of a scene with few objects, which are not in groups. They need not fill nodes: what
-  /// memory that takes does not matter.
+  /// Builds the BVH of a scene with few objects, which are not in groups. Nodes need not be full, as their
+  /// memory is insignificant.
   void build_whole() {
     const uint32_t count = frame_.object_count;
     const bool local = count <= kLocalReferences;
@@ -280,8 +280,8 @@ private:
 } // namespace bvh
 
 /// Builds the BVH of the objects in the scene image, in the memory that `frame.bvh` describes. Returns the
-/// number of nodes, including gaps between those that are used. The work memory needs room for
-/// bvh::WorkSize::pairs(). No node is deeper than bvh::kMaxDepth. The result depends on the objects only.
+/// number of nodes, including unused gaps. The work memory needs room for bvh::WorkSize::pairs(). No node is
+/// deeper than bvh::kMaxDepth. The result depends on the objects only.
 ///
 /// All SPEs of a team call this at the same time. `team` provides its size(), the index() of this SPE, and a
 /// barrier wait(), which also makes the writes of all of them visible.
@@ -299,7 +299,7 @@ template <class Spu, class Team> uint32_t build_bvh(Spu& spu, const FrameBlock& 
   return builder.nodes();
 }
 
-/// The same on this SPE only.
+/// Builds the BVH on this SPE only.
 template <class Spu> uint32_t build_bvh(Spu& spu, const FrameBlock& frame) {
   struct Alone {
     uint32_t size() const { return 1; }

@@ -1,4 +1,4 @@
-// The values that the builder of the BVH works on: AABBs in SIMD lanes, and references to objects. Kernel
+// Values that the builder of the BVH processes: AABBs in SIMD lanes, and references to objects. Kernel
 // dialect.
 #pragma once
 
@@ -21,13 +21,12 @@ struct alignas(32) Reference {
 };
 static_assert(sizeof(Reference) == 32, "four a line");
 
-/// Larger than any coordinate or cost.
+/// Number that is larger than any coordinate or cost.
 constexpr float kHuge = 3e38f;
 /// Epsilon of the extent of centres on an axis. A smaller one is not split: its reciprocal could overflow.
 constexpr float kFlatExtent = 1e-30f;
-/// 2^23: added to a smaller number that is not negative, it leaves that number, rounded to an integer, in the
-/// low bits of the sum. For other numbers and NaN these bits are arbitrary; masked, they are a valid bin all
-/// the same.
+/// 2^23. If a smaller, non-negative number is added, the low bits of the sum are that number rounded to an
+/// integer. For other numbers and NaN these bits are arbitrary, but masked they are still a valid bin.
 constexpr float kRoundToInteger = 8388608.0f;
 
 /// An AABB whose coordinates are lanes 0 to 2; lane 3 is undefined.
@@ -37,7 +36,7 @@ template <class S> struct LaneAabb {
 
   LaneAabb() = default;
   LaneAabb(const F4& low, const F4& high) : min(low), max(high) {}
-  // Copied as two vectors, as it was stored: a load that covers several stores cannot be forwarded from them
+  // Copies two vectors, as they were stored: a load that covers several stores cannot be forwarded from them
   // and stalls.
   LaneAabb(const LaneAabb& other) : min(other.min), max(other.max) {}
   LaneAabb& operator=(const LaneAabb& other) {
@@ -55,13 +54,13 @@ template <class S> struct LaneAabb {
     min = S::min(min, other.min);
     max = S::max(max, other.max);
   }
-  /// Twice the centre, which does for bins as well.
+  /// Returns twice the centre, which is as good for bins.
   F4 centre() const { return min + max; }
   void grow(const F4& point) {
     min = S::min(min, point);
     max = S::max(max, point);
   }
-  /// Half the surface area: only ratios count.
+  /// Returns half the surface area, as only ratios matter.
   float area() const {
     alignas(16) float e[4];
     (max - min).store(e);
@@ -69,7 +68,7 @@ template <class S> struct LaneAabb {
   }
 };
 
-/// The AABB of an object of the scene image at `image`.
+/// Returns the AABB of an object of the scene image at `image`.
 template <class S> LaneAabb<S> box_of(const ObjectRecord& object, const void* image) {
   using F4 = typename S::F4;
   constexpr uint32_t kPlainTriangle = static_cast<uint32_t>(ObjectKind::triangle);
@@ -91,20 +90,20 @@ template <class S> LaneAabb<S> box_of(const ObjectRecord& object, const void* im
 /// Copies by the vectors in which bounds are loaded and stored, for the reason given at LaneAabb.
 template <class S> void copy(const Reference& from, Reference& to) {
   const auto low = S::F4::load(from.min), high = S::F4::load(from.max);
-  low.store(to.min); // with `value`; the other one with `weight`
+  low.store(to.min); // includes `value`; the next one includes `weight`
   high.store(to.max);
 }
 
 /// The references [begin, end) of an array, with their weight and bounds.
 template <class S> struct Range {
   uint32_t begin, end;
-  uint32_t weight; ///< the sum of theirs
-  LaneAabb<S> box; ///< the union of theirs
+  uint32_t weight; ///< sum of the references' weights
+  LaneAabb<S> box; ///< union of the references' bounds
 
   uint32_t count() const { return end - begin; }
 };
 
-/// The range [begin, end) of `references`; computes its weight and bounds.
+/// Returns the range [begin, end) of `references`, with its weight and bounds.
 template <class S> Range<S> range_of(const Reference* references, uint32_t begin, uint32_t end) {
   Range<S> range = {begin, end, 0, LaneAabb<S>::empty()};
   for (uint32_t i = begin; i < end; ++i) {

@@ -10,12 +10,12 @@ namespace celltrace::kernel::bvh {
 
 constexpr uint32_t kFewReferences = tuning::kFewReferences;
 
-/// The split plane of each lane. Of two with the same cost, that in the lower lane is taken.
+/// The split plane of each lane. If two have the same cost, the one in the lower lane is taken.
 template <uint32_t kBins> struct CutLanes {
   static constexpr uint32_t kCuts = 3 * (kBins - 1);
   static_assert(kCuts <= kSimdLanes, "a lane for each");
 
-  uint32_t is_x = 0, is_y = 0;              ///< a bit per lane
+  uint32_t is_x = 0, is_y = 0;              ///< a bit for each lane
   alignas(64) int32_t bin[kSimdLanes] = {}; ///< first bin on the right; 0: the lane is unused
 
   constexpr CutLanes() {
@@ -29,14 +29,14 @@ template <uint32_t kBins> struct CutLanes {
 };
 template <uint32_t kBins> inline constexpr CutLanes<kBins> kCutLanes;
 
-/// Weight and bounds on both sides of every split plane of a range. `kBins` is a power of two.
+/// Weights and bounds on both sides of every split plane of a range. `kBins` is a power of two.
 template <class S, uint32_t kBins> class LaneCuts {
 public:
   static constexpr uint32_t kNone = kSimdLanes;
 
-  /// The range has at most kFewReferences.
+  /// Computes the costs of a range of at most kFewReferences.
   LaneCuts(const Reference* references, const Range<S>& range) {
-    alignas(16) float centres[kFewReferences][4]; // doubled, as LaneAabb::centre()
+    alignas(16) float centres[kFewReferences][4]; // doubled, as in LaneAabb::centre()
     LaneAabb<S> centre_bounds = LaneAabb<S>::empty();
     for (uint32_t i = 0; i < range.count(); ++i) {
       const F4 centre = LaneAabb<S>::of(references[range.begin + i]).centre();
@@ -79,7 +79,7 @@ public:
     left_weight.store(left_weight_);
   }
 
-  /// The lane with the least cost, or kNone.
+  /// Returns the lane with the least cost, or kNone.
   uint32_t best() const {
     alignas(64) float lanes[kSimdLanes];
     cost_.store(lanes);
@@ -99,7 +99,7 @@ public:
     left.weight = static_cast<uint32_t>(left_weight_[lane]);
     right.weight = weight - left.weight;
   }
-  /// 1 or 0: whether reference i of the range is on the left of the split in a lane.
+  /// Returns 1 if reference i of the range is on the left of the split in a lane, otherwise 0.
   uint32_t is_on_left(uint32_t i, uint32_t lane) const { return on_left_[i] >> lane & 1; }
 
 private:
@@ -144,7 +144,7 @@ private:
   F cost_;
   CutBounds left_, right_;
   alignas(64) int32_t left_weight_[kSimdLanes];
-  uint16_t on_left_[kFewReferences]; ///< a bit per lane
+  uint16_t on_left_[kFewReferences]; ///< by reference, a bit for each lane
 };
 
 } // namespace celltrace::kernel::bvh

@@ -1,4 +1,4 @@
-// Leaves of the BVH: which objects share one. Kernel dialect.
+// Leaves of the BVH: decides which objects share one. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_subtree.hpp"
@@ -8,7 +8,7 @@
 namespace celltrace::kernel::bvh {
 
 using tuning::LeafRule;
-/// The most objects in a leaf.
+/// Largest number of objects in a leaf.
 constexpr uint32_t kMaxLeaf = 16;
 
 inline LeafRule leaf_rule(bool wide, bool copied) {
@@ -16,7 +16,7 @@ inline LeafRule leaf_rule(bool wide, bool copied) {
   return copied ? tuning::kCopiedLeaves : tuning::kNarrowLeaves;
 }
 inline uint32_t weight_of(const ObjectRecord& object, const LeafRule& rule) {
-  if (is_instance(object.kind_and_flags)) return rule.most; // it is a BVH itself
+  if (is_instance(object.kind_and_flags)) return rule.most; // an instance has a BVH of its own
   switch (static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask)) {
   case ObjectKind::triangle:
     return 1;
@@ -27,13 +27,13 @@ inline uint32_t weight_of(const ObjectRecord& object, const LeafRule& rule) {
   }
 }
 
-/// The ends of a SubtreeBuilder over objects. The list of a leaf has the same place in the BVH's list as its
-/// range has in the references.
+/// The ends of a SubtreeBuilder over objects. The list of a leaf has the same position in the BVH's list as
+/// the leaf's range has in the references.
 template <class S> class Leaves {
 public:
   static constexpr uint32_t kMaxSplitDepth = 32;
 
-  /// Ranges of fewer than `fewest` objects always share a leaf.
+  /// Makes an object for ranges of objects; those of fewer than `fewest` always share a leaf.
   Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, const LeafRule& rule,
          uint32_t fewest)
       : image_(image), list_offset_(list_offset), references_(references), rule_(rule), fewest_(fewest) {}
@@ -67,8 +67,8 @@ public:
   }
 
 private:
-  /// The distance from each object to the next one in the table, in objects, if it is always the same;
-  /// otherwise 0.
+  /// Returns the distance from each object to the next one in the table, in objects, if it is always the
+  /// same; otherwise 0.
   static int32_t step_of(const Reference* objects, uint32_t count) {
     if (count == 1) return 1;
     const uint32_t bytes = objects[1].value - objects[0].value;

@@ -7,15 +7,15 @@
 
 namespace celltrace::kernel::bvh {
 
-/// Pointers to its parts.
+/// Pointers to the parts of the work memory.
 struct WorkMemory {
   TeamRecord* team;
-  Reference* groups; ///< `value`: index of the GroupRecord; `weight`: objects
+  Reference* groups; ///< `value`: index of the GroupRecord; `weight`: number of objects
   Reference* spare_groups;
   Treelet* treelets;
-  Reference* references; ///< to objects of treelets that exceed kLocalReferences; by place in the list
+  Reference* references; ///< objects of treelets that exceed kLocalReferences; by position in the list
   Reference* spare_references;
-  uint32_t* treelet_of; ///< by group, defined for prototypes
+  uint32_t* treelet_of; ///< by group; defined for prototypes
 
   explicit WorkMemory(const FrameBlock& frame) {
     const WorkSize size(frame.object_count, frame.group_count, frame.longest_group);

@@ -1,5 +1,5 @@
-// Splits a range of references in two by the surface area heuristic (SAH) over bins of their centres (Wald,
-// On fast Construction of SAH-based Bounding Volume Hierarchies, 2007). Kernel dialect.
+// Splitting of a range of references in two by the surface area heuristic (SAH) over bins of their centres
+// (Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007). Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -15,7 +15,7 @@ void halve_range(const Reference* references, const Range<S>& range, Range<S>& l
   right = range_of<S>(references, middle, range.end);
 }
 
-/// The bounds of the doubled centres of a range's references.
+/// Returns the bounds of the doubled centres of a range's references.
 template <class S> LaneAabb<S> centres_of(const Reference* references, const Range<S>& range) {
   LaneAabb<S> centres = LaneAabb<S>::empty();
   for (uint32_t i = range.begin; i < range.end; ++i)
@@ -30,11 +30,11 @@ template <class S, uint32_t kBins> class BinnedSplitter {
 public:
   using F4 = typename S::F4;
 
-  /// Splits `range`, of at least two references, and reorders these so that those of `left` come first;
-  /// stable. `spare` has room for all of them.
+  /// Splits `range`, of at least two references, and reorders these stably so that those of `left` come
+  /// first. `spare` has room for all of them.
   CELLTRACE_ONE_COPY static void split(Reference* references, Reference* spare, const Range<S>& range,
                                        Range<S>& left, Range<S>& right) {
-    // If all of it lies on a line along an axis, every SAH cost is 0.
+    // If the range lies on a line along an axis, every SAH cost is 0.
     if (range.box.area() == 0.0f) return halve_range(references, range, left, right);
     if constexpr (S::kWidth == kSimdLanes && kBins == kFewBins) {
       const LaneCuts<S, kBins> cuts(references, range);
@@ -69,7 +69,8 @@ private:
       centres.min.store(base_of);
       for (int axis = 0; axis < 3; ++axis)
         scale_of[axis] = extent[axis] > kFlatExtent ? (kBins - 1) / extent[axis] : 0.0f;
-      // Lane 3 is unused. With -1 its results are no denormal numbers, which are slow on some processors.
+      // Lane 3 is unused; -1 keeps its results from being denormal numbers, which are slow on some
+      // processors.
       base = four<S>(base_of[0], base_of[1], base_of[2], -1.0f);
       scale = four<S>(scale_of[0], scale_of[1], scale_of[2], 0.0f);
     }
@@ -79,7 +80,7 @@ private:
       for (int axis = 0; axis < 3; ++axis)
         bin[axis] = low_bits(position[axis]);
     }
-    /// The same on one axis.
+    /// Maps a centre to a bin on one axis.
     uint32_t bin_of(const Reference& reference, uint32_t axis) const {
       const float centre = reference.min[axis] + reference.max[axis];
       return low_bits((centre - base_of[axis]) * scale_of[axis] + kRoundToInteger);
@@ -96,7 +97,7 @@ private:
     uint32_t weight[3][kBins];
   };
 
-  /// `bin` is the first one on the right; 0: there is no split.
+  /// A split. `bin` is the first one on the right; 0: there is no split.
   struct Cut {
     uint32_t axis, bin;
   };
@@ -157,8 +158,8 @@ private:
   }
 
   /// Partitions the references, stably and without branches, which would be mispredicted: each reference is
-  /// stored on both sides, and only the end of its own side advances. The left end never passes the one that
-  /// is read.
+  /// stored on both sides, and only the end of its own side advances. The left end never passes the reference
+  /// that is read.
   template <class IsOnLeft>
   static void partition(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
                         Range<S>& right, IsOnLeft is_on_left) {

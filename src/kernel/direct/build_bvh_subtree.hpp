@@ -1,24 +1,24 @@
-// Builds the nodes of a subtree above references, top down. Kernel dialect.
+// Builder of a subtree's nodes above references, top down. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_split.hpp"
 
 namespace celltrace::kernel::bvh {
 
-constexpr uint32_t kChildren = 4; ///< of a node
-/// The greatest depth of a node; the root is at 0.
+constexpr uint32_t kChildren = 4; ///< number of children of a node
+/// Largest depth of a node; the root is at 0.
 constexpr uint32_t kMaxDepth = 48;
 
-/// The place of a subtree in the BVH: child `slot` of `parent`; its own root is at `depth`. The root of all
-/// has no parent.
+/// The place of a subtree in the BVH: child `slot` of `parent`; the subtree's root is at `depth`. The root of
+/// the BVH has no parent.
 struct Place {
   NodeRecord* parent;
   uint32_t slot;
   uint32_t depth;
 };
 
-/// Stores the bounds of a node's children. They are padded by an epsilon relative to the coordinates and to
-/// the extent, and are never flat: rays that graze an object must not miss its node by rounding.
+/// Stores the bounds of a node's children. The bounds are padded by an epsilon relative to the coordinates
+/// and to the extent, and are never flat, so that rounding makes no ray that grazes an object miss its node.
 template <class S> void set_child_bounds(NodeRecord& node, const LaneAabb<S> (&children)[kChildren]) {
   using F4 = typename S::F4;
   alignas(16) float low[kChildren][4];
@@ -44,13 +44,13 @@ template <class S> void set_child_bounds(NodeRecord& node, const LaneAabb<S> (&c
   }
 }
 
-/// Builds the nodes above references. `Ends` says where they end:
-///   static constexpr uint32_t kMaxSplitDepth           from this depth on ranges are halved
-///   bool end(const Range<S>&)                          whether a range ends without a node of its own
-///   bool end(const Range<S>&, const Range<S> (&)[4])   the same, now that its children would be these
+/// Builds the nodes above references. `Ends` decides where they end:
+///   static constexpr uint32_t kMaxSplitDepth           depth from which on ranges are halved
+///   bool end(const Range<S>&)                          true if a range ends without a node of its own
+///   bool end(const Range<S>&, const Range<S> (&)[4])   the same decision if its children would be these
 ///   void add(const Range<S>&, const Place&)            stores a range that ends in its parent
-/// Halving bounds the depth. A single reference must end. Nodes have four children, but where a range of
-/// fewer references does not end: then each of them is a child.
+/// Halving bounds the depth. A single reference must end. Nodes have four children, unless a range of fewer
+/// references does not end: then each reference is a child.
 template <class S, class Ends> class SubtreeBuilder {
 public:
   /// A range whose nodes have not been built.
@@ -58,14 +58,14 @@ public:
     Range<S> range;
     Place place;
   };
-  /// Depth first: each level leaves at most three of four children on the stack.
+  /// Capacity of the stack: depth first, each level leaves at most three of four children on it.
   static constexpr uint32_t kStackTasks = 3 * kMaxDepth + kChildren;
 
-  /// `spare` has room for as many references as `references`, `stack` for kStackTasks.
+  /// Makes a builder. `spare` has room for as many references as `references`, `stack` for kStackTasks.
   SubtreeBuilder(uint8_t* image, Reference* references, Reference* spare, Ends& ends, Task* stack)
       : image_(image), references_(references), spare_(spare), ends_(ends), stack_(stack) {}
 
-  /// Writes the nodes of a range from `next` on, and returns the end of them.
+  /// Writes the nodes of a range from `next` on, and returns their end.
   NodeRecord* build(const Range<S>& range, const Place& place, NodeRecord* next) {
     next_ = next;
     pending_ = 0;
@@ -78,7 +78,7 @@ public:
   }
 
 private:
-  /// Stores the child in its parent, if it ends, or pushes it.
+  /// Stores a child in its parent if it ends, otherwise pushes it.
   void add_child(const Range<S>& range, const Place& place) {
     if (range.count() == 0)
       place.parent->child[place.slot] = place.parent->leaf[place.slot] = 0;
@@ -113,7 +113,7 @@ private:
       split_largest(range, depth, children);
   }
 
-  /// Makes a child of each reference; the others are empty.
+  /// Makes a child of each reference; other children are empty.
   void one_per_child(const Range<S>& range, Range<S> (&children)[kChildren]) {
     for (uint32_t i = 0; i < kChildren; ++i) {
       const uint32_t begin = range.begin + i < range.end ? range.begin + i : range.end;

@@ -8,18 +8,18 @@
 
 namespace celltrace::kernel::bvh {
 
-/// A subtree that is built by one SPE: over the objects of the groups [begin, end).
+/// A subtree that one SPE builds: over the objects of the groups [begin, end).
 struct Treelet {
   Place place;
   uint32_t begin, end;
-  uint32_t first; ///< place of its first object in the BVH's list
+  uint32_t first; ///< position of its first object in the BVH's list
   uint32_t count;
   uint32_t first_node; ///< relative to the first node of all treelets; undefined for a copy
-  uint32_t nodes;      ///< set when it is built
+  uint32_t nodes;      ///< set when the treelet is built
 };
 static_assert(sizeof(void*) != 8 || sizeof(Treelet) == 40, "part of the work memory");
 
-/// Which groups are copies of which.
+/// The prototypes of groups that are copies.
 class Prototypes {
 public:
   explicit Prototypes(const FrameBlock& frame)
@@ -28,7 +28,7 @@ public:
                                                     frame.image + frame.prototype_offset))) {}
 
   bool any() const { return of_group_ != nullptr; }
-  /// The prototype of a group, which may be the group itself, or kNoGroup.
+  /// Returns the prototype of a group, which may be the group itself, or kNoGroup.
   uint32_t of(uint32_t group) const { return any() ? of_group_[group] : kNoGroup; }
   bool is_copy(uint32_t group) const {
     const uint32_t prototype = of(group);
@@ -39,14 +39,14 @@ private:
   const uint32_t* of_group_;
 };
 
-/// The ends of a SubtreeBuilder over groups: treelets. A prototype is a treelet of its own, and so is each
-/// copy.
+/// The ends of a SubtreeBuilder over groups, which are treelets. A prototype is a treelet of its own, and so
+/// is each copy.
 template <class S> class Treelets {
 public:
   static constexpr uint32_t kMaxSplitDepth = 16;
   static constexpr uint32_t kObjects = kTreeletObjects;
 
-  /// `groups` are the references that the SubtreeBuilder reorders.
+  /// Makes an object; `groups` are the references that the SubtreeBuilder reorders.
   Treelets(const Reference* groups, const Prototypes& prototypes, Treelet* treelets)
       : groups_(groups), prototypes_(prototypes), treelets_(treelets) {}
 
@@ -61,7 +61,7 @@ public:
     if (!prototypes_.is_copy(groups_[range.begin].value)) nodes_ += most_treelet_nodes(range.weight);
   }
   uint32_t count() const { return count_; }
-  /// The most nodes that all treelets but the copies can have.
+  /// Returns the largest number of nodes that all treelets except copies can have.
   uint32_t nodes() const { return nodes_; }
 
 private:

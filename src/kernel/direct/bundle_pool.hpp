@@ -1,8 +1,8 @@
 // The rays of a bundle that leave their packets, and the light that they bring to its pixels. Kernel dialect,
-// where memory is direct.
+// for direct memory.
 //
-// Primary rays are sorted by what they hit if that pays; secondary rays, shadow rays from what those hit, and
-// those of them that hit nothing are gathered into full packets.
+// Primary rays are sorted by the materials that they hit if that pays; secondary rays, shadow rays from their
+// hits, and secondary rays without a hit are gathered into full packets.
 #pragma once
 
 #include "kernel/direct/bundle_queues.hpp"
@@ -18,7 +18,7 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// `samples`: becomes how clear the way is of each; null: that is not asked.
+  /// Allocates memory. `samples` receive the transparency of each sample; null: it is not wanted.
   BundlePool(Spu& spu, SampleBundle<Spu>* samples)
       : rays(room_for<PooledRays>(spu)), hits(room_for<EndingHits>(spu)),
         shadows(room_for<ShadowPoints>(spu)), skies(room_for<SkyRays>(spu)), samples_(samples), sorter_(spu),
@@ -28,13 +28,14 @@ public:
   WavefrontQueue<EndingHits> hits;
   WavefrontQueue<ShadowPoints> shadows;
   WavefrontQueue<SkyRays> skies;
-  FloatLanes clear; ///< how clear the way of the rays is that are being traced
+  FloatLanes clear; ///< transparency along the rays that are being traced
 
-  /// Whether rays stay in the lanes of their pixels.
+  /// Returns true if rays stay in the lanes of their pixels.
   static constexpr bool has_own_lanes(const FrameBlock& frame) {
     return (frame.light_ways & light_way::jitter) != 0;
   }
-  /// The members of a bundle, with what their rays hit. They stay where first hits are wanted by pixel.
+  /// Sorts the members of a bundle, with their rays' hits. The members stay as they are if first hits are
+  /// wanted by pixel.
   template <class Member> void sort(SceneAccess<Spu>& scene, const FrameBlock& frame, Member* members) {
     for (uint32_t i = 0; i < kPackets; ++i)
       with_ray_[i] = members[i].lanes;
@@ -43,14 +44,14 @@ public:
         (frame.light_ways & light_way::first_hits) == 0 && !has_own_lanes(frame))
       sorted_ = sorter_.sort(scene, members);
   }
-  /// The lanes of a member's pixels that have a ray.
+  /// Returns the lanes of a member's pixels that have a ray.
   uint32_t with_ray(uint32_t member) const { return with_ray_[member]; }
 
-  /// Starts the trees of a bundle: no light has come yet.
+  /// Begins the trees of a bundle, without light so far.
   void begin() {
     for_each_lane(sorted_, [&](uint32_t member) { set_dark(member); });
   }
-  /// Starts the tree of a member. `pixels`: become those that its rays are of.
+  /// Begins the tree of a member; `pixels` receives the pixels of its rays.
   void begin_tree(uint32_t member, WordLanes& pixels) {
     if (is_sorted(member)) {
       pixels = sorter_.places(member);
@@ -62,20 +63,20 @@ public:
   }
   void clear_lanes() { F(0.0f).store(clear.lane); }
 
-  /// What the primary rays of a member see by themselves, without a tree.
+  /// Stores the colours of a member's primary rays, which need no tree.
   void put(uint32_t member, uint32_t lanes, const VectorLanes& seen) {
     if (is_sorted(member)) return add_tree(sorter_.places(member), lanes, seen);
     light_[member] = seen;
     if (samples_ != nullptr) samples_->at[member].clear = clear;
   }
-  /// The light of a member's tree. Some of it may have come already.
+  /// Stores the light of a member's tree. Some of its light may have been stored already.
   void put_tree(uint32_t member, uint32_t lanes, const VectorLanes& seen) {
     if (is_sorted(member)) return add_tree(sorter_.places(member), lanes, seen);
     VectorLanes all;
     all.template store<S>(light_[member].template load<S>() + seen.template load<S>());
     put(member, lanes, all);
   }
-  /// The light of a tree of rays that have left their packets.
+  /// Adds the light of a tree of rays that have left their packets.
   void add_tree(const WordLanes& pixels, uint32_t lanes, const VectorLanes& seen) {
     add(pixels, lanes, seen);
     if (samples_ == nullptr) return;
@@ -84,7 +85,7 @@ public:
           clear.lane[lane];
     });
   }
-  /// More light for pixels.
+  /// Adds light to pixels.
   void add(const WordLanes& pixels, uint32_t lanes, const VectorLanes& light) {
     for_each_lane(lanes, [&](uint32_t lane) {
       VectorLanes& sum = light_[pixels.lane[lane] / kSimdLanes];
@@ -94,21 +95,21 @@ public:
       sum.z.lane[to] += light.z.lane[lane];
     });
   }
-  /// What has come of the light that a round has gathered for a member's primary rays.
+  /// Adds the unoccluded light that a round has gathered for a member's primary rays.
   void add(uint32_t member, uint32_t lanes, const LightRound& round) {
     if (!is_sorted(member)) return; // light_of() adds it
     VectorLanes more;
     more.template store<S>(round.template sum<S>());
     add(sorter_.places(member), lanes, more);
   }
-  /// All that has come to the pixels of a member, with that of a round as in add().
+  /// Returns the light of a member's pixels, with that of a round as in add().
   V3<S> light_of(uint32_t member, uint32_t lanes, const LightRound& round) const {
     const V3<S> seen = light_[member].template load<S>();
     if (is_sorted(member) || lanes == 0) return seen;
     return select<S>(S::M::from_bits(lanes), seen + round.template sum<S>(), seen);
   }
 
-  /// Forgets all rays.
+  /// Drops all rays.
   void drop() {
     rays.clear();
     hits.clear();
@@ -122,13 +123,13 @@ private:
   template <class Kind> static Kind* room_for(Spu& spu) {
     return spu.template allocate<Kind>(Kind::kPackets);
   }
-  /// Whether the rays of a member are those of other pixels.
+  /// Returns true if the rays of a member belong to other pixels.
   bool is_sorted(uint32_t member) const { return (sorted_ >> member & 1) != 0; }
   void set_dark(uint32_t member) { light_[member].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }
 
   SampleBundle<Spu>* samples_;
   HitSorter<Spu> sorter_;
-  VectorLanes* light_; ///< that has come to the pixels of each member
+  VectorLanes* light_; ///< by member, light of its pixels
   uint32_t with_ray_[kPackets];
   uint32_t sorted_ = 0; ///< members whose rays have been sorted
 };

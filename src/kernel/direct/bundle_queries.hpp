@@ -1,5 +1,4 @@
-// Ray queries where memory is direct: of bundles that pass through one point, and about lights that have an
-// area. Kernel dialect.
+// Ray queries in direct memory: for bundles that pass through one point, and for area lights. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/traversal.hpp"
@@ -8,14 +7,14 @@
 
 namespace celltrace::kernel {
 
-/// Extends Traversal, which is `Traversal`.
+/// Extends Traversal, which is the template parameter `Traversal`.
 template <class Traversal, class Spu> class DirectBundleQueries {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// As transmittance(), for a query whose light is that of KeptCrossings, which keep what is crossed or, if
-  /// it `lists` that, only where. The light of lanes for which they had no room becomes 0.
+  /// Answers a query of shadow rays whose light is a KeptCrossings: keeps the surfaces that they cross with
+  /// the transmittance or, if `lists`, without it. The light of lanes for which there is no room becomes 0.
   void keep_crossings(RayQuery& query, bool lists) {
     keep(lists, [&] { traversal().intersect_packet(query); });
   }
@@ -24,7 +23,7 @@ public:
     keep(lists, [&] { traversal().intersect(queries, count, light); });
   }
 
-  /// Gathers what may be between a packet's surfaces and a light with an area.
+  /// Gathers the possible occluders between a packet's surfaces and an area light.
   typename AreaOccluders<Spu>::Known gather_occluders(const RayPacket& rays, uint32_t lanes,
                                                       const LightRecord& light,
                                                       AreaOccluders<Spu>& occluders) {
@@ -33,7 +32,7 @@ public:
     const Known known = occluders.gather(traversal().objects_, traversal().frame_, rays, lanes, light);
     return known == Known::nodes && lists_all() ? Known::nothing : known;
   }
-  /// As transmittance(), where it is known in which nodes rays may hit something.
+  /// Multiplies `light` as transmittance() does, if the nodes in which rays may hit something are known.
   void transmittance_of(const AreaOccluders<Spu>& occluders, const RayPacket& rays, uint32_t lanes,
                         const FloatLanes& distance, VectorLanes& light) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
@@ -41,14 +40,14 @@ public:
     traversal().bvh_.intersect_leaves(query, occluders.nodes(), occluders.node_count());
     traversal().clear_occluded(&query, 1);
   }
-  /// Removes lanes from queries for light that cross one of the occluders, all of which are opaque.
+  /// Removes lanes from queries of shadow rays that cross one of the occluders, which must be opaque.
   void test_occluders(RayQuery* queries, uint32_t count, const AreaOccluders<Spu>& occluders) {
     occluders.test(traversal().objects_, queries, count);
   }
 
-  /// Whether opaque objects are remembered from now on that occlude rays.
+  /// Sets whether opaque objects that occlude rays are kept in the shadow cache.
   void remember_occluders(bool remembers) { traversal().objects_.remember_occluders(remembers); }
-  /// Returns the `lanes` that cross none of the opaque objects that are remembered; `light` stays as it is.
+  /// Returns the `lanes` that cross none of the objects in the shadow cache; `light` is unchanged.
   uint32_t unoccluded_by_recent(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
                                 VectorLanes& light) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
@@ -56,14 +55,15 @@ public:
     return query.lanes;
   }
 
-  /// Finds the closest hits of packets of an application, by the BVH: those before the distances that are in
-  /// `hits`, where no object is yet. Each query has some lanes. `bundle`: of these packets, and entered last.
+  /// Finds the closest hits of an application's packets with the BVH, up to the distances in `hits`, which
+  /// have no object yet. Each query has some lanes. `bundle` consists of these packets, and was entered last.
   void find_closest_within(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
     traversal().intersect_listed(queries, count);
     if (!lists_all()) traversal().bvh_.intersect_from_origin(queries, count, bundle);
   }
 
-  /// As intersect(), of rays that may all start at one point. May change the order of the queries.
+  /// Answers queries as intersect() does, for rays that may all start at one point. May change the order of
+  /// the queries.
   void intersect_from_origin(RayQuery* queries, uint32_t count) {
     if constexpr (Traversal::kHasBvh) {
       if (traversal().asks_bvh()) {
@@ -88,7 +88,7 @@ public:
     else
       return true;
   }
-  /// Finds the closest hits of the bundle that was entered last; query i is that of its packet i.
+  /// Finds the closest hits of the bundle that was entered last; query i belongs to its packet i.
   void intersect_from_pinhole(RayQuery* queries, const PinholeBundle<S>& bundle) {
     if (!traversal().asks_bvh() || bundle.packets == 0)
       return traversal().intersect(queries, kBundlePackets<Spu>);
@@ -102,7 +102,7 @@ protected:
     if constexpr (Traversal::kHasBvh) {
       if (traversal().asks_bvh() && !is_parallel(light)) {
         traversal().intersect_listed(queries, count);
-        // Planes may leave packets without rays, which a bundle cannot have.
+        // Planes may leave packets without rays, which a bundle must not have.
         const uint32_t with_rays =
             traversal().frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
         if (with_rays != 0) traversal().bvh_.intersect_toward(queries, with_rays, light.location);
@@ -131,7 +131,7 @@ private:
     traversal().objects_.set_translucency(Translucency::attenuates);
   }
 
-  /// Moves queries that have rays in front of those that have none; returns how many they are.
+  /// Moves queries with rays in front of those without; returns their number.
   static uint32_t queries_with_rays(RayQuery* queries, uint32_t count) {
     uint32_t with_rays = 0;
     for (uint32_t i = 0; i < count; ++i) {
@@ -143,7 +143,7 @@ private:
     return with_rays;
   }
 
-  const bool has_few_; ///< objects that are bounded
+  const bool has_few_; ///< true if there are few bounded objects
 };
 
 } // namespace celltrace::kernel

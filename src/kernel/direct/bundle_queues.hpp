@@ -1,9 +1,9 @@
-// The kinds of work that lanes of a bundle's ray trees wait for: rays to trace, hits to shade, points to
-// light, and rays that hit nothing. Kernel dialect, where memory is direct.
+// Kinds of work for which lanes of a bundle's ray trees wait: rays to trace, hits to shade, points to light,
+// and rays without a hit. Kernel dialect, for direct memory.
 //
 // Behind surfaces that mirror or bend rays most packets of a tree have few rays each, of which some end, some
 // go to the sky, and few send on light of a lamp. Lanes of all trees of a bundle wait for each other here.
-// The bodies are PooledTrees's.
+// PooledTrees has the bodies.
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
@@ -13,7 +13,7 @@
 
 namespace celltrace::kernel {
 
-/// Whether so few lanes of a packet had better wait for others.
+/// Returns true if lanes of a packet should wait for others because they are few.
 inline bool had_better_wait(uint32_t lanes) {
   return __builtin_popcount(lanes) < tuning::kLeastRaysByThemselves;
 }
@@ -26,13 +26,13 @@ struct PooledRays : WorkKind {
     const WordLanes& pixels;
   };
   static constexpr uint32_t kKeys = 8;
-  /// The packets that fill, some for each packet of a bundle, and the full ones that wait on the way down the
-  /// trees.
+  /// Capacity in packets: those that fill up, some for each packet of a bundle, and the full ones that wait
+  /// on the way down the trees.
   static constexpr uint32_t kPackets = 58;
   static constexpr bool kMixesKeys = true;
 
   RayNode node;
-  WordLanes pixels; ///< of the bundle, by lane, whose own light the rays go to
+  WordLanes pixels; ///< by lane, pixel of the bundle that receives the ray's light
 
   void begin() { node.begin(); }
   void put(const Source& from, uint32_t lanes, uint32_t to) {
@@ -55,13 +55,13 @@ struct PooledRays : WorkKind {
   }
 };
 
-/// Hits from which no rays go on. They run between trees, the oldest first.
+/// Hits without secondary rays, which are shaded between trees, the oldest first.
 struct EndingHits : WorkKind {
   struct Source {
     PooledRays::Source rays;
     const HitPacket& hits;
   };
-  static constexpr uint32_t kPackets = 5; ///< what a tree may leave until it is complete
+  static constexpr uint32_t kPackets = 5; ///< number that a tree may leave until it is complete
   static constexpr bool kOldestFirst = true;
 
   PooledRays rays;
@@ -77,22 +77,22 @@ struct EndingHits : WorkKind {
   }
 };
 
-/// Points that send on a light if nothing is in the way, by the light's number.
+/// Points that send on a light if nothing occludes it, by the light's number.
 struct ShadowPoints : WorkKind {
   struct Source {
     const VectorLanes& point;
     const WordLanes& object;
     const VectorLanes& light;
     const WordLanes& pixels;
-    const RayInteriors* interiors; ///< null: they are not wanted
+    const RayInteriors* interiors; ///< null: not wanted
   };
-  static constexpr uint32_t kKeys = 8, kPackets = kKeys; ///< lights of a frame that have a queue
+  static constexpr uint32_t kKeys = 8, kPackets = kKeys; ///< number of lights of a frame that have a queue
 
   VectorLanes point;
-  WordLanes object;       ///< that each lies on
-  VectorLanes light;      ///< that they send on
-  WordLanes pixels;       ///< of the bundle, by lane
-  RayInteriors interiors; ///< of the rays that have hit them
+  WordLanes object;       ///< object that each point lies on
+  VectorLanes light;      ///< light that the points send on
+  WordLanes pixels;       ///< by lane, pixel of the bundle
+  RayInteriors interiors; ///< interiors of the rays that have hit the points
 
   void put(const Source& from, uint32_t lanes, uint32_t to) {
     for_each_lane(lanes, [&](uint32_t lane) {
@@ -109,13 +109,13 @@ struct ShadowPoints : WorkKind {
   }
 };
 
-/// Rays that hit nothing, whose sky has patterns, which take as long for one lane as for all.
+/// Rays without a hit if the sky has patterns, which take as long for one lane as for all.
 struct SkyRays : WorkKind {
   using Source = PooledRays::Source;
 
   VectorLanes direction;
-  VectorLanes throughput; ///< what the sky's colour is multiplied by on its way into the pixel
-  WordLanes pixels;       ///< of the bundle, by lane
+  VectorLanes throughput; ///< factor of the sky's colour in the pixel
+  WordLanes pixels;       ///< by lane, pixel of the bundle
 
   void put(const Source& from, uint32_t lanes, uint32_t to) {
     for_each_lane(lanes, [&](uint32_t lane) {
@@ -129,12 +129,12 @@ struct SkyRays : WorkKind {
   }
 };
 
-/// The way of a tracer's rays into a queue.
+/// The interface by which a tracer puts rays into a queue.
 struct RayPooling {
   WavefrontQueue<PooledRays>* queue = nullptr;
-  WordLanes pixels; ///< of the bundle, that the lanes of the rays are which are being traced
+  WordLanes pixels; ///< by lane, pixel of the bundle for the rays that are being traced
 
-  /// False: they are to stay, as there is no queue, or no room, or they are as well off by themselves.
+  /// Puts rays into the queue. False: they stay, as there is no queue or no room, or they are not few.
   bool takes(const RayNode& node) {
     if (queue == nullptr || !had_better_wait(node.lanes) || !queue->has_room()) return false;
     for_each_lane(node.lanes, [&](uint32_t lane) {

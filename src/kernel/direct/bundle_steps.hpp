@@ -1,5 +1,5 @@
-// Steps of a bundle's traversal where memory is direct: with a view of the scene from the point that all of
-// its rays pass through. Packets whose rays are of several octants are traversed at once. Kernel dialect.
+// Steps of a bundle's traversal in direct memory: with a view of the scene from the point that all of its
+// rays pass through. Packets whose rays are in several octants are traversed as a whole. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/bvh_traversal.hpp"
@@ -17,7 +17,7 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// Finds the closest hits of the primary rays of a bundle that has just been entered; query i is that of
+  /// Finds the closest hits of the primary rays of a bundle that has just been entered; query i belongs to
   /// its packet i.
   void intersect_from_pinhole(RayQuery* queries, const PinholeBundle<S>& bundle) {
     for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet)
@@ -25,7 +25,7 @@ public:
     bundle.shortening.store(shortening_);
     traverse_view(queries, bundle);
   }
-  /// Finds those of a bundle that has some of the packets of `queries`, each of which has some lanes.
+  /// Finds the closest hits of `queries`, each of which has some lanes; `bundle` has some of their packets.
   void intersect_from_origin(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
     if (bundle.packets != 0) {
       bundle.shortening.store(shortening_);
@@ -37,7 +37,7 @@ public:
     }
     search().intersect(queries, count, bundle.packets);
   }
-  /// Answers queries for the light from the point `light`. Each of them has some lanes.
+  /// Answers queries of shadow rays toward the point `light`. Each of them has some lanes.
   void intersect_toward(RayQuery* queries, uint32_t count, const float (&light)[3]) {
     const LightBundle<S> bundle(light, queries, count);
     if (bundle.packets != 0) {
@@ -48,7 +48,7 @@ public:
     search().intersect(queries, count, bundle.packets);
   }
 
-  /// Answers a query for light whose rays come to these leaves alone.
+  /// Answers a query of shadow rays that come only to these leaves.
   void intersect_leaves(RayQuery& query, const NodeLeaves* nodes, uint32_t count) {
     search().objects_.hit_filter().begin_packet();
     const MixedRays<S> rays(*query.rays);
@@ -63,10 +63,9 @@ public:
     }
   }
 
-  /// Traverses the BVH with the frustum of a bundle only, for which its rays need not exist yet, until it
-  /// hits a leaf or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything.
-  /// Otherwise intersect_from_pinhole() or
-  /// intersect_from_origin() continues from there. The bundle has some packets.
+  /// Traverses the BVH with the frustum of a bundle only, whose rays need not exist yet, until it hits a leaf
+  /// or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything. Otherwise
+  /// intersect_from_pinhole() or intersect_from_origin() continues from there. The bundle has some packets.
   template <class Bundle> bool enter(const Bundle& bundle) {
     search().bundle_frustum_.set(bundle.all, bundle.octant);
     search().begin(bundle.packets);
@@ -104,7 +103,7 @@ protected:
     reversed_ = false;
   }
   const BundleView<S>* view() const { return view_; }
-  /// Frusta of rays through one point are tight.
+  /// Returns true if all rays pass through one point, as their frusta are then tight.
   bool trusts_frusta() const { return view_ != nullptr; }
   uint32_t doubted_at(const NodeRef& child) const { return child.is_leaf() ? wide_ : 0; }
   void set_own_frustum(uint32_t packet, const RayQuery& query, Frustum<S>& frustum) {
@@ -141,7 +140,7 @@ private:
 
   Search& search() { return static_cast<Search&>(*this); }
 
-  /// Traverses a bundle whose rays all pass through one point, with the frusta that it brings.
+  /// Traverses a bundle whose rays all pass through one point, with the bundle's frusta.
   void traverse_view(RayQuery* queries, const ViewBundle<S>& bundle) {
     for (uint32_t& misses : search().misses_)
       misses = 0;
@@ -155,14 +154,14 @@ private:
     search().traverse_bundle(queries, SlabOrder(bundle.octant), SlabOrder(search().octant_), bundle.packets);
   }
 
-  /// The traversal of a bundle's frustum, for traverse_nodes(). It ends where it comes to a leaf or has
-  /// expanded some nodes, and leaves what is next on the stack.
+  /// The traversal of a bundle's frustum, for traverse_nodes(). The traversal ends at a leaf or when some
+  /// nodes have been expanded, and leaves the next ones on the stack.
   struct FrustumVisitor {
     Search& traversal;
     const SlabOrder order;
     const uint32_t packets;
-    uint32_t nodes = 0;      ///< that have been expanded
-    bool found_leaf = false; ///< or there are too many nodes
+    uint32_t nodes = 0;      ///< number of expanded nodes
+    bool found_leaf = false; ///< also true if there are too many nodes
 
     bool expand(NodeRef& ref) {
       ++nodes;
@@ -194,7 +193,7 @@ private:
   };
 
   const bool mixes_octants_, mixes_always_;
-  const BundleView<S>* view_ = nullptr; ///< of the bundle, if its rays pass through one point
+  const BundleView<S>* view_ = nullptr; ///< null if the rays do not pass through one point
   uint32_t wide_ = 0;                   ///< ViewBundle::wide; undefined without a view
   bool reversed_ = false;               ///< the frusta are those of reversed rays
   /// By packet; see shortening(). Undefined for rays that do not pass through one point.

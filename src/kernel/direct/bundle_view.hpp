@@ -5,17 +5,17 @@
 
 namespace celltrace::kernel {
 
-/// Where rays toward a light start, relative to a base point near all of their origins: relative to the
-/// light, triangles near these origins would be rounded by more than kShadowEpsilon.
+/// Origins of shadow rays, relative to a base point near all of them: relative to the light, triangles near
+/// these origins would be rounded by more than kShadowEpsilon.
 struct ShadowOrigins {
   float base[3], light[3];
   float span;                     ///< an upper bound of the origins' distances from the base
   VectorLanes origin[kSimdLanes]; ///< by packet: origin - base
-  /// By packet: the range on a ray in which something occludes it, as shares of the way to the light.
+  /// By packet: the range on a ray in which objects occlude it, relative to the distance of the light.
   FloatLanes low[kSimdLanes], high[kSimdLanes];
 };
 
-/// A projective map of the scene for rays that all pass through one point, as a camera's onto its image
+/// A projective map of the scene for rays that all pass through one point, like a camera's map onto its image
 /// plane. All points of a ray have the same ratio of the first two coordinates to the third, the depth. The
 /// ratios of a packet's rays lie in a rectangle.
 ///
@@ -28,12 +28,12 @@ template <class S> struct BundleView {
 
   float origin[3];
   uint32_t axes[3];                              ///< axes of the scene, the major axis last
-  float forth;                                   ///< -1 or 1: the sign of the rays on the major axis
+  float forth;                                   ///< -1 or 1: sign of the rays' directions on the major axis
   float slope[2] = {0, 0};                       ///< shear of the first two axes along the major axis
   float depth_scale = 1.0f, depth_offset = 0.0f; ///< depth = scale * length on the major axis - offset
   LaneInterval<S> seen[2];                       ///< the rectangles of the packets, at depth 1
   float span = 0.0f; ///< an upper bound of the distances from `origin` at which rays start
-  const ShadowOrigins* shadows = nullptr; ///< of rays toward a light, otherwise null
+  const ShadowOrigins* shadows = nullptr; ///< for rays toward a light, otherwise null
 
   void set_major(uint32_t axis) {
     axes[0] = axis == 0 ? 1 : 0;
@@ -56,16 +56,16 @@ template <class S> struct BundleView {
   }
 };
 
-/// Packets whose rays all pass through one point and have directions of one octant.
+/// Packets whose rays all pass through one point and have directions in one octant.
 template <class S> struct ViewBundle {
   BundleView<S> view;
   LaneRayBounds<S> bounds;
-  RayBounds all; ///< contains those of all packets
+  RayBounds all; ///< contains the bounds of all packets
   uint32_t octant = 0;
-  bool turned = false;  ///< bounds and octant are those of reversed rays
-  uint32_t packets = 0; ///< which packets; for others all else is undefined
+  bool turned = false;  ///< true if bounds and octant are those of reversed rays
+  uint32_t packets = 0; ///< packets of the bundle; all else is undefined for others
   uint32_t wide = 0;    ///< packets whose frusta hit many leaves that none of their rays hits
-  float density = 0.0f; ///< rays in a unit square at depth 1; 0: not known
+  float density = 0.0f; ///< rays in a unit square at depth 1; 0: unknown
 };
 
 } // namespace celltrace::kernel

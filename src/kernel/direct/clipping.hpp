@@ -1,17 +1,17 @@
-// Parts of CSG that one other solid clips: a torus that a box or a plane cuts in half. Kernel dialect, where
-// memory is direct.
+// CSG parts that one other solid clips, such as a torus that a box or a plane cuts in half. Kernel dialect,
+// for direct memory.
 //
-// A ray crosses the faces of a convex solid twice at most. What is asked of a part's crossings is so known
-// before they are found: they are between those two, or they are not.
+// A ray crosses the faces of a convex solid twice at most. Therefore the condition on a part's crossings is
+// known before they are found: they have to be between those two, or not.
 #pragma once
 
 #include "kernel/primitives/csg.hpp"
 
 namespace celltrace::kernel {
 
-/// The only solid that a condition asks about.
+/// The only solid that a condition tests.
 struct ClippingSolid {
-  uint32_t solid; ///< offset of a SolidRecord, or kNoOffset: it asks about several, or about none
+  uint32_t solid; ///< offset of a SolidRecord, or kNoOffset: the condition tests several solids or none
   bool keeps_inside;
 
   template <class Spu> static ClippingSolid of(SceneAccess<Spu>& scene, uint32_t condition) {
@@ -21,14 +21,14 @@ struct ClippingSolid {
     if (level.next != kNoOffset || level.count != skipped + 1) return kNone;
     const uint32_t number = level.skip_begin == 0 ? level.skip_end : 0;
     const CsgStep& step = *scene.csg_step(level.steps + number * static_cast<uint32_t>(sizeof(CsgStep)));
-    // Steps only go forward: from this one to the end, perhaps past those that are skipped.
+    // The next step is the end, as steps only go forward, perhaps past the skipped ones.
     const bool keeps_inside = step.if_inside != kCsgReject, keeps_outside = step.if_outside != kCsgReject;
     if (step.unseen_by != 0 || keeps_inside == keeps_outside) return kNone;
     return {step.solid, keeps_inside};
   }
 };
 
-/// Where rays are in a box, or in the half-space of a plane.
+/// Return the intervals of rays in a box, or in the half-space of a plane.
 template <class S> SlabInterval<S> interval_in_box(const RayPacket& rays, const ObjectRecord& box) {
   return BoxPrimitive::slabs_along<S>(to_local<S>(box.geometry, rays.origin.template load<S>(), 1.0f),
                                       to_local<S>(box.geometry, rays.direction.template load<S>(), 0.0f));
@@ -42,9 +42,9 @@ template <class S> SlabInterval<S> interval_in_half_space(const RayPacket& rays,
   return {S::select(goes_out, F(-kEveryCrossing), at), S::select(goes_out, at, F(kEveryCrossing))};
 }
 
-/// A clipping solid of those for which it is fast to find where rays are in it: a box, or a plane.
+/// A clipping solid in which the intervals of rays are found quickly: a box or a plane.
 struct ClippingObject {
-  const ObjectRecord* object; ///< null: it is none of those
+  const ObjectRecord* object; ///< null: it is another solid
   bool is_box, keeps_inside;
 
   template <class Spu> static ClippingObject of(SceneAccess<Spu>& scene, uint32_t condition) {

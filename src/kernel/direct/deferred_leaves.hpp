@@ -6,18 +6,18 @@
 
 namespace celltrace::kernel {
 
-/// Leaves that rays of a packet hit, and whose objects have not been tested yet.
+/// Leaves that rays of a packet hit, with objects that have not been tested yet.
 class DeferredLeaves {
 public:
   struct Leaf {
     NodeRef ref;
-    uint32_t group; ///< the rays of the packet that hit it
+    uint32_t group; ///< rays of the packet that hit the leaf
   };
 
   uint32_t count() const { return count_; }
   const Leaf& operator[](uint32_t i) const { return leaves_[i]; }
   bool is_full() const { return count_ == tuning::kMaxDeferredLeaves; }
-  /// Whether the leaves are tested after the next node has been expanded.
+  /// Returns true if the leaves should be tested after the next node has been expanded.
   bool are_enough() const { return count_ >= tuning::kEnoughDeferredLeaves; }
   void add(const NodeRef& ref, uint32_t group) { leaves_[count_++] = {ref, group}; }
   void clear() { count_ = 0; }

@@ -1,5 +1,5 @@
-// The random points in and around a unit cell, for all lanes that are in it. Where lanes are farther apart,
-// see neighbours_of_lanes.hpp. Kernel dialect, where memory is direct.
+// The feature points in and around a unit cell, for all lanes that are in it. If lanes are farther apart, see
+// neighbours_of_lanes.hpp. Kernel dialect, for direct memory.
 #pragma once
 
 #include "records/random_tables.hpp"
@@ -8,12 +8,13 @@
 
 namespace celltrace::kernel {
 
-/// The points of a cell and the 26 around it, in the order of x, y, z. From the cell's corner.
+/// The feature points of a cell and the 26 cells around it, in the order of x, y, z, relative to the cell's
+/// corner.
 template <class S> class FeatureNeighbours {
 public:
   using F = typename S::F;
 
-  /// `features`: the Features of a table.
+  /// Finds the points; `features` are the Features of a table.
   template <class Table> void gather(Table& features, const uint32_t (&cell)[3]) {
     uint32_t i = 0;
     for (int32_t x = -1; x <= 1; ++x) {
@@ -31,7 +32,7 @@ public:
   }
 
   static constexpr uint32_t kCount = 27;
-  /// The way from points of all lanes to point `i`.
+  /// Returns the vectors from points of all lanes to point `i`.
   [[gnu::always_inline]] V3<S> way_to(uint32_t i, const V3<S>& from) const {
     return {F(place_[0][i]) - from.x, F(place_[1][i]) - from.y, F(place_[2][i]) - from.z};
   }
@@ -40,8 +41,8 @@ private:
   float place_[3][kCount];
 };
 
-/// The neighbours of the cells that a packet's points are in, for points beside them: a normal asks at four
-/// that are close together. Of one table.
+/// A cache of the feature points around the cells with a packet's points, for further points beside these: a
+/// normal evaluates four points that are close together. All are from one table.
 template <class S> class NeighbourCache {
 public:
   NeighbourCache() {
@@ -49,9 +50,9 @@ public:
       name = kNone;
   }
 
-  /// Those in `features`. They stay until the next call.
+  /// Returns the points around a cell in `features`, which are valid until the next call.
   template <class Table> const FeatureNeighbours<S>& around(Table& features, const uint32_t (&cell)[3]) {
-    // As many bits of each coordinate as there are numbers of cells.
+    // The name has as many bits of each coordinate as there are numbers of cells.
     uint64_t name = 0;
     for (const uint32_t coordinate : cell)
       name = name * kFeatures + coordinate % kFeatures;

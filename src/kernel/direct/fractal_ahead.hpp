@@ -1,10 +1,10 @@
-// Values of a fractal at what the rays of a bundle hit, before they are asked for. Kernel dialect, where
-// memory is direct.
+// Values of a fractal at the hits of a bundle's rays, computed before they are needed. Kernel dialect, for
+// direct memory.
 //
 // Near the edge of the Mandelbrot set one point stays for ten rounds and the one beside it for ten thousand:
-// a packet goes on until its last lane has ended, and each round waits for the one before. Here those of all
-// packets go on in lanes that are filled again, two vectors at a time. A WavefrontQueue has a body that ends
-// for all lanes of a packet: here each lane is followed by another.
+// a packet continues until its last lane has ended, and each round waits for the previous one. Here the
+// points of all packets are iterated in lanes that are filled again, two vectors at a time. A WavefrontQueue
+// has a body that ends for all lanes of a packet, but here each lane is followed by another.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -15,16 +15,16 @@
 
 namespace celltrace::kernel {
 
-/// Of one pattern, at points of `kPackets` packets.
+/// Values of one pattern at points of `kPackets` packets.
 template <class S, uint32_t kPackets> class FractalValues {
 public:
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
 
-  /// A packet has been iterated by itself, for so many rounds.
+  /// Adds the rounds of a packet that has been iterated separately.
   void count(uint32_t rounds) { rounds_ += rounds; }
-  /// Forgets all values. Returns whether those of the next packets had better be found together, as those of
+  /// Forgets all values. Returns true if the values of the next packets should be found together, as those of
   /// the last ones took long.
   bool begin() {
     const bool takes_long = rounds_ >= tuning::kLeastRoundsOfFractals;
@@ -38,8 +38,9 @@ public:
     const SquareIteration iteration{r};
     return !iteration.wants_least() && iteration.most() > kFirstRounds;
   }
-  /// Points of some lanes of a packet, in the space of a pattern that it takes. Of the first pattern; others
-  /// have to be asked by themselves. Points that leave soon have their values at once.
+  /// Adds points of some lanes of a packet, in the space of a pattern for which takes() is true. Points of
+  /// another pattern than the first one are ignored, and have to be evaluated separately. Points that leave
+  /// soon get their values at once.
   void add(uint32_t packet, const PatternRecord& r, uint32_t lanes, const Complex<S>& at) {
     if (pattern_ == nullptr) begin_pattern(r);
     lanes &= ~known_[packet];
@@ -76,7 +77,7 @@ public:
   /// Finds the values of the points that have been added.
   [[gnu::noinline]] void run() {
     if (pattern_ == nullptr) return;
-    if (count_ > kSimdLanes) rounds_ = tuning::kLeastRoundsOfFractals; // so are those of the next packets
+    if (count_ > kSimdLanes) rounds_ = tuning::kLeastRoundsOfFractals; // the next packets take as long
     const SquareIteration iteration{*pattern_};
     const F most(static_cast<float>(iteration.most())), inner(iteration.inner());
     Stream streams[kStreams];
@@ -97,7 +98,8 @@ public:
           const F rounds = squares[k].rounds;
           const M goes_on = squares[k].stays & (rounds < most) & !squares[k].is_at(kept[k]);
           ended[k] = streams[k].busy & ~goes_on.bits();
-          // Of numbers that come back, each is looked for that is twice as late as the one before.
+          // To detect cycles, numbers are compared with one that is kept; the next one is kept after twice as
+          // many rounds.
           const I whole = S::to_int(rounds);
           const M keeps = (whole & (whole - I::splat(1))) == I::splat(0);
           kept[k] = {S::select(keeps, squares[k].z.a, kept[k].a),
@@ -119,9 +121,9 @@ public:
     }
   }
 
-  /// The packet whose points are asked for from now on.
+  /// Selects the packet whose points are evaluated from now on.
   void show(uint32_t packet) { shown_ = packet; }
-  /// The lanes of points whose values are known: they become theirs.
+  /// Returns the lanes of points whose values are known, and sets `value` there.
   M find(const PatternRecord& r, const Complex<S>& at, F& value) const {
     if (pattern_ != &r) return M::none();
     const Packet& packet = packets_[shown_];
@@ -132,9 +134,11 @@ public:
   }
 
 private:
-  /// Rounds between two looks at what has ended; of a packet by itself, before lanes are filled again.
+  /// Rounds between two checks for ended lanes; and rounds of a packet by itself before lanes are filled
+  /// again.
   static constexpr uint32_t kRounds = 8, kFirstRounds = 4 * kRounds;
-  /// That go on at a time: a round of one takes half as long as its result.
+  /// Number of vectors that are iterated together: a round of one takes half as long as the latency of its
+  /// result.
   static constexpr uint32_t kStreams = 2;
 
   struct ComplexLanes {
@@ -146,7 +150,7 @@ private:
     ComplexLanes z, c, kept;
     FloatLanes rounds;
     uint32_t place[kSimdLanes];
-    uint32_t busy = 0; ///< lanes that have one
+    uint32_t busy = 0; ///< lanes with a point
 
     IteratedSquares<S, false> squares() const {
       IteratedSquares<S, false> all(load(z));
@@ -161,7 +165,7 @@ private:
       back.b.store(kept.b.lane);
     }
   };
-  /// One that waits for that.
+  /// A point that waits to be iterated.
   struct Point {
     float a, b, c_a, c_b;
     uint32_t place; ///< packet and lane
@@ -176,7 +180,7 @@ private:
     count_ = 0;
     pattern_ = &r;
   }
-  /// Gives a lane the next point, or nothing to do.
+  /// Gives a lane the next point, or none.
   void fill(Stream& stream, uint32_t lane, uint32_t& next) {
     const bool is_busy = next < count_;
     const Point point = is_busy ? points_[next++] : Point{0, 0, 0, 0, 0};
@@ -191,8 +195,8 @@ private:
   }
 
   uint32_t rounds_ = 0;
-  const PatternRecord* pattern_ = nullptr; ///< whose values are known; null: none are
-  uint32_t known_[kPackets];               ///< lanes
+  const PatternRecord* pattern_ = nullptr; ///< pattern of the known values; null: there are none
+  uint32_t known_[kPackets];               ///< by packet, lanes with known values
   uint32_t shown_ = 0;
   uint32_t count_ = 0;
   Packet packets_[kPackets];

@@ -1,4 +1,4 @@
-// Fractals of numbers that are squared, which are most. Kernel dialect, where memory is direct.
+// Fractals that iterate squares, which are most. Kernel dialect, for direct memory.
 #pragma once
 
 #include "kernel/direct/fractal_ahead.hpp"
@@ -7,7 +7,7 @@
 namespace celltrace::kernel {
 
 struct FractalSquares {
-  /// Values at points. They may have been found before.
+  /// Returns values at points, which may have been found before.
   template <class Spu>
   [[gnu::always_inline]] static typename Spu::rare_simd::F
   value_of_squares(SceneAccess<Spu>& scene, const Complex<typename Spu::rare_simd>& at,
@@ -28,10 +28,10 @@ struct FractalSquares {
     return value;
   }
 
-  /// Iterates numbers that are squared, but for those of `known`, whose values are undefined. A number that
-  /// comes back after some rounds would do so for ever, as those do that converge: it is not followed further
-  /// (Brent 1980). Whatever is still to come has been there, so that the least size is known. It is looked
-  /// for after several rounds at a time only. Not inlined: the loop has the registers for itself.
+  /// Iterates numbers that are squared, except those of `known`, whose values are undefined. A number that
+  /// comes back after some rounds would do so for ever, as convergent ones do: it is not followed further
+  /// (Brent 1980). All later numbers have occurred by then, so that the least size is known. The check is
+  /// made after several rounds at a time only. Not inlined, so that the loop has all registers for itself.
   template <class S, bool kWantsLeast>
   [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
                                                          const typename S::M& known,

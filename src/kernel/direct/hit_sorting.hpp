@@ -1,9 +1,9 @@
-// Sorts the rays of a bundle by the materials of what they hit, so that few packets have several. Kernel
-// dialect, where memory is direct.
+// Sorting of a bundle's rays by the materials of their hits, so that few packets have several. Kernel
+// dialect, for direct memory.
 //
-// A packet is shaded once for each of its materials; and what one material is on is mostly close together, so
-// that the shadow rays from there are coherent. No lane waits, so that this is no WavefrontQueue: all are
-// there at once, and change places by counting.
+// A packet is shaded once for each of its materials, and hits with one material are mostly close together, so
+// that their shadow rays are coherent. No lane waits, and so this is no WavefrontQueue: all are present at
+// once, and change places by counting.
 #pragma once
 
 #include "kernel/packet.hpp"
@@ -19,9 +19,8 @@ public:
 
   explicit HitSorter(Spu& spu) : sorted_(spu.template allocate<Sorted>(kPackets)) {}
 
-  /// Sorts the packets of a bundle that are mixed, if that pays: rays, hits and the lanes that they have,
-  /// which they then take from the first one on. Others stay as they are. Returns the packets that were
-  /// sorted.
+  /// Sorts the mixed packets of a bundle, if that pays: rays, hits and their lanes, which are filled from the
+  /// first one on. Other packets stay as they are. Returns the packets that were sorted.
   template <class Packet> uint32_t sort(SceneAccess<Spu>& scene, Packet* packets) {
     if (!looks_mixed(scene, packets)) return 0;
     materials_count_ = rays_ = mixed_ = sorted_count_ = 0;
@@ -46,13 +45,13 @@ public:
     return sorted;
   }
 
-  /// Where the rays of packet `i`, which was sorted, were before: lane + kSimdLanes x packet.
+  /// Returns the former places of the rays of packet `i`, which was sorted: lane + kSimdLanes x packet.
   const WordLanes& places(uint32_t i) const { return sorted_[i].places; }
 
 private:
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
-  /// Materials that are told apart. What has another one counts as the last of them, and what hits nothing
-  /// has none.
+  /// Number of materials that are distinguished. All further materials count as the last of them, and rays
+  /// without a hit have none.
   static constexpr uint32_t kMaterials = 16, kNone = kMaterials;
 
   struct Sorted {
@@ -61,12 +60,13 @@ private:
     WordLanes places;
   };
 
-  /// Triangles of instances count as if they had one in common: it would take long to find theirs.
+  /// Returns the material of an object. Triangles of instances count as one material: theirs would take long
+  /// to find.
   static uint32_t material_at(SceneAccess<Spu>& scene, uint32_t object) {
     return is_instanced(object) ? kInstancedBit : scene.object(object)->material;
   }
 
-  /// A glance at two corners of each packet.
+  /// Returns true if enough packets have two corners with different materials.
   template <class Packet> static bool looks_mixed(SceneAccess<Spu>& scene, const Packet* packets) {
     uint32_t mixed = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {
@@ -80,7 +80,8 @@ private:
     return mixed >= tuning::kLeastMixedPackets;
   }
 
-  /// Of a packet that is to be sorted: it has hits of several materials, or also rays that hit nothing.
+  /// Classifies the lanes of a packet that is to be sorted because it has hits of several materials, or also
+  /// rays without a hit.
   void classify(SceneAccess<Spu>& scene, const HitPacket& hits, uint32_t lanes, uint32_t number) {
     uint32_t of_class[kMaterials + 1];
     uint32_t seen = 0;
@@ -106,7 +107,8 @@ private:
     return materials_count_++;
   }
 
-  /// Whether sorted packets have clearly fewer materials together. Finds where the rays with each begin.
+  /// Returns true if sorted packets have clearly fewer materials in total. Finds where the rays of each
+  /// material begin.
   bool pays() {
     uint32_t place = 0, least = 0;
     for (uint32_t i = 0; i <= kNone; ++i) {
@@ -130,11 +132,11 @@ private:
 
   Sorted* sorted_;
   uint32_t number_[kPackets], sorted_count_ = 0; ///< packets that are sorted
-  uint8_t class_[kPackets][kSimdLanes];          ///< of them: numbers of the materials that rays hit
+  uint8_t class_[kPackets][kSimdLanes];          ///< by packet and lane: number of the material
   uint32_t materials_[kMaterials], materials_count_ = 0;
-  uint32_t count_[kMaterials + 1], next_[kMaterials + 1]; ///< rays of each, and the next one's place
+  uint32_t count_[kMaterials + 1], next_[kMaterials + 1]; ///< by material: rays, and place of the next one
   uint32_t rays_ = 0;
-  uint32_t mixed_ = 0; ///< materials of these packets together
+  uint32_t mixed_ = 0; ///< total number of materials of these packets
 };
 
 } // namespace celltrace::kernel

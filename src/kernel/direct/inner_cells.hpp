@@ -1,5 +1,5 @@
-// The cells around the points that crackle is asked at, all of whose random points are known at once. Kernel
-// dialect, where memory is direct.
+// The cells around the points at which crackle is evaluated, whose feature points are all known at once.
+// Kernel dialect, for direct memory.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -9,25 +9,25 @@
 
 namespace celltrace::kernel {
 
-/// Inner cells come first: most of the others are then too far away.
+/// Finds nearest points in inner cells first: most of the other cells are then too far away.
 template <class S> class InnerCells {
   using Crackle = CracklePattern;
   using Nearest = Crackle::Nearest<S>;
   using Wanted = Crackle::Wanted;
 
 public:
-  /// How many steps away the cells are that are taken here.
+  /// Distance, in cells, of the cells that are processed here.
   static constexpr int32_t kTaken = 1;
 
-  /// Whether the nearest points of all lanes are in their inner cells. Otherwise what it takes of these may
-  /// be kept.
+  /// Returns true if the nearest points of all lanes are in their inner cells. Otherwise `nearest` may
+  /// contain points of these.
   template <class Spu>
   [[gnu::always_inline]] static bool suffice(Features<Spu>& features, const V3<S>& p, float metric,
                                              const Wanted& wanted, Nearest& nearest) {
     return take_inner_of_lanes(features, p, metric, wanted, nearest) &&
            reaches_no_further(nearest.power[wanted.last], S::M::all());
   }
-  /// Asks that of `lanes`, all of which are in one cell.
+  /// Returns true if the nearest points of `lanes`, all of which are in one cell, are in the inner cells.
   template <class Spu>
   [[gnu::always_inline]] static bool suffice_in(const uint32_t (&cell)[3], Features<Spu>& features,
                                                 const V3<S>& from, const V3<S>& p, uint32_t lanes,
@@ -36,13 +36,13 @@ public:
     return reaches_no_further(nearest.power[wanted.last], S::M::from_bits(lanes));
   }
 
-  /// Returns the least that a way along an axis adds to the sum that distances are a root of.
+  /// Returns the least that a distance along an axis contributes to distance^metric.
   [[gnu::always_inline]] static typename S::F least_along(const typename S::F& way, float metric) {
     return Crackle::along<S>(way, metric);
   }
 
 private:
-  /// The points of the inner cells, for lanes that are all in one cell, unless they have been taken before.
+  /// Processes the feature points of the inner cells for lanes in one cell, unless this has been done before.
   template <class Spu>
   CELLTRACE_ONE_COPY static void take_inner(Features<Spu>& features, const uint32_t (&cell)[3],
                                             const V3<S>& from, const V3<S>& p, uint32_t lanes, float metric,
@@ -61,7 +61,7 @@ private:
       return found;
     };
     if (metric == 2.0f && wanted.last <= 1 && !wanted.point) {
-      // Compilers leave out what is not assigned here.
+      // Compilers leave out the members that are not assigned here.
       const Nearest found = take_all(2.0f);
       nearest.power[0] = found.power[0];
       nearest.power[1] = found.power[1];
@@ -70,7 +70,7 @@ private:
     }
   }
 
-  /// Takes the points of all lanes at once; false: they are in few cells.
+  /// Processes the points of all lanes at once; false: they are in few cells.
   template <class Spu>
   [[gnu::always_inline]] static bool take_inner_of_lanes(Features<Spu>& features, const V3<S>& p,
                                                          float metric, const Wanted& wanted,
@@ -135,12 +135,12 @@ private:
       nearest.point = select<S>(S::M::from_bits(nearer), p + way.template load<S>(), nearest.point);
   }
 
-  /// Whether no point beyond the inner cells, which are 1 away or more along an axis, is nearer.
+  /// Returns true if no point beyond the inner cells, which are at least 1 away along an axis, is nearer.
   [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power,
                                                         const typename S::M& here) {
     return (here & (power > typename S::F(1.0f))).bits() == 0;
   }
-  /// The points in and around a cell, until the next call: in `room`, unless they are cached.
+  /// Returns the points in and around a cell, valid until the next call: in `room`, unless they are cached.
   template <class Spu>
   static const FeatureNeighbours<S>& neighbours_of(const uint32_t (&cell)[3], Features<Spu>& features,
                                                    FeatureNeighbours<S>& room) {

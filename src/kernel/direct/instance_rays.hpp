@@ -1,5 +1,5 @@
-// Rays in the space of an instance's mesh that go alone: each is tested against the children of a node, and
-// against the triangles of a leaf, in lanes. Kernel dialect.
+// Single rays in the space of an instance's mesh: each is tested against the children of a node, and against
+// the triangles of a leaf, in lanes. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/record_lanes.hpp"
@@ -16,7 +16,7 @@ public:
   using M = typename S::M;
   using Stack = TraversalStack<1, kMaxMeshLevels>;
 
-  /// Of a packet and its rays in the mesh's space; `inverse` is that of their direction.
+  /// Stores a packet's rays in the mesh's space; `inverse` is that of their direction.
   [[gnu::always_inline]] InstanceRays(const RayPacket& world, const V3<S>& origin, const V3<S>& direction,
                                       const V3<S>& inverse)
       : world_(world) {
@@ -25,8 +25,8 @@ public:
     inverse_.template store<S>(inverse);
   }
 
-  /// Traverses the subtree below `ref` with those of `lanes`, one after the other, if they are few. Otherwise
-  /// false.
+  /// Traverses the subtree below `ref` with the rays of `lanes`, one after another, if they are few;
+  /// otherwise returns false.
   [[gnu::always_inline]] bool traverse(SceneAccess<Spu>& scene, uint32_t lanes, const NodeRef& ref,
                                        const InstanceTest& test, Stack& stack, HitPacket& hits,
                                        InstanceWork& work) const {
@@ -37,7 +37,7 @@ public:
   }
 
 private:
-  /// Traverses it with one of them.
+  /// Traverses the subtree with one ray.
   void traverse_alone(SceneAccess<Spu>& scene, uint32_t lane, NodeRef ref, const InstanceTest& test,
                       Stack& stack, HitPacket& hits, InstanceWork& work) const {
     const uint32_t floor = stack.size();
@@ -61,7 +61,7 @@ private:
     }
   }
 
-  /// The ray in every lane, and which rows of bounds are near it.
+  /// A ray in every lane, and the rows of bounds that are nearer to it.
   struct Slabs {
     F4 origin[3], inverse[3];
     uint32_t near[3];
@@ -76,7 +76,7 @@ private:
     }
   };
 
-  /// As MeshRays::expand(), of one ray.
+  /// Pushes the children of a node that one ray enters; see MeshRays::expand().
   [[gnu::always_inline]] static void expand(const NodeRecord& node, const Slabs& slabs, float reach,
                                             Stack& stack) {
     F4 enter = F4::splat(0.0f), leave = F4::splat(reach);
@@ -100,7 +100,7 @@ private:
     const uint32_t count = leaf_word::count(leaf.leaf);
     const uint32_t first = test.first_number + (leaf.child - test.first_triangle) / kBytes;
     const ObjectRecord* const records = scene.object(leaf.child);
-    // Lanes beyond the leaf's triangles repeat the first.
+    // Lanes beyond the leaf's triangles repeat the first one.
     const TriangleSides<S> sides = load_sides<S>([&](uint32_t i) __attribute__((always_inline)) {
       return records[i < count ? i : 0].geometry;
     });

@@ -1,6 +1,6 @@
-// What shadow rays cross of translucent surfaces, where it matters in which order they do: some may be so
-// near each other that not all of them count, interiors may fade, and what a surface lets through may depend
-// on where a ray comes from. Kernel dialect.
+// Crossings of shadow rays with translucent surfaces, kept where their order matters: some may be so near
+// each other that not all of them count, interiors may fade, and the transmittance of a surface may depend on
+// where a ray comes from. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -9,32 +9,32 @@
 
 namespace celltrace::kernel {
 
-/// Room for what the packets of a bundle cross.
+/// Memory for the crossings of a bundle's packets.
 struct CrossingPool {
   static constexpr uint32_t kMost = 384;
   static constexpr float kNowhere = -1.0f;
 
   uint32_t count = 0;
-  FloatLanes distance[kMost]; ///< kNowhere in lanes that do not cross it
+  FloatLanes distance[kMost]; ///< kNowhere in lanes without a crossing
   VectorLanes transmittance[kMost];
-  FloatLanes u[kMost], v[kMost]; ///< as Crossings'
+  FloatLanes u[kMost], v[kMost]; ///< as in Crossings
   uint32_t object[kMost];        ///< offsets
 };
 
-/// The light of a packet's shadow rays, without what they have crossed until finish().
+/// The light of a packet's shadow rays. The transmittance of crossed surfaces is kept apart until finish().
 template <class S> struct KeptCrossings : VectorLanes {
   using F = typename S::F;
   using M = typename S::M;
 
-  uint32_t overflowed = 0; ///< lanes that have crossed more than there is room for
+  uint32_t overflowed = 0; ///< lanes with more crossings than there is room for
 
   void begin(const VectorLanes& light, CrossingPool& pool) {
     static_cast<VectorLanes&>(*this) = light;
     pool_ = &pool;
     overflowed = count_ = 0;
   }
-  /// Of object `self`, which `lanes` cross at `distance`: where what it lets through is to be multiplied.
-  /// Null if there is no room.
+  /// Adds a crossing of `lanes` with object `self` at `distance`. Returns the place for the surface's
+  /// transmittance; null if there is no room.
   VectorLanes* add(const F& distance, const Crossings<S>& c, uint32_t lanes, uint32_t self) {
     if (count_ == kMost || pool_->count == CrossingPool::kMost) {
       overflowed |= lanes;
@@ -51,9 +51,9 @@ template <class S> struct KeptCrossings : VectorLanes {
     return &pool_->transmittance[place];
   }
   bool empty() const { return count_ == 0; }
-  /// Multiplies the light by what those surfaces let through that count: as POV-Ray starts again at each one,
-  /// it does not see the next within kShadowEpsilon. Of two at one distance the one that was found first
-  /// does.
+  /// Multiplies the light by the transmittance of the surfaces that count: as POV-Ray starts a ray again at
+  /// each surface, it does not see the next one within kShadowEpsilon. If two surfaces are at one distance,
+  /// the one found first counts.
   void finish() {
     V3<S> light = this->template load<S>();
     for (uint32_t i = 0; i < count_; ++i) {
@@ -68,8 +68,8 @@ template <class S> struct KeptCrossings : VectorLanes {
     this->template store<S>(light);
   }
 
-  /// Takes the nearest surfaces of `lanes` out; of two at one distance that which was found first. Returns
-  /// the lanes that have one, and puts the hits there. What surfaces let through is in `transmittance`.
+  /// Removes the nearest surfaces of `lanes`, of two at one distance the one found first. Returns the lanes
+  /// that have one, and stores the hits and the surfaces' transmittance.
   uint32_t take(uint32_t lanes, HitPacket& hits, VectorLanes& transmittance) {
     using I = typename S::I;
     const F one(1.0f), nowhere(kMaxHitDistance);
@@ -107,7 +107,7 @@ private:
 
   CrossingPool* pool_ = nullptr;
   uint32_t count_ = 0;
-  uint16_t place_[kMost]; ///< in the pool
+  uint16_t place_[kMost]; ///< index in the pool
 };
 
 } // namespace celltrace::kernel

@@ -40,7 +40,7 @@ public:
     tests_.counters().tests[static_cast<uint32_t>(ObjectKind::triangle)] += triangles.count();
   }
 
-  /// The crossings of one ray with the triangles in all lanes.
+  /// Returns the crossings of one ray with the triangles in all lanes.
   static Crossings<S> crossed(const RayPacket& rays, uint32_t lane, const TriangleSides<S>& sides,
                               const LeafTriangles<S>& triangles) {
     const auto of_ray = [&](const VectorLanes& v) {
@@ -51,7 +51,8 @@ public:
     return SeenTriangle<S>(of_ray(rays.origin), sides).crossed(of_ray(rays.direction), starts_here);
   }
 
-  /// As keep_closest() of crossings.hpp, with the triangles in lanes and a single ray.
+  /// Keeps the closest crossing of a single ray with the triangles in lanes; see keep_closest() in
+  /// crossings.hpp.
   static void keep_closest(const Crossings<S>& c, const LeafTriangles<S>& triangles, uint32_t lane,
                            HitPacket& hits) {
     const M valid = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= F(hits.distance.lane[lane]));

@@ -6,13 +6,13 @@
 
 namespace celltrace::kernel {
 
-/// The scalar products of the vector in lane `i` of `a` with the vectors in all lanes of `b`.
+/// Returns the scalar products of the vector in lane `i` of `a` with the vectors in all lanes of `b`.
 template <class S> typename S::F product(const VectorLanes& a, uint32_t i, const V3<S>& b) {
   using F = typename S::F;
   return F(a.x.lane[i]) * b.x + F(a.y.lane[i]) * b.y + F(a.z.lane[i]) * b.z;
 }
 
-/// Triangles that are tested in lanes; of shadow rays only those that occlude all light.
+/// Returns the triangles that are tested in lanes: for shadow rays only those that occlude all light.
 constexpr ObjectFlags wanted_triangles(bool shadows) {
   return shadows ? kOpaqueTriangle : kPlainTriangle;
 }
@@ -22,25 +22,25 @@ template <class S> class LeafTriangles {
 public:
   static constexpr uint32_t kMost = kSimdLanes;
 
-  /// Their offsets are from `image` on.
+  /// Makes a collection of triangles whose offsets begin at `image`.
   explicit LeafTriangles(const void* image) : image_(static_cast<const uint8_t*>(image)) {}
 
   uint32_t count() const { return count_; }
   void clear() { count_ = 0; }
-  uint32_t all() const { return (2u << (count_ - 1)) - 1; } ///< lanes in use; count() is not 0
-  /// The offset of triangle `i` in the scene image.
+  uint32_t all() const { return (2u << (count_ - 1)) - 1; } ///< lanes in use; count() must not be 0
+  /// Returns the offset of triangle `i` in the scene image.
   uint32_t offset(uint32_t i) const { return offsets_[i]; }
   const uint32_t* offsets() const { return offsets_; } ///< 64-byte aligned
   bool has_room_for(const NodeRef& leaf) const { return count_ + leaf_word::count(leaf.leaf) <= kMost; }
 
-  /// Adds a triangle, for which there is room.
+  /// Adds a triangle, for which there must be room.
   void add(uint32_t offset) { offsets_[count_++] = offset; }
 
-  /// Adds the objects of a leaf, for which there is room, if the first of them is a `wanted` triangle. The
-  /// others may be what they like: see lanes_with().
+  /// Adds the objects of a leaf, for which there must be room, if the first of them is a `wanted` triangle.
+  /// The other objects may be of any kind: see lanes_with().
   [[gnu::always_inline]] bool add(const NodeRef& leaf, const ObjectFlags& wanted) {
-    // All lanes without a loop whose end could not be predicted: those behind the leaf's are not in use. What
-    // has no list has an object there, which is as long.
+    // All lanes are set without a loop whose end could not be predicted; those beyond the leaf's are not in
+    // use. A leaf without a list has an object at its offset, which is as long.
     uint32_t next[kMost];
     static_assert(sizeof next == leaf_word::kReadableBytes);
     __builtin_memcpy(next, image_ + leaf.child, sizeof next);
@@ -53,13 +53,14 @@ public:
     return true;
   }
 
-  /// Lets lanes that are not in use repeat the first, of which there is one. The rest is for after that.
+  /// Lets unused lanes repeat the first triangle, which must exist. The functions below are to be called
+  /// after fill().
   [[gnu::always_inline]] void fill() {
     const uint32_t first = offsets_[0];
     for (uint32_t i = 0; i < kMost; ++i)
       offsets_[i] = i < count_ ? offsets_[i] : first;
   }
-  /// The lanes with `wanted` triangles.
+  /// Returns the lanes with `wanted` triangles.
   [[gnu::always_inline]] uint32_t lanes_with(const ObjectFlags& wanted) const {
     uint32_t differences = 0;
     for (uint32_t i = 0; i < kMost; ++i)
@@ -83,11 +84,11 @@ private:
   }
 
   const uint8_t* image_;
-  alignas(64) uint32_t offsets_[2 * kMost]; ///< add() writes behind those that there are
+  alignas(64) uint32_t offsets_[2 * kMost]; ///< twice as long, as add() also writes beyond the triangles
   uint32_t count_ = 0;
 };
 
-/// Adds the `wanted` triangles of a leaf, as far as there is room. Calls `visit(offset)` for all other
+/// Adds the `wanted` triangles of a leaf as long as there is room. Calls `visit(offset)` for all other
 /// objects of the leaf.
 template <class Spu, class Visit>
 [[gnu::always_inline]] inline void

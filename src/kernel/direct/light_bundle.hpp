@@ -14,9 +14,9 @@ public:
   using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
       ViewBundle<S>::turned, ViewBundle<S>::packets, ViewBundle<S>::wide;
 
-  F reach; ///< by packet: the greatest length of its rays on the major axis
+  F reach; ///< by packet: greatest length of its rays on the major axis
 
-  /// Bounds the rays of the queries. Each query has some lanes.
+  /// Computes the bounds of the queries' rays. Each query has some lanes.
   LightBundle(const float (&light)[3], const RayQuery* queries, uint32_t count) : queries_(queries) {
     const RayPacket& rays = *queries[0].rays;
     const auto lane = static_cast<uint32_t>(__builtin_ctz(queries[0].lanes));
@@ -44,8 +44,8 @@ public:
 private:
   /// Epsilon for the rounding of slopes and positions, relative to their sizes.
   static constexpr float kRelativeEpsilon = 1e-6f;
-  /// Packets whose slopes differ less are too narrow for coordinates relative to the light: rounding would
-  /// blur their rectangles.
+  /// Difference of slopes below which packets are too narrow for coordinates relative to the light: rounding
+  /// would blur their rectangles.
   static constexpr float kLeastSpread = 1e-3f;
 
   static bool longer(const RayPacket& rays, uint32_t axis, uint32_t than, uint32_t lane) {
@@ -66,7 +66,7 @@ private:
     }
   };
 
-  /// Includes a packet if its rays are coherent with those before.
+  /// Includes a packet if its rays are coherent with those of the packets so far.
   void include(uint32_t packet) {
     const RayQuery& query = queries_[packet];
     const uint32_t* const axes = view.axes;
@@ -98,20 +98,20 @@ private:
     packets |= 1u << packet;
   }
 
-  /// Sets a packet's lane. The first packet's value is also that of the lanes of packets that are not
+  /// Sets a packet's lane. The first packet's value is also stored in the lanes of packets that are not
   /// included.
   void set_lane(float value, uint32_t packet, FloatLanes& lanes) const {
     if (packets == 0) F(value).store(lanes.lane);
     lanes.lane[packet] = value;
   }
 
-  /// Bounds reversed rays, which start at the light.
+  /// Computes the bounds of reversed rays, which start at the light.
   void bound_near(const float (&light)[3]) {
     turned = true;
     octant ^= 7;
     view.forth = -major_sign_;
     view.span = 3.0f * farthest_;
-    const float epsilon = kRelativeEpsilon * farthest_; // of the distance at which a ray passes the light
+    const float epsilon = kRelativeEpsilon * farthest_; // bounds the distance at which a ray passes the light
     for (uint32_t i = 0; i < 3; ++i) {
       const uint32_t axis = view.axes[i];
       view.origin[axis] = light[axis];
@@ -128,7 +128,7 @@ private:
     }
   }
 
-  /// Bounds rays where they cross a plane below their origins.
+  /// Computes the bounds of rays where they cross a plane below their origins.
   void bound_far(const float (&light)[3]) {
     const uint32_t* const axes = view.axes;
     for (uint32_t axis = 0; axis < 3; ++axis)
@@ -137,8 +137,8 @@ private:
     const float depth = (light[axes[2]] - view.origin[axes[2]]) * major_sign_;
     for (uint32_t i = 0; i < 2; ++i)
       view.slope[i] = (light[axes[i]] - view.origin[axes[i]]) / depth;
-    // By packet: where its rays cross the plane through the view's origin, and the height above it at which
-    // the lowest of them starts.
+    // By packet: the places where its rays cross the plane through the view's origin, and the least height of
+    // their origins above it.
     FloatLanes lowest;
     F(0.0f).store(lowest.lane);
     float extent = 0.0f;
@@ -161,8 +161,9 @@ private:
       extent = larger(extent, larger(magnitude(heights.low), magnitude(heights.high)));
     });
     reach = F::load(reaches_.lane);
-    extent = larger(extent, kRelativeEpsilon * depth); // not 0
-    // In proportion to the extent of the origins, so that all coordinates have similar magnitudes.
+    extent = larger(extent, kRelativeEpsilon * depth); // avoids 0
+    // The offset is in proportion to the extent of the origins, so that all coordinates have similar
+    // magnitudes.
     view.depth_offset = 64.0f * extent;
     view.depth_scale = -view.depth_offset / depth;
     const F scale(1.0f / view.depth_offset);
@@ -209,7 +210,7 @@ private:
     shadows_.span = interval_of<S>(span).high;
     view.shadows = &shadows_;
   }
-  /// Finds the packets whose rectangles are much larger than their shares of the rectangle around all.
+  /// Finds packets whose rectangles are much larger than their shares of the whole bundle's rectangle.
   void find_wide() {
     F area(1.0f);
     float whole = 1.0f;
@@ -227,10 +228,10 @@ private:
   }
 
   const RayQuery* queries_;                 ///< valid in the constructor only
-  float major_sign_;                        ///< of directions on the major axis
-  Interval slopes_[2];                      ///< of all packets, on the two minor axes
-  int spread_count_ = 0;                    ///< packets whose slopes differ by kLeastSpread or more
-  float farthest_ = 0.0f;                   ///< the greatest of `reach`
+  float major_sign_;                        ///< sign of directions on the major axis
+  Interval slopes_[2];                      ///< range of all packets, on the two minor axes
+  int spread_count_ = 0;                    ///< number of packets whose slopes differ by kLeastSpread or more
+  float farthest_ = 0.0f;                   ///< maximum of `reach`
   FloatLanes lows_[2], highs_[2], reaches_; ///< by packet: rectangles; `reach`
   ShadowOrigins shadows_;
 };

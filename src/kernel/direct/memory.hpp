@@ -1,4 +1,4 @@
-// Main memory that is direct: records are read and written where they lie. Kernel dialect.
+// Direct main memory: records are read and written in place. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -20,7 +20,7 @@ struct DirectMemory {
   static const Record* read_apart(Cache& cache, uint32_t offset, DataKind kind) {
     return cache.template get<Record>(offset, kind);
   }
-  /// `access`: a SceneAccess.
+  /// Returns the offset of a member of a sequence and prefetches it; `access` is a SceneAccess.
   template <class Access, class Sequence>
   static uint32_t member(Access& access, const Sequence& objects, uint32_t i) {
     const uint32_t object = access.offset_of(objects, i);
@@ -35,7 +35,7 @@ struct DirectMemory {
   template <class Spu, class T> using StreamWriter = DirectStreamWriter<T>;
   template <class Spu> using SortTarget = DirectSortTarget;
 
-  /// Most of what moves is small: a transfer would take longer than the copy.
+  /// Copies of memory for one `Owner`; most are so small that a transfer by DMA would take longer.
   template <class Spu, class Owner> class Transfers {
   protected:
     explicit Transfers(Spu&) {}

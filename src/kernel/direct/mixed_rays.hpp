@@ -1,22 +1,22 @@
-// Traverses the BVH with all rays of a packet at once, whatever octants their directions are of. Kernel
-// dialect, where memory is direct.
+// Traversal of the BVH with all rays of a packet at once, whatever the octants of their directions are.
+// Kernel dialect, for direct memory.
 //
 // Behind curved and disturbed surfaces the rays of a packet go to several octants. A traversal for each
-// octant would have few rays, and there is no frustum that all of them share: here each ray is tested against
-// all four children of a node.
+// octant would have few rays, and no frustum contains all of them: here each ray is tested against all four
+// children of a node.
 #pragma once
 
 #include "kernel/accel/packet_traversal.hpp"
 
 namespace celltrace::kernel {
 
-/// Rays prepared for slab tests that do not know which planes are near.
+/// Rays prepared for slab tests in which the near planes are not known.
 template <class S> class MixedRays {
 public:
   using F = typename S::F;
   using F4 = typename S::F4;
 
-  /// The children that a node has. Without an order of planes, an empty box is like any other.
+  /// Returns the children that a node has. Without an order of planes, an empty box is like any other.
   static uint32_t children_of(const float (&bounds)[6][4]) {
     return not_above_bits(F4::load(bounds[0]), F4::load(bounds[1]));
   }
@@ -26,8 +26,8 @@ public:
     inverse_ = {inverse_of(direction.x), inverse_of(direction.y), inverse_of(direction.z)};
   }
 
-  /// The rays that hit each child of a node from `tnear` up to their own `tfar`, and where; of children that
-  /// are not there, any.
+  /// Finds the rays that hit each child of a node from `tnear` up to their own `tfar`, and their distances;
+  /// the results for missing children are arbitrary.
   [[gnu::always_inline]] void intersect(const float (&bounds)[6][4], float tnear, const F& tfar,
                                         uint32_t (&hit)[4], F (&enter)[4]) const {
     for (uint32_t i = 0; i < 4; ++i) {
@@ -36,7 +36,7 @@ public:
     }
   }
 
-  /// The lanes that hit child `i` from `tnear` up to their own `tfar`; the node has such a child.
+  /// Returns the lanes that hit child `i`, which the node must have, from `tnear` up to their own `tfar`.
   [[gnu::always_inline]] uint32_t hit_child(const float (&bounds)[6][4], uint32_t i, float tnear,
                                             const F& tfar) const {
     F from(tnear);
@@ -44,17 +44,17 @@ public:
   }
 
 private:
-  /// Where the rays are within one slab of a box.
+  /// The intervals of rays within one slab of a box.
   struct Range {
     F from, to;
   };
-  /// Of the slab between two planes perpendicular to an axis.
+  /// Returns the intervals in the slab between two planes perpendicular to an axis.
   [[gnu::always_inline]] static Range slab(float low, float high, const F& origin, const F& inverse) {
     const F a = (F(low) - origin) * inverse, b = (F(high) - origin) * inverse;
     return {S::min(a, b), S::max(a, b)};
   }
-  /// The lanes that hit child `i` of a node from `from` up to their own `tfar`; `from` grows to where they
-  /// do.
+  /// Returns the lanes that hit child `i` of a node from `from` up to their own `tfar`; `from` increases to
+  /// their distances.
   [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
                                              F& from) const {
     const Range x = slab(bounds[0][i], bounds[1][i], origin_.x, inverse_.x);
@@ -72,16 +72,16 @@ private:
   V3<S> origin_, inverse_;
 };
 
-/// Nodes and leaves that such rays have still to traverse, the nearest on top, and where each ray enters
-/// them.
+/// Nodes and leaves that mixed rays still have to traverse, the nearest on top, and the distances at which
+/// each ray enters them.
 template <class S> class MixedStack {
 public:
   using F = typename S::F;
 
   struct Entry {
     NodeRef ref;
-    uint32_t lanes; ///< rays that hit it
-    uint32_t place; ///< where `enter_` has their distances
+    uint32_t lanes; ///< rays that hit the node
+    uint32_t place; ///< index of their distances in `enter_`
   };
 
   bool empty() const { return size_ == 0; }
@@ -92,11 +92,11 @@ public:
   }
   F enter(const Entry& entry) const { return F::load(enter_[entry.place].lane); }
 
-  /// Pushes the children of the node that was popped last which some rays hit, without a branch: in the order
-  /// in which `any` of the rays enters them.
+  /// Pushes the children, hit by some rays, of the node that was popped last, without a branch: in the order
+  /// in which the ray `any` enters them.
   [[gnu::always_inline]] void push(const NodeRecord& node, uint32_t any, const uint32_t (&hit)[4],
                                    const F (&enter)[4]) {
-    // Its siblings' distances are on the level above.
+    // The level above has the siblings' distances.
     const uint32_t first = 4 * level_;
     for (uint32_t i = 0; i < 4; ++i)
       enter[i].store(enter_[first + i].lane);
@@ -114,7 +114,7 @@ public:
   }
 
 private:
-  /// The builder keeps a BVH within so many.
+  /// Largest number of levels, to which the builder limits a BVH.
   static constexpr uint32_t kLevels = 48;
 
   uint32_t size_ = 0, level_ = 0;
@@ -123,7 +123,7 @@ private:
   FloatLanes enter_[4 * (kLevels + 1)];
 };
 
-/// The traversal, for traverse_nodes().
+/// The traversal of mixed rays, for traverse_nodes().
 template <class Spu> struct MixedVisitor {
   using S = typename Spu::simd;
   using Traversal = PacketTraversal<Spu>;
@@ -133,7 +133,7 @@ template <class Spu> struct MixedVisitor {
   RayQuery& query;
   const MixedRays<S> rays;
   MixedStack<S>& stack;
-  uint32_t lanes; ///< that hit the node or leaf
+  uint32_t lanes; ///< rays that hit the node or leaf
 
   [[gnu::always_inline]] bool expand(NodeRef& ref) {
     ++objects.counters().visits;
@@ -149,7 +149,7 @@ template <class Spu> struct MixedVisitor {
     if (lanes != 0) stack.push(node, static_cast<uint32_t>(__builtin_ctz(lanes)), hit, enter);
     return false;
   }
-  /// Tests the leaves of a node that has nothing else, one after the other: they are too few for an order to
+  /// Tests the leaves of a node that has no inner nodes, one after another: they are too few for an order to
   /// pay. False: it has inner nodes.
   [[gnu::always_inline]] bool test_leaves(const NodeRecord& node) {
     const uint32_t present = MixedRays<S>::children_of(node.bounds);
@@ -170,7 +170,7 @@ template <class Spu> struct MixedVisitor {
     while (!stack.empty()) {
       const auto& next = stack.pop();
       lanes = next.lanes & query.lanes;
-      // Rays may have hit something in front of it since.
+      // Hits since the push may be nearer.
       if (query.hits != nullptr)
         lanes &= (stack.enter(next) <= Traversal::tfar(query) * typename S::F(Traversal::kTfarSlack)).bits();
       if (lanes == 0) continue;

@@ -1,10 +1,10 @@
-// The random points around those of lanes that are each in a unit cell of its own. Kernel dialect, where
-// memory is direct.
+// The feature points around points of lanes that are each in a unit cell of its own. Kernel dialect, for
+// direct memory.
 //
-// Far away, and where points are at random, each lane of a packet is in another cell. Of all lanes at once
-// are read the points of the cells that are nearest: their own, and those that it has in common a face, an
-// edge or a corner with on the sides of it that they are nearer to. The few cells that may have a nearer
-// point besides are other ones for each lane: pairs of a lane and a cell fill packets.
+// Far away, and if points are at random, each lane of a packet is in another cell. For all lanes at once the
+// points of the nearest cells are read: the lane's own cell, and the cells that share with it a face, an edge
+// or a corner on the sides to which the lane's point is nearer. The few other cells that may have a nearer
+// point differ from lane to lane: pairs of a lane and a cell fill packets.
 #pragma once
 
 #include "kernel/direct/record_lanes.hpp"
@@ -24,14 +24,14 @@ public:
   using F = typename S::F;
   using I = typename S::I;
 
-  /// `features`: the Features of a table.
+  /// Finds the cells of points; `features` are the Features of a table.
   template <class Table> NeighboursOfLanes(Table& features, const V3<S>& p) : table_(features.words()) {
     const F* const coordinates[3] = {&p.x, &p.y, &p.z};
     for (uint32_t axis = 0; axis < 3; ++axis)
       from_[axis] = fraction<S>(*coordinates[axis], cell_[axis]);
   }
 
-  /// Whether the lanes' points are in more cells than that.
+  /// Returns true if the lanes' points are in more than `most` cells.
   bool are_of_more_cells_than(uint32_t most) const {
     alignas(64) int32_t of_lane[3][S::kLanes];
     for (uint32_t axis = 0; axis < 3; ++axis)
@@ -42,7 +42,8 @@ public:
     return left != 0;
   }
 
-  /// Calls `take(way)` for the eight nearest cells: the way from each lane's point to the random one.
+  /// Calls `take(way)` for the eight nearest cells with the vectors from each lane's point to the feature
+  /// point.
   template <class Take> [[gnu::always_inline]] void for_each_near(const Take& take) const {
     F step[3][2];
     I next[3];
@@ -62,9 +63,9 @@ public:
     }
   }
 
-  /// The same for the others of the 26 around each lane's cell, in pairs: `take(ways, lanes, count)`,
-  /// lanes[i] that of the i-th way. `along(gap)`: what a gap along one axis adds to what distances are a root
-  /// of. `reaching(sum)`: bits of the lanes that want to know of points whose gaps add up to that.
+  /// Calls `take(ways, lanes, count)` for the other cells of the 26 around each lane's cell, in pairs:
+  /// lanes[i] is the lane of the i-th vector. `along(gap)` returns the contribution of a gap along one axis
+  /// to distance^metric, `reaching(sum)` the lanes that need points whose gaps add up to `sum`.
   template <class Along, class Reaching, class Take>
   void for_each_far(const Along& along, const Reaching& reaching, const Take& take) const {
     Pairs pairs;
@@ -88,8 +89,8 @@ public:
 
 private:
   static constexpr uint32_t kStay = 0, kNear = 1, kFar = 2, kSteps = 3;
-  /// Lanes and cells, which are as many steps to the near side as `factor` says. Vectors are stored from any
-  /// lane on.
+  /// Pairs of lanes and cells, which are `factor` steps to the near side away. Vectors are stored at any
+  /// lane.
   struct Pairs : WorkKind {
     struct Source {
       float factor[3];
@@ -120,9 +121,10 @@ private:
     take(way_to(number, {step[0], step[1], step[2]}, from), pairs.lane, count);
   }
 
-  /// Along an axis to the neighbour that is nearer: 1 or -1.
+  /// Returns the step along an axis to the nearer neighbour: 1 or -1.
   static F to_near(const F& from) { return S::select(from < F(0.5f), F(-1.0f), F(1.0f)); }
-  /// The way from points of cells to that of the cell with a number, which is some steps further.
+  /// Returns the vectors from points in cells to the feature point of the cell with a number, which is some
+  /// steps away.
   [[gnu::always_inline]] V3<S> way_to(const I& number, const V3<S>& steps, const F (&from)[3]) const {
     WordLanes first;
     first_word(number).store(reinterpret_cast<int32_t*>(first.lane));
@@ -143,7 +145,7 @@ private:
   static_assert(offsetof(FeatureRecord, hash) == 12 && sizeof(FeatureRecord) == 16);
   const int32_t* table_;
   I cell_[3];
-  F from_[3]; ///< where in it each lane's point is
+  F from_[3]; ///< position of each lane's point in its cell
 };
 
 } // namespace celltrace::kernel

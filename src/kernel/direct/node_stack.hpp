@@ -1,14 +1,14 @@
-// The stack of a ray tree in main memory. Kernel dialect, where memory is direct.
+// The stack of a ray tree in main memory. Kernel dialect, for direct memory.
 #pragma once
 
 #include "kernel/shading/ray_stack.hpp"
 
 namespace celltrace::kernel {
 
-/// Nodes are made where they lie on the stack: pushing one copies nothing.
+/// A stack on which nodes are made in place: pushing one copies nothing.
 class NodeStack {
 public:
-  /// `nodes` of them lie at `memory`, one of which is always next().
+  /// Uses memory for `nodes` at `memory`, one of which is always next().
   template <class Spu>
   NodeStack(Spu&, ea_t memory, uint32_t nodes, uint32_t, RayNode&)
       : nodes_(reinterpret_cast<RayNode*>(static_cast<uintptr_t>(memory))), capacity_(nodes - 1) {}

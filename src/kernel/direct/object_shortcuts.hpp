@@ -1,5 +1,5 @@
-// Tests of single objects where code takes no local store: several packets at once, and shortcuts for what is
-// frequent or takes long. Kernel dialect.
+// Tests of single objects where code takes no local store: several packets at once, and shortcuts for objects
+// that are frequent or take long. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/object_tests.hpp"
@@ -17,7 +17,7 @@ public:
   using F = typename S::F;
   using M = typename S::M;
 
-  /// Tests several packets as test_closest().
+  /// Tests several packets for closest hits; see test_closest().
   void test_closest_of_all(RayQuery* queries, uint32_t packets, uint32_t self) {
     const ObjectRecord& object = *scene().object(self);
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
@@ -29,7 +29,7 @@ public:
     }
     counters().tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
     const auto sides = TriangleSides<S>::of(object);
-    // A loop without a callback: the triangle's edges stay in registers.
+    // The loop has no callback, so that the triangle's edges stay in registers.
     for (uint32_t left = packets; left != 0; left &= left - 1) {
       const RayQuery& query = queries[__builtin_ctz(left)];
       const SeenTriangle<S> triangle(query.rays->origin.template load<S>(), sides);
@@ -37,9 +37,9 @@ public:
     }
   }
 
-  /// Whether opaque objects are remembered that occlude rays.
+  /// Sets whether opaque objects that occlude rays are kept in the shadow cache.
   void remember_occluders(bool remembers) { recent_.remembers = remembers; }
-  /// Removes the lanes that those occlude from a query.
+  /// Removes the lanes that objects in the shadow cache occlude from a query.
   void test_recent(RayQuery& query) {
     tests().hit_filter().begin_packet();
     recent_.test([&](uint32_t self) {
@@ -51,7 +51,7 @@ public:
     });
   }
 
-  /// Tests the whole rays of several packets as occluded(): removes occluded lanes from their queries. The
+  /// Removes the lanes that an object occludes from the queries of several packets; see occluded(). The
   /// object must not have been tested against them before.
   void test_occlusion_of_all(RayQuery* queries, uint32_t packets, uint32_t self) {
     const ObjectRecord& object = *scene().object(self);
@@ -76,7 +76,7 @@ public:
     }
   }
 
-  /// Tests an opaque object that takes long against those `lanes`, by packet, that may hit it.
+  /// Tests an opaque object whose test takes long against the `lanes`, by packet, that may hit it.
   void test_occlusion_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes, uint32_t self) {
     const ObjectRecord& object = *scene().object(self);
     if (tells_shadows(object) && tell_shadows_of_some(queries, packets, lanes, object, self)) return;
@@ -90,7 +90,8 @@ public:
     });
   }
 
-  /// Removes rays from a query for light that the objects of a leaf occlude, until none of `lanes` is left.
+  /// Removes rays that the objects of a leaf occlude from a query of shadow rays, until none of `lanes` is
+  /// left.
   void test_occlusion_by_leaf(const NodeRef& leaf, uint32_t lanes, RayQuery& query) {
     const RayPacket& rays = *query.rays;
     const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
@@ -116,9 +117,9 @@ public:
 
   /// The effect of translucent objects on shadow rays.
   enum class Translucency {
-    attenuates, ///< multiplies the light
-    is_kept,    ///< for later: the light is that of KeptCrossings
-    is_listed   ///< the same, but what surfaces let through is still to be found
+    attenuates, ///< multiply the light
+    is_kept,    ///< kept for later: the light is that of KeptCrossings
+    is_listed   ///< kept for later, without the transmittance of surfaces
   };
   void set_translucency(Translucency translucency) { translucency_ = translucency; }
 
@@ -158,9 +159,9 @@ private:
   SceneAccess<Spu>& scene() { return tests().scene(); }
   auto& counters() { return tests().counters(); }
 
-  /// Tests an object of a kind whose crossings are one pair, and that no further record changes, against
-  /// several packets: keeps their closest hits, or removes the lanes that it occludes from queries for light,
-  /// if it is opaque. False: it is not of such a kind.
+  /// Tests an object of a kind with one pair of crossings, which no further record changes, against several
+  /// packets: keeps their closest hits, or removes the lanes that it occludes, if it is opaque, from queries
+  /// of shadow rays. False: it is of another kind.
   bool test_plain(RayQuery* queries, uint32_t packets, const ObjectRecord& object, uint32_t self) {
     if ((object.kind_and_flags & (object_flag::csg | object_flag::selective)) != 0) return false;
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
@@ -178,18 +179,19 @@ private:
     if (tested) counters().tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
     return tested;
   }
-  /// Planes and polygons have tests of their own, and triangles are tested elsewhere.
+  /// Returns true for kinds that test_plain() tests. Planes and polygons have tests of their own, and
+  /// triangles are tested elsewhere.
   template <class Shape> static constexpr bool is_plain() {
     constexpr uint32_t kKind = kPrimitiveKind<Shape>;
     return Shape::kCrossingPairs == 1 && !Shape::kIsHeavy && kKind != kPrimitiveKind<TrianglePrimitive> &&
            kKind != kPrimitiveKind<PlanePrimitive> && kKind != kPrimitiveKind<PolygonPrimitive>;
   }
-  /// Flattened: otherwise the test of a shape would be inlined nowhere.
+  /// Flattened, as otherwise the test of a shape would be inlined nowhere.
   template <class Shape, bool kForHits>
   [[gnu::noinline, gnu::flatten]] void test_all(RayQuery* queries, uint32_t packets,
                                                 const ObjectRecord& object, uint32_t self) {
     const ExtraRecord extra = object.extra == kNoOffset ? ExtraRecord() : *scene().extra(object.extra);
-    // A loop without a callback: what does not change from packet to packet stays in registers.
+    // The loop has no callback, so that what is the same for all packets stays in registers.
     for (uint32_t left = packets; left != 0; left &= left - 1) {
       RayQuery& query = queries[__builtin_ctz(left)];
       Crossings<S> c;
@@ -211,8 +213,8 @@ private:
       if constexpr (decltype(shape)::kTellsShadows) asked(shape);
     });
   }
-  /// Finds the lanes that an opaque object occludes which tells shadows, and off which none of them starts.
-  /// False: its CSG's condition is none that is known before the crossings are.
+  /// Finds the lanes that an opaque object with kTellsShadows occludes, if none of them starts on it. False:
+  /// the condition of its CSG is not known before the crossings are.
   [[gnu::noinline]] bool tell_shadows(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
                                       const FloatLanes& distance, uint32_t& dark) {
     const ExtraRecord& extra = *scene().extra(object.extra);
@@ -232,7 +234,7 @@ private:
     });
     return true;
   }
-  /// Removes the lanes that it occludes from several queries, out of `lanes` by packet.
+  /// Removes the lanes that such an object occludes from several queries; candidates are `lanes` by packet.
   [[gnu::noinline]] bool tell_shadows_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes,
                                               const ObjectRecord& object, uint32_t self) {
     const ExtraRecord& extra = *scene().extra(object.extra);
@@ -254,7 +256,7 @@ private:
     });
     return true;
   }
-  /// Finds the object that clips another one, if one does. False: only its crossings can tell.
+  /// Finds the object that clips another one, if there is one. False: the condition depends on the crossings.
   bool find_clipping(const ObjectRecord& object, const ExtraRecord& extra, ClippingObject& clipping) {
     clipping = {nullptr, false, false};
     if ((object.kind_and_flags & object_flag::csg) == 0 || extra.csg == kNoOffset) return true;
@@ -263,7 +265,7 @@ private:
   }
 
   Translucency translucency_ = Translucency::attenuates;
-  uint32_t crossed_ = kNoOffset; ///< the object that shadow rays are tested against
+  uint32_t crossed_ = kNoOffset; ///< the object against which shadow rays are tested
   RecentOccluders recent_;
 };
 

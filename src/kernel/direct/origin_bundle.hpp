@@ -1,21 +1,21 @@
-// Rays of a bundle that start at one point, wherever they go. Kernel dialect.
+// Rays of a bundle that start at one point, with any directions. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/bundle_view.hpp"
 
 namespace celltrace::kernel {
 
-/// The coherent packets among those of a bundle: as PinholeBundle for rays that are not a camera's.
+/// The coherent packets of a bundle, like PinholeBundle for rays that are not a camera's.
 template <class S> class OriginBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
   using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
       ViewBundle<S>::packets, ViewBundle<S>::density;
 
-  F shortening; ///< of unit directions: none is longer on the major axis
+  F shortening; ///< largest length of unit directions on the major axis
 
-  /// Each query has some lanes; directions may have any length. No packets, if they do not start at one point
-  /// or only one is coherent.
+  /// Computes the bounds of the queries' rays. Each query has some lanes; directions may have any length. The
+  /// bundle has no packets if the rays do not start at one point or only one packet is coherent.
   OriginBundle(const RayQuery* queries, uint32_t count) {
     const RayPacket& rays = *queries[0].rays;
     const auto lane = static_cast<uint32_t>(__builtin_ctz(queries[0].lanes));
@@ -54,13 +54,13 @@ private:
   /// Finds the slopes of all packets. Returns those whose slopes are finite and in the octant.
   uint32_t find_slopes(const RayQuery* queries, uint32_t count) {
     F slopes[2][kSimdLanes];
-    uint32_t aside = 0; // not along the major axis
+    uint32_t aside = 0; // packets with rays that are not along the major axis
     for (uint32_t packet = 0; packet < kSimdLanes; ++packet) {
-      // What is no packet has the slopes of the first one.
+      // Lanes without a packet get the slopes of the first one.
       const RayQuery& query = queries[packet < count ? packet : 0];
       const auto active = S::M::from_bits(query.lanes);
       const auto any_lane = static_cast<uint32_t>(__builtin_ctz(query.lanes));
-      // Other lanes take the value of an active one, so that they do not widen intervals.
+      // Inactive lanes take the value of an active one, so that they do not widen intervals.
       const auto along = [&](uint32_t axis) {
         const FloatLanes& all_lanes = query.rays->direction[axis];
         return S::select(active, F::load(all_lanes.lane), F(all_lanes.lane[any_lane]));
@@ -86,14 +86,14 @@ private:
     return ((1u << count) - 1) & ~others;
   }
 
-  /// The least and the greatest lane of each of sixteen packets, by packet. All packets at once: a processor
-  /// would wait for each step of the reduction of one.
+  /// Finds the least and the greatest lane of each of sixteen packets. All packets are reduced at once: a
+  /// processor would wait for each step of the reduction of one.
   static void find_extremes(const F (&values)[kSimdLanes], FloatLanes& low, FloatLanes& high) {
     using F4 = typename S::F4;
     for (uint32_t first = 0; first < kSimdLanes; first += 4) {
       F a = values[first], b = values[first + 1], c = values[first + 2], d = values[first + 3];
       S::transpose_quads(a, b, c, d);
-      // Lane 4q + i is of the packet `first` + i.
+      // Lane 4q + i belongs to the packet `first` + i.
       FloatLanes lows, highs;
       S::min(S::min(a, b), S::min(c, d)).store(lows.lane);
       S::max(S::max(a, b), S::max(c, d)).store(highs.lane);
@@ -105,7 +105,7 @@ private:
     }
   }
 
-  /// Includes those of the packets that are coherent with the ones before.
+  /// Includes the packets that are coherent with the previous ones.
   void include_coherent(uint32_t candidates) {
     for_each_lane(candidates, [&](uint32_t packet) {
       Interval extents[2];
@@ -121,7 +121,7 @@ private:
       packets |= 1u << packet;
     });
     if (packets == 0) return;
-    // Lanes of packets that are not included have the values of one that is.
+    // Lanes of packets that are not included get the values of one that is.
     const auto included = S::M::from_bits(packets);
     const auto any = static_cast<uint32_t>(__builtin_ctz(packets));
     for (uint32_t i = 0; i < 2; ++i) {
@@ -152,7 +152,7 @@ private:
     density = static_cast<float>(__builtin_popcount(packets) * kSimdLanes) / (width * height + kLeastArea);
   }
 
-  Interval slopes_[2];            ///< of all packets, on the two minor axes
+  Interval slopes_[2];            ///< range of all packets, on the two minor axes
   FloatLanes lows_[2], highs_[2]; ///< by packet
 };
 

@@ -1,5 +1,5 @@
-// Steps of a packet's traversal where the processor fetches memory by itself, line by line: leaves wait until
-// their objects have come, and traversals of several packets are interleaved. Kernel dialect.
+// Steps of a packet's traversal where the processor prefetches memory, line by line: leaves wait until their
+// objects have arrived, and traversals of several packets are interleaved. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/packet_traversal.hpp"
@@ -13,7 +13,8 @@ public:
   static constexpr uint32_t kMaxInterleaved = tuning::kMaxInterleaved;
   bool interleaves() const { return interleaves_; }
 
-  /// Where surfaces lie on each other, nodes that are too near are many.
+  /// Returns the distance up to which nodes are too near. If surfaces lie on each other, there are many such
+  /// nodes.
   static float tnear(const RayQuery& query) {
     return 0.5f * (query.hits != nullptr ? kMinHitDistance : kShadowEpsilon);
   }

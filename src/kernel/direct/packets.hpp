@@ -1,4 +1,4 @@
-// Packets where code takes no local store: what is short is inlined. Kernel dialect.
+// Packets where code takes no local store: short functions are inlined. Kernel dialect.
 #pragma once
 
 #include "kernel/packet.hpp"
@@ -6,13 +6,13 @@
 namespace celltrace::kernel {
 
 struct DirectPackets {
-  /// Returns where a search for hits of some lanes begins. Others hit nothing: instances take long to find
-  /// out what.
+  /// Returns the distance at which a search for hits of some lanes begins. Other lanes hit nothing, as tests
+  /// of instances take long.
   template <class S> static typename S::F farthest(uint32_t lanes) {
     using F = typename S::F;
     return S::select(S::M::from_bits(lanes), F(kMaxHitDistance), F(-1.0f));
   }
-  /// Returns a number that is not negative raised to a power, which is mostly 2.
+  /// Returns a non-negative number raised to a power, which is mostly 2.
   template <class S> static typename S::F raised(const typename S::F& number, float power) {
     return power == 2.0f ? number * number : pow<S>(number, typename S::F(power));
   }

@@ -1,4 +1,4 @@
-// Patterns where memory is direct: what is known of points is kept for those beside them. Kernel dialect.
+// Patterns in direct memory: results at points are kept for neighbouring points. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/feature_neighbours.hpp"
@@ -10,10 +10,10 @@ namespace celltrace::kernel {
 struct DirectPatterns {
   template <class Spu> struct KnownPatterns {
     using S = typename Spu::rare_simd;
-    NeighbourCache<S>* neighbours = nullptr; ///< random points for points that are close together; or null
-    FractalValues<S, kBundlePackets<Spu>>* fractals = nullptr; ///< at points that will be asked for; or null
+    NeighbourCache<S>* neighbours = nullptr; ///< feature points for points that are close together; or null
+    FractalValues<S, kBundlePackets<Spu>>* fractals = nullptr; ///< values for points of a bundle; or null
   };
-  /// As long as it lives, a KnownPatterns has values that are kept in it.
+  /// Values that are kept in a KnownPatterns for the lifetime of this object.
   template <class Spu, class Values, Values* KnownPatterns<Spu>::*kMember> class KeptValues {
   public:
     explicit KeptValues(SceneAccess<Spu>& scene) : scene_(scene) { begin(); }
@@ -22,7 +22,7 @@ struct DirectPatterns {
     KeptValues& operator=(const KeptValues&) = delete;
 
   private:
-    /// Not inlined: GCC 12 would say that the pointer outlives the values, whatever the destructor does.
+    /// Not inlined: GCC 12 would warn that the pointer outlives the values, in spite of the destructor.
     [[gnu::noinline]] void begin() { scene_.known_patterns().*kMember = &values_; }
 
     SceneAccess<Spu>& scene_;
@@ -37,7 +37,7 @@ struct DirectPatterns {
 
   template <class S> using InnerCells = kernel::InnerCells<S>;
 
-  /// Whether a fractal's numbers are squared. Finds its values then.
+  /// Finds the values of a fractal if it iterates squares; false: it does not.
   template <class Spu, class S>
   [[gnu::always_inline]] static bool find_squares(SceneAccess<Spu>& scene, const Complex<S>& at,
                                                   const PatternRecord& r, typename S::F& value) {

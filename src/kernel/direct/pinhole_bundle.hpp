@@ -1,4 +1,4 @@
-// The primary rays of a bundle, before they exist: where a camera has a pinhole. Kernel dialect.
+// The primary rays of a bundle, before they exist, for a pinhole camera. Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/primary_rays.hpp"
@@ -6,20 +6,20 @@
 
 namespace celltrace::kernel {
 
-/// The primary rays of a bundle of 4x4 packets, if they leave one point through a plane into one octant; else
-/// of no packets.
+/// The primary rays of a bundle of 4x4 packets, if they leave one point through a plane into one octant;
+/// otherwise without packets.
 template <class S> class PinholeBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
   using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
       ViewBundle<S>::packets;
 
-  F shortening; ///< of unit directions: none is longer on the major axis
+  F shortening; ///< largest length of unit directions on the major axis
 
   PinholeBundle(const FrameBlock& frame, uint32_t column, uint32_t row) {
     if (!is_pinhole(frame.camera)) return;
     const CameraRecord& camera = frame.camera;
-    constexpr float kBundle = kPacketEdge * kPacketEdge; // pixels
+    constexpr float kBundle = kPacketEdge * kPacketEdge; // in pixels
     const float middle_x = (static_cast<float>(column) + 0.5f) * kBundle - camera.middle_x;
     const float middle_y = (static_cast<float>(row) + 0.5f) * kBundle - camera.middle_y;
     uint32_t major = 0;
@@ -34,8 +34,8 @@ public:
   }
 
 private:
-  /// The rectangles are those around the directions through the corners of packets. False if some go another
-  /// way along the major axis.
+  /// Computes the rectangles around the directions through the corners of packets. False: some directions are
+  /// opposite along the major axis.
   bool see(const FrameBlock& frame, float column, float row) {
     constexpr float kEdge = kPacketEdge;
     const CameraRecord& camera = frame.camera;

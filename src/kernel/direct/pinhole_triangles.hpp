@@ -1,4 +1,4 @@
-// Tests of triangles by rays from one point. Kernel dialect.
+// Tests of triangles against rays from one point. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/leaf_triangles.hpp"
@@ -8,9 +8,9 @@ namespace celltrace::kernel {
 /// One triangle in each lane, as seen from one point. A test takes one triangle and the rays of a packet in
 /// lanes.
 ///
-/// It is SeenTriangle's test, and its results are the same to the last bit: of two triangles at the same
-/// distance the same one is hit, whichever test has found them. Only the signs of the determinant and of what
-/// is divided by it are changed, once for all rays, so that the determinant of a hit is positive.
+/// The test is that of SeenTriangle, with results that are equal to the last bit: of two triangles at the
+/// same distance the same one is hit, whichever test has found them. Only the signs of the determinant and of
+/// its dividends are changed, once for all rays, so that the determinant of a hit is positive.
 template <class S> class PinholeTriangles {
 public:
   using F = typename S::F;
@@ -29,7 +29,7 @@ public:
     triangle_overlap<S>(from_v0, sides.edge1, sides.edge2).store(overlap_.lane);
   }
 
-  /// Where rays from the point cross triangle `i` in front of it.
+  /// Returns the crossings of rays from the point with triangle `i` in front of it.
   [[gnu::always_inline]] Crossings<S> crossed(uint32_t i, const V3<S>& direction) const {
     const V3<S> p = cross<S>(direction, edge2_.template of<S>(i));
     const F determinant = product<S>(edge1_, i, p);

@@ -1,5 +1,5 @@
-// The ray trees of a bundle where memory is direct: rays that leave their packets fill others with those of
-// other trees. Kernel dialect.
+// The ray trees of a bundle in direct memory: rays that leave their packets fill others with those of other
+// trees. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/bundle_pool.hpp"
@@ -63,7 +63,7 @@ protected:
         fractals != nullptr && fractals->begin())
       iterate_fractals(*fractals);
   }
-  /// Lets extra records come that member `i` will ask for.
+  /// Prefetches extra records of member `i`.
   void hint(uint32_t i) {
     if (all().frame_.object_count <= tuning::kObjectsInCoreCache || i == kPackets) return;
     const auto& member = all().store_.members[i];
@@ -87,12 +87,12 @@ protected:
   template <class Member> void begin_tree(const Member& member) {
     pool_.begin_tree(member.number, tracer().pooling().pixels);
   }
-  /// shade_end() has found those of a root.
+  /// Returns true for a root, whose points shade_end() has found.
   static bool knows_points(const void* root) { return root != nullptr; }
   uint32_t take_hits() {
     return tracer().take_hits([&](uint32_t missed) { return leave_sky(missed); });
   }
-  /// Leaves hits from which no rays go on to shade_ending(), if they are few.
+  /// Leaves hits without secondary rays to shade_ending(), if they are few. Returns these hits.
   uint32_t leave_ends(uint32_t hit) {
     const HitPoints<S>& points = all().store_.points;
     const uint32_t ends = hit & ~(points.spawning | points.blended);
@@ -107,7 +107,7 @@ protected:
     while (pool_.hits.has_full())
       pool_.hits.run_next(*this);
   }
-  /// Traces the rays that have left their packets.
+  /// Traces the rays that have left their packets. False: it was stopped.
   template <class Stopped> bool finish(Stopped stopped) {
     while (!pool_.rays.empty() || !pool_.hits.empty()) {
       if (stopped()) return false;
@@ -124,8 +124,8 @@ protected:
 
   // --- light ---
 
-  /// Leaves light of a few lanes of the node that is being traced to light_points(). False: it has to come
-  /// now, as what it goes to is no pixel's or its rays have a packet of their own.
+  /// Leaves light of a few lanes of the current node to light_points(). False: it has to be traced now, as it
+  /// does not go to pixels or its rays have a packet of their own.
   bool leave_light(uint32_t number, uint32_t lanes, const VectorLanes& colour) {
     if (lanes == 0 || !may_wait(lanes) || number >= ShadowPoints::kKeys) return false;
     VectorLanes point;
@@ -150,9 +150,9 @@ protected:
   }
 
 public:
-  // --- the bodies of the kinds that wait ---
+  // --- the bodies of the wavefront queues ---
 
-  /// False: it was stopped on the way.
+  /// Traces a packet of pooled rays and their trees. False: it was stopped.
   template <class Stopped> bool trace_pooled(const PooledRays& rays, uint32_t lanes, const Stopped& stopped) {
     tracer().begin(rays);
     pool_.clear_lanes();
@@ -162,7 +162,7 @@ public:
     pool_.add_tree(tracer().pooling().pixels, lanes, tracer().light());
     return true;
   }
-  /// Shades hits between trees.
+  /// Shades hits without secondary rays, between trees.
   void shade_ending(const EndingHits& ending, uint32_t lanes) {
     tracer().begin(ending.rays);
     tracer().hits() = ending.hits;
@@ -170,13 +170,13 @@ public:
     all().shade_points(nullptr, lanes);
     pool_.add(tracer().pooling().pixels, lanes, tracer().light());
   }
-  /// Takes to their pixels what rays see of the sky.
+  /// Adds the sky that rays see to their pixels.
   void see_sky(const SkyRays& rays, uint32_t lanes) {
     VectorLanes light;
     light.template store<S>(tracer().behind(rays.direction, lanes) * rays.throughput.template load<S>());
     pool_.add(rays.pixels, lanes, light);
   }
-  /// Takes to their pixels what comes of a light to points.
+  /// Adds the light of a lamp that reaches points to their pixels.
   void light_points(uint32_t number, ShadowPoints& points, uint32_t lanes) {
     for_each_light(all().scene_, all().frame_, number, 1, [&](uint32_t, const LightRecord& light) {
       all().shadows_.set_interiors(&points.interiors);
@@ -199,7 +199,7 @@ private:
     return (column + 1) * kPixels <= all().frame_.width && (row + 1) * kPixels <= all().frame_.height;
   }
 
-  /// Finds what fractals are where the primary rays have hit them.
+  /// Finds the values of fractals at the hits of the primary rays.
   template <class Fractals> [[gnu::noinline]] void iterate_fractals(Fractals& fractals) {
     for (auto& member : all().store_.members) {
       if (member.hit == 0) continue;
@@ -211,13 +211,13 @@ private:
     fractals.run();
   }
 
-  /// Whether light of the node that is being traced goes to pixels, whatever packet its rays are in, and
-  /// these are few.
+  /// Returns true if some lanes of the current node may wait in a queue: their light goes to pixels,
+  /// independent of the rays' packet, and they are few.
   bool may_wait(uint32_t lanes) {
     return tracer().pooling().queue != nullptr && tracer().node().target == 0 && had_better_wait(lanes);
   }
   PooledRays::Source waiting_rays() { return {tracer().node(), tracer().pooling().pixels}; }
-  /// Leaves what a few lanes of the node see that hit nothing to see_sky(). False: it has to come now.
+  /// Leaves a few lanes of the current node without a hit to see_sky(). False: their sky has to be added now.
   bool leave_sky(uint32_t missed) {
     if (all().frame_.sky == kNoOffset || !may_wait(missed)) return false;
     pool_.skies.push(0, missed, waiting_rays(), *this);

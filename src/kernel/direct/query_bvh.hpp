@@ -1,18 +1,18 @@
-// The BVH for single rays: eight children wide, its triangles in blocks of four that are ready to be tested.
-// It is made of what the leaves of the BVH for packets have, which suit sixteen lanes.
+// The BVH for single rays: eight children wide, with triangles in blocks of four that are ready to be tested.
+// This BVH is made from the contents of the leaves of the BVH for packets, which suit sixteen lanes.
 #pragma once
 
 #include <stdint.h>
 
 namespace celltrace::kernel {
 
-/// What a child is: nothing is hit in an empty one, whose box is empty.
+/// A reference to a child of a node. An empty child has an empty box, so that rays never hit it.
 namespace query_ref {
 constexpr uint32_t kKindShift = 30;
 enum Kind : uint32_t {
-  node,      ///< the index of a node
-  triangles, ///< the index of a block
-  others,    ///< the index of the first of a list of other objects
+  node,      ///< index of a node
+  triangles, ///< index of a block
+  others,    ///< index of the first of a list of other objects
 };
 constexpr uint32_t make(Kind kind, uint32_t index) {
   return static_cast<uint32_t>(kind) << kKindShift | index;
@@ -31,13 +31,13 @@ struct alignas(64) QueryNode {
   uint32_t child[kWidth];
 };
 
-/// A leaf. Lanes that are not in use repeat the first triangle.
+/// A leaf. Unused lanes repeat the first triangle.
 struct alignas(16) TriangleBlock {
   float v0[3][4], edge1[3][4], edge2[3][4];
-  uint32_t offset[4]; ///< of the triangles' records in the scene image
+  uint32_t offset[4]; ///< offsets of the triangles' records in the scene image
 };
 
-/// Where it all lies.
+/// The tables of the BVH.
 struct QueryBvh {
   const QueryNode* nodes; ///< the first is the root
   const TriangleBlock* blocks;

@@ -1,4 +1,4 @@
-// Answers ray queries of the application, on the thread that asks. Kernel dialect, where memory is direct.
+// Answers to ray queries of the application, on the calling thread. Kernel dialect, for direct memory.
 #pragma once
 
 #include "celltrace/ray.hpp"
@@ -10,13 +10,13 @@
 
 namespace celltrace::kernel {
 
-/// What a build for one CPU answers queries by. `state`: memory that open() has been called for, by one
-/// thread at a time. RayHit::record is an object's offset in the scene image.
+/// The functions of a build for one CPU by which queries are answered. `state` is memory that open() has been
+/// called for; one thread at a time may use it. RayHit::record is an object's offset in the scene image.
 struct RayQueryFunctions {
-  size_t state_bytes;     ///< of memory for a state
-  size_t state_alignment; ///< of its address
-  /// `frame`, with the image and the BVH that it names, `bvh` and `owners` stay as they are as long as the
-  /// state is used. `owners`: RayHit::object by record, of unbounded objects and then all others.
+  size_t state_bytes;     ///< size of a state's memory
+  size_t state_alignment; ///< alignment of its address
+  /// Initialises a state. `frame`, with its image and BVH, `bvh` and `owners` must not change while the state
+  /// is used. `owners` is RayHit::object by record, of unbounded objects and then all others.
   void (*open)(void* state, const FrameBlock& frame, const QueryBvh& bvh, const uint32_t* owners);
   void (*closest_hit)(void* state, const Ray& ray, RayHit& hit);
   bool (*occluded)(void* state, const Ray& ray);
@@ -134,7 +134,7 @@ private:
       const uint32_t owner = record != kNoOffset ? owner_of(record) : RayHit::kNone;
       __builtin_memcpy(&owners[lane], &owner, sizeof owner);
     }
-    // A row of four fields for each lane.
+    // The rows become four fields for each lane.
     F rows[4] = {S::select(missed, F(kEndless), F::load(found.distance.lane)),
                  S::select(missed, F(0.0f), F::load(found.u.lane)),
                  S::select(missed, F(0.0f), F::load(found.v.lane)), F::load(owners)};
@@ -148,7 +148,8 @@ private:
     }
   }
 
-  /// Rays `begin` to `end`, which need not be there: rays come from main memory while others are traced.
+  /// Prefetches rays `begin` to `end`, which need not exist: rays come from main memory while others are
+  /// traced.
   static void prefetch(const Ray* rays, uint32_t begin, uint32_t end) {
     constexpr uint32_t kRaysALine = 64 / sizeof(Ray);
     const uintptr_t address = reinterpret_cast<uintptr_t>(rays);
@@ -171,13 +172,13 @@ private:
     single.has_packet = false;
   }
 
-  /// Directions keep their lengths. Rays that are fewer than a packet's lanes are followed by copies of the
-  /// last one.
+  /// Stores rays in a packet. Directions keep their lengths. Lanes beyond the rays get copies of the last
+  /// one.
   void start(const Ray* rays, uint32_t count, uint32_t packet) {
     using F = typename S::F;
     static_assert(offsetof(Ray, direction) == 12 && offsetof(Ray, tfar) == 24);
     const auto ray = [&](uint32_t lane) { return &rays[lane < count ? lane : count - 1]; };
-    F of_origin[4], of_direction[4]; // x, y, z and what lies behind or before
+    F of_origin[4], of_direction[4]; // x, y, z and the word behind or before
     for (uint32_t i = 0; i < 4; ++i) {
       const Ray *const a = ray(i), *const b = ray(i + 4), *const c = ray(i + 8), *const d = ray(i + 12);
       of_origin[i] = S::join(quad(a, 0), quad(b, 0), quad(c, 0), quad(d, 0));
@@ -194,7 +195,7 @@ private:
     store_words<S>(hits.object, S::I::splat(-1));
     queries_[packet] = {&to, &hits, nullptr, nullptr, (2u << (count - 1)) - 1};
   }
-  /// Four numbers from `offset` bytes on.
+  /// Loads four numbers at `offset` bytes.
   [[gnu::always_inline]] static typename S::F4 quad(const Ray* ray, uint32_t offset) {
     alignas(16) float numbers[4];
     __builtin_memcpy(numbers, reinterpret_cast<const char*>(ray) + offset, sizeof numbers);
@@ -203,7 +204,7 @@ private:
 
   const FrameBlock& frame_;
   const uint32_t* owners_; ///< by record
-  uint32_t first_record_;  ///< offset of the first
+  uint32_t first_record_;  ///< offset of the first record
   Spu spu_;
   SceneAccess<Spu> scene_;
   Traversal<Spu, kBvhOnly> traversal_;
@@ -213,7 +214,7 @@ private:
   RayQuery queries_[kBundlePackets<Spu>];
 };
 
-/// `argument`: the address of a RayQueryFunctions, which becomes that of `Answers`.
+/// Sets the RayQueryFunctions at the address `argument` to those of `Answers`.
 template <class Answers> void enter_ray_query_functions(ea_t argument) {
   auto& functions = *reinterpret_cast<RayQueryFunctions*>(static_cast<uintptr_t>(argument));
   functions.state_bytes = sizeof(Answers);

@@ -1,18 +1,18 @@
-// What has occluded shadow rays just now. Kernel dialect.
+// The shadow cache: objects that occluded shadow rays just now. Kernel dialect.
 #pragma once
 
 #include <cstdint>
 
 namespace celltrace::kernel {
 
-/// The opaque objects that occluded shadow rays of a packet toward the place of a light before this one: most
-/// likely they do so again (Haines and Greenberg, The light buffer, 1986), and a test costs less than a
+/// The opaque objects that occluded shadow rays of a packet toward the previous place of a light: they
+/// probably do so again (Haines and Greenberg, The light buffer, 1986), and a test costs less than a
 /// traversal.
 class RecentOccluders {
 public:
-  bool remembers = false; ///< whether occluders are to be added
+  bool remembers = false; ///< true if occluders are to be added
 
-  /// The last ones stay that there is room for.
+  /// Adds an object, in place of the oldest one if there is no room.
   void add(uint32_t object) {
     for (uint32_t i = 0; i < count_; ++i)
       if (objects_[i] == object) return;
@@ -21,7 +21,7 @@ public:
     if (count_ < kMost) ++count_;
   }
   void forget() { count_ = next_ = 0; }
-  /// Keeps those that `occlude(object)` says so of. None is added meanwhile.
+  /// Keeps the objects for which `occlude(object)` returns true. None is added meanwhile.
   template <class Occlude> void test(Occlude occlude) {
     RecentOccluders kept;
     kept.remembers = remembers;

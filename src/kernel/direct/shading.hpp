@@ -1,5 +1,5 @@
-// Shading where memory is direct and code takes no local store: records are read side by side, and there are
-// shortcuts for what is frequent. Kernel dialect.
+// Shading in direct memory, where code takes no local store: records are read in place, and there are
+// shortcuts for frequent cases. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/bundle_queues.hpp"
@@ -17,9 +17,9 @@ struct DirectShading {
 
   // --- surfaces ---
 
-  /// Ends of trees are shaded without what it takes to let rays go on.
+  /// Ends of trees are shaded without the code for secondary rays.
   static constexpr bool kShadesEndsApart = true;
-  /// The first material fills all lanes.
+  /// Gives lanes a material; the first material fills all lanes.
   template <class Spu>
   [[gnu::always_inline]] static void gather_material(const MaterialRecord& r, bool first, uint32_t lanes,
                                                      uint32_t wanted, MaterialLanes<typename Spu::simd>& m) {
@@ -31,7 +31,7 @@ struct DirectShading {
 
   // --- light ---
 
-  /// Rounds begin fresh, and shading leaves the rays toward their first light.
+  /// Begins a round, which is fresh; shading stores the rays toward its first light.
   template <class S, class LitPoints> static void begin_round(LightRound& round, LitPoints& lit) {
     round.is_fresh = true;
     round.to_first = &lit.to_light;
@@ -41,11 +41,11 @@ struct DirectShading {
     return round.to_first != nullptr && light == round.first;
   }
   static void end_fresh(LightRound& round) { round.is_fresh = false; }
-  /// Whether shading has left the rays toward a light, of a round that begins with `first`.
+  /// Returns true if shading has stored the rays toward a light, in a round that begins with light `first`.
   static bool is_aimed(uint32_t light, uint32_t first) { return light == first; }
 
-  /// Leaves those of `lanes` whose surfaces may send on light of lights: not what is black, or diffuses
-  /// nothing, and has no highlights. True if these are none.
+  /// Removes lanes from `lanes` whose surfaces send on no light: they are black or diffuse nothing, and have
+  /// no highlights. True if none is left.
   template <class Spu>
   static bool are_dark(const Surfaces<typename Spu::simd>& s, const MaterialLanes<typename Spu::simd>& m,
                        uint32_t& lanes) {
@@ -59,7 +59,7 @@ struct DirectShading {
     return lanes == 0;
   }
 
-  /// Cosines to whole powers. False: they are not all whole.
+  /// Raises cosines to whole powers. False: not all powers are whole.
   template <class S>
   [[gnu::always_inline]] static bool bend_by_whole_power(const typename S::F& power, uint32_t lanes,
                                                          typename S::F& cosine) {
@@ -69,7 +69,7 @@ struct DirectShading {
     return true;
   }
 
-  // --- rays that go on ---
+  // --- secondary rays ---
 
   template <class Spu, class S = typename Spu::simd, class F = typename S::F>
   [[gnu::always_inline]] static void
@@ -78,7 +78,7 @@ struct DirectShading {
     detail::secondary_rays_of<S>(m, cosine, fresnel_ratio, adc_bailout, lanes, share, all);
   }
 
-  /// Returns the `lanes` in which a ray is inside of an interior.
+  /// Returns the `lanes` in which a ray is inside an interior.
   template <class S> static uint32_t lanes_inside(const RayNode& ray, uint32_t lanes, uint32_t interior) {
     using I = typename S::I;
     const I depth = load_words<S>(ray.interior_depth), wanted = I::splat(static_cast<int32_t>(interior));
@@ -87,8 +87,8 @@ struct DirectShading {
       inside = inside | ((load_words<S>(ray.interiors[d]) == wanted) & (I::splat(d) < depth));
     return inside.bits() & lanes;
   }
-  /// As cross_surfaces(), all at once for the `lanes` that have nothing to do with any other interior.
-  /// Returns the rest.
+  /// Crosses surfaces at once for those `lanes` that no other interior concerns; see cross_surfaces().
+  /// Returns the other lanes.
   template <class Spu>
   static uint32_t cross_single_interiors(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes,
                                          RayNode& ray, Refraction& result) {

@@ -1,6 +1,5 @@
-// Shadow rays where memory is direct: what they cross is found by one traversal, and objects
-// that may be between surfaces and a light with an area are gathered before its places are looked at. Kernel
-// dialect.
+// Shadow rays in direct memory: their crossings are found by one traversal, and possible occluders between
+// surfaces and an area light are gathered before its places are sampled. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/area_pairs.hpp"
@@ -26,11 +25,12 @@ protected:
     const float(&eye)[3] = frame.camera.origin;
     return light.location[0] == eye[0] && light.location[1] == eye[1] && light.location[2] == eye[2];
   }
-  /// Where crossings are kept, rays are only walked toward lights that are dimmed on their way.
+  /// Returns true if rays toward a light are walked. Walks are only necessary if the light is dimmed on its
+  /// way, or if walks restart, as crossings are kept.
   bool walks(const LightRecord& light) const { return is_dimmed(light) || restarts_shadows(tracer().frame_); }
 
-  /// Answers the queries of a bundle where order matters: what they cross is kept. Only rays are walked that
-  /// cross more than there is room for.
+  /// Answers the queries of a bundle where the order of crossings matters: the crossings are kept. Only rays
+  /// with more crossings than there is room for are walked.
   bool trace_crossings(const LightRecord& light, RayQuery* queries, uint32_t count) {
     CrossingPool pool;
     KeptCrossings<S> crossings[kPackets];
@@ -47,7 +47,7 @@ protected:
     }
     return true;
   }
-  /// Takes one packet through what it crosses.
+  /// Takes one packet through the surfaces that it crosses.
   void trace_crossings(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                        const FloatLanes& distance, VectorLanes& colour) {
     CrossingPool pool;
@@ -58,8 +58,8 @@ protected:
     finish(light, query, crossings, colour);
   }
 
-  /// The light of an area, of which all objects that may be in the way are known, or else the last ones that
-  /// were.
+  /// Samples an area light with all possible occluders if they are known, otherwise with the shadow cache.
+  /// False: it did not.
   bool sample_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
     using Known = typename AreaOccluders<Spu>::Known;
     if (is_projected(light) || tracer().walks_all(light)) return false;
@@ -81,7 +81,8 @@ private:
   Tracer& tracer() { return static_cast<Tracer&>(*this); }
   const Tracer& tracer() const { return static_cast<const Tracer&>(*this); }
 
-  /// Whether what surfaces let through depends on where rays come from: it is found surface by surface.
+  /// Returns true if the transmittance of surfaces depends on where rays come from: it is then found surface
+  /// by surface.
   bool lists_crossings() const {
     return walks_translucent(tracer().frame_) && !walks_for_fading(tracer().frame_);
   }
@@ -93,7 +94,7 @@ private:
       crossings.finish();
     walk_some(light, query, crossings, crossings.overflowed, colour);
   }
-  /// Takes rays through the surfaces that they cross, one after the other.
+  /// Takes rays through the surfaces that they cross, one after another.
   void pass_crossings(const RayQuery& query, KeptCrossings<S>& crossings) {
     if (query.lanes == 0 || crossings.empty()) return;
     ShadowWalk<S>& walk = *tracer().walk_;
@@ -116,7 +117,7 @@ private:
     }
     static_cast<VectorLanes&>(crossings) = light;
   }
-  /// As step_shadow_walk(), where what surfaces let through is known.
+  /// Takes rays through one surface each whose transmittance is known; see step_shadow_walk().
   void pass_surfaces(uint32_t hit, const VectorLanes& transmittance, ShadowWalk<S>& walk) {
     using I = typename S::I;
     I interiors = I::splat(0);
@@ -134,7 +135,8 @@ private:
     cross_surfaces(tracer().scene_, interior, counts, *walk.ray, tracer().counters_.dropped);
     walk.ray->lanes = hit;
   }
-  /// The light of a query: `answered` in lanes that are left; `walked` lanes are still to be walked.
+  /// Completes the light of a query: `answered` in lanes that are left; `walked` lanes still have to be
+  /// walked.
   void walk_some(const LightRecord& light, const RayQuery& query, const VectorLanes& answered,
                  uint32_t walked, VectorLanes& colour) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
@@ -164,13 +166,13 @@ private:
     }
     tracer().take_area_light(colour);
   }
-  /// Tests what occludes one place first for the next one. `occluders`: what is known of the
-  /// nodes that are in the way; null: nothing.
+  /// Samples an area light: occluders of one place are tested first for the next one. `occluders` has the
+  /// nodes that may contain others; null: they are not known.
   void look_at_occluded_area(const LightRecord& light, const AreaOccluders<Spu>* occluders,
                              VectorLanes& colour) {
     AreaShadow<S>& area = *tracer().area_;
     tracer().traversal_.remember_occluders(true);
-    // False: the light is that of before, and none of it comes.
+    // Returns false if no light comes; `of_place` is then unchanged.
     const auto trace = [&](const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
                            VectorLanes& of_place) {
       lanes = tracer().traversal_.unoccluded_by_recent(rays, lanes, distance, of_place);
@@ -189,7 +191,7 @@ private:
     tracer().traversal_.remember_occluders(false);
     tracer().take_area_light(colour);
   }
-  /// Does so where what rays cross is kept.
+  /// Samples an area light if the crossings of rays are kept.
   void look_at_crossed_area(const LightRecord& light, VectorLanes& colour) {
     AreaShadow<S>& area = *tracer().area_;
     tracer().traversal_.remember_occluders(true);
@@ -215,8 +217,8 @@ private:
     tracer().traversal_.remember_occluders(false);
     tracer().take_area_light(colour);
   }
-  /// Samples an area in pairs of a surface and a place, if there is room for them. `trace(query, the surface
-  /// of each lane, light)` takes white light to what comes; false: none does.
+  /// Samples an area light in pairs of a surface and a place, if there is room for them. `trace(query,
+  /// surface of each lane, light)` changes white light to the light that arrives; false: none does.
   template <class Trace> bool sample_pairs(const LightRecord& light, const Trace& trace) {
     AreaShadow<S>& area = *tracer().area_;
     if (!AreaPairs<Spu, true>::can_sample(light)) return false;

@@ -1,4 +1,4 @@
-// Triangles tested for the occlusion of a light: which points lie in their shadow volumes. Kernel dialect.
+// Tests of triangles as occluders of a light: which points lie in their shadow volumes. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/bundle_view.hpp"
@@ -6,14 +6,14 @@
 
 namespace celltrace::kernel {
 
-/// The shadow volume of one triangle in each lane: what is behind it, as seen from a light, between the
-/// planes through the light and an edge. Tests take one triangle and the shadow rays of a packet in lanes. A
-/// ray crosses the triangle on its way to the light if it starts in the volume, so that its direction is not
-/// needed.
+/// The shadow volume of one triangle in each lane: the space behind the triangle, as seen from a light,
+/// between the planes through the light and an edge. Tests take one triangle and the shadow rays of a packet
+/// in lanes. A ray crosses the triangle on its way to the light if it starts in the volume, so that its
+/// direction is not needed.
 ///
 /// The scalar products of an origin and the normals of the planes, divided by their sum, are the barycentric
-/// coordinates of the crossing. The share of the ray's length at which it lies is that of the origin's
-/// distance from the triangle's plane in the sum of the distances of origin and light.
+/// coordinates of the crossing. The crossing's distance relative to the ray's length is the origin's distance
+/// from the triangle's plane divided by the sum of the distances of origin and light.
 template <class S> class ShadowVolumes {
 public:
   using F = typename S::F;
@@ -23,7 +23,7 @@ public:
     const V3<S> corner = sides.v0 - splat3<S>(origins.base);
     const V3<S> to_light = splat3<S>(origins.light) - sides.v0;
     const V3<S> whole = cross<S>(sides.edge2, sides.edge1);
-    // Oriented so that all products are positive inside.
+    // The planes are oriented so that all products are positive inside.
     const F whole_distance = dot<S>(whole, to_light);
     const F sign = S::select(whole_distance < F(0.0f), F(-1.0f), F(1.0f));
     set(0, cross<S>(to_light, sides.edge2) * sign, corner);
@@ -36,7 +36,7 @@ public:
     (reach * absolute_sum<S>(to_light) * F(detail::kUnitInLastPlace)).store(overlap_.lane);
   }
 
-  /// The rays of a packet that triangle `i` occludes.
+  /// Returns the rays of a packet that triangle `i` occludes.
   [[gnu::always_inline]] M crossed(uint32_t i, const ShadowOrigins& origins, uint32_t packet) const {
     const V3<S> from = origins.origin[packet].template load<S>();
     const F u = product(0, i, from), v = product(1, i, from), distance = product(2, i, from);
@@ -56,9 +56,9 @@ private:
     return kernel::product<S>(normal_[plane], i, point) - F(offset_[plane].lane[i]);
   }
 
-  // A lane for each triangle.
-  VectorLanes normal_[3]; ///< of the planes through two of the edges, and of that of the triangle
-  FloatLanes offset_[3];  ///< of the planes: normal * point
+  // Each lane has a triangle.
+  VectorLanes normal_[3]; ///< normals of the planes through two of the edges, and of the triangle's plane
+  FloatLanes offset_[3];  ///< normal * point, by plane
   FloatLanes light_;      ///< the light's distance from the triangle's plane, times the normal's length
   FloatLanes overlap_;    ///< epsilon of the products
 };

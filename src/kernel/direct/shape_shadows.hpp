@@ -1,9 +1,9 @@
-// Shadow rays of several packets against one object of a shape that tells shadows. Kernel dialect, where
-// memory is direct.
+// Shadow rays of several packets against one object of a shape with kTellsShadows. Kernel dialect, for direct
+// memory.
 //
-// Of most packets that come to such an object's bounds only few rays come near its surface: near the tube of
-// a torus, say. The near rays of all packets wait for each other, so that its equation is solved for as many
-// at a time as a vector has lanes.
+// In most packets that reach such an object's bounds only few rays come near its surface, such as the tube of
+// a torus. The near rays of all packets wait for each other, so that its equation is solved for as many at a
+// time as a vector has lanes.
 #pragma once
 
 #include "kernel/direct/clipping.hpp"
@@ -12,7 +12,7 @@
 
 namespace celltrace::kernel {
 
-/// Rays in the space of an object, and between which distances something of it is left.
+/// Rays in the space of an object, and the distances between which clipping leaves a part of it.
 template <class Shape, class S> class ShapeShadowRays : public WorkKind {
 public:
   using F = typename S::F;
@@ -22,7 +22,7 @@ public:
     uint32_t query;
     const LocalRays<S>& rays;
     const FloatLanes& distance;
-    const ClippedRays* clipped; ///< null: all of it is left
+    const ClippedRays* clipped; ///< null: the object is not clipped
   };
 
   void begin() { run_count_ = 0; }
@@ -63,24 +63,24 @@ public:
   }
 
 private:
-  static constexpr uint32_t kNumbers = 9; ///< of a ray
-  /// Lanes of a query, from this place on.
+  static constexpr uint32_t kNumbers = 9; ///< numbers per ray
+  /// Lanes of a query, which begin at lane `first`.
   struct Run {
     uint32_t query, lanes, first;
   };
 
   uint32_t run_count_;
   Run runs_[S::kLanes];
-  alignas(64) float numbers_[kNumbers][2 * S::kLanes] = {}; ///< vectors are stored from any lane on
+  alignas(64) float numbers_[kNumbers][2 * S::kLanes] = {}; ///< vectors are stored at any lane
 };
 
-/// Removes lanes from queries for light that an object occludes, where `clipping` leaves something of it.
+/// Removes lanes that an object, clipped by `clipping`, occludes from queries of shadow rays.
 template <class Shape, class S> class ShapeShadows {
 public:
   ShapeShadows(float parameter, const ClippingObject& clipping, RayQuery* queries)
       : parameter_(parameter), clipping_(clipping), queries_(queries) {}
 
-  /// Tests some of a query's rays, which do not start on it, at once or later. `rays` are in its space.
+  /// Tests some of a query's rays, which must not start on the object, now or later. `rays` are in its space.
   void add(uint32_t query, const LocalRays<S>& rays, uint32_t lanes) {
     const typename S::F parameter(parameter_);
     lanes &= Shape::template may_hit<S>(rays, parameter).bits();
@@ -92,7 +92,7 @@ public:
     queue_.push(0, lanes & ~dark, {query, rays, *queries_[query].distance, clipped}, parameter_, clipping_,
                 queries_);
   }
-  /// Tests those that are left.
+  /// Tests the remaining rays.
   void finish() { queue_.flush(parameter_, clipping_, queries_); }
 
 private:

@@ -6,8 +6,8 @@
 namespace celltrace::kernel {
 
 struct DirectShapes {
-  /// Rays in the space of a shape. As in POV-Ray, a ray in the plane of a face is inside of it; rounding
-  /// moves it off.
+  /// Returns rays in the space of a shape. As in POV-Ray, a ray in the plane of a face is inside of it;
+  /// rounding moves it off the face.
   template <class S, class Shape>
   [[gnu::always_inline]] static LocalRays<S> off_faces(const LocalRays<S>& rays) {
     LocalRays<S> inside = rays;

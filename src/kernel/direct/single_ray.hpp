@@ -1,8 +1,9 @@
-// Traverses the BVH with one ray: its node tests take the four children of a node at once, its leaf tests
-// four triangles. Kernel dialect, where memory is direct.
+// Traversal of the BVH with one ray: its node tests take the eight children of a node at once, its leaf tests
+// four triangles. Kernel dialect, for direct memory.
 //
-// Finds the hits that packets find, to the last bit: tests of objects and of what is nearer are theirs. Where
-// objects meet, packets may find another: their tests of nodes may leave out a box that a ray only touches.
+// The hits are those that packets find, to the last bit: the tests of objects and the comparison of hits are
+// the same. Where objects meet, packets may find another hit: their tests of nodes may leave out a box that a
+// ray only touches.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -13,11 +14,10 @@
 
 namespace celltrace::kernel {
 
-/// A ray and what it has hit so far. A copy of it in all lanes of a packet is made when it is first asked
-/// for.
+/// A ray and its closest hit so far. A copy in all lanes of a packet is made on first use.
 template <class S> struct SingleRay {
-  float origin[3], direction[3]; ///< of length 1
-  float distance;                ///< of the closest hit, or where the ray ends
+  float origin[3], direction[3]; ///< `direction` is a unit vector
+  float distance;                ///< of the closest hit, or the end of the ray
   float u, v;
   uint32_t object; ///< offset, or kNoOffset
   bool has_packet;
@@ -34,7 +34,7 @@ template <class S> struct SingleRay {
   }
 };
 
-/// `Quad` and `Eight`: four lanes for triangles and eight for bounds.
+/// Traverses the BVH with single rays. `Quad` and `Eight`: four lanes for triangles and eight for bounds.
 template <class Spu, class Quad, class Eight> class SingleRayTraversal {
 public:
   using S = typename Spu::simd;
@@ -45,14 +45,14 @@ public:
 
   /// Finds the closest hit before `ray.distance`.
   void find_closest(Ray& ray) { trace<false>(ray); }
-  /// Whether there is any.
+  /// Returns true if there is a hit.
   bool occluded(Ray& ray) { return trace<true>(ray); }
 
 private:
-  static constexpr uint32_t kDepth = 64; // that of the BVH for packets, and of leaves that were divided
+  static constexpr uint32_t kDepth = 64; // depth of the BVH for packets, and of divided leaves
   static constexpr uint32_t kEntries = (QueryNode::kWidth - 1) * kDepth + QueryNode::kWidth;
 
-  /// A child that the ray enters, and where.
+  /// A child that the ray enters, and the distance.
   struct Entry {
     uint32_t ref;
     float enter;
@@ -65,8 +65,8 @@ private:
     }
   };
 
-  /// The ray for tests of nodes: a plane at x is crossed at x * inverse - origin * inverse, one instruction
-  /// where they are fused.
+  /// The ray for tests of nodes: it crosses a plane at x at the distance x * inverse - origin * inverse,
+  /// which is one instruction if multiplication and subtraction are fused.
   struct Slabs {
     explicit Slabs(const Ray& ray) {
       const SlabOrder order((ray.direction[0] < 0.0f ? 1u : 0u) | (ray.direction[1] < 0.0f ? 2u : 0u) |
@@ -75,7 +75,7 @@ private:
         const float along = ray.direction[axis];
         const float inverted = 1.0f / (along < 0.0f ? smaller(along, -detail::kTinyDirection)
                                                     : larger(along, detail::kTinyDirection));
-        // magnitude() is a branch here, which takes 3 % of a ray.
+        // magnitude() would be a branch here, which takes 3 % of a ray's time.
         const float product = ray.origin[axis] * inverted, rounding = kRounding * __builtin_fabsf(product);
         inverse[axis] = Eight::splat(inverted);
         near_origin[axis] = Eight::splat(product + rounding);
@@ -84,7 +84,7 @@ private:
         far_row[axis] = order.far[axis] * sizeof(QueryNode::bounds[0]);
       }
     }
-    /// As Frustum::intersect().
+    /// Returns the children that the ray hits; see Frustum::intersect().
     [[gnu::always_inline]] uint32_t intersect(const QueryNode& node, float tfar, float* enter) const {
       const auto at = [&](size_t row, uint32_t axis, const Eight(&origins)[3])
           __attribute__((always_inline)) {
@@ -106,8 +106,8 @@ private:
       return not_above_bits(near, far * Eight::splat(detail::kRoundedUp));
     }
 
-    /// More than both products are rounded by, relative to origin * inverse: near planes are taken to be
-    /// nearer by it, far planes farther, since the difference may be much smaller than the products.
+    /// Bound for the rounding of both products, relative to origin * inverse: near planes are moved nearer by
+    /// it, far planes farther, as the difference may be much smaller than the products.
     static constexpr float kRounding = 5e-7f;
 
     Eight inverse[3], near_origin[3], far_origin[3];
@@ -149,8 +149,8 @@ private:
     }
   }
 
-  /// Pushes the children that are hit, the nearest last, but for the nearest, which `ref` becomes. False:
-  /// none is hit.
+  /// Pushes the children that are hit, the nearest last, except for the nearest of all, which becomes `ref`.
+  /// False: none is hit.
   [[gnu::always_inline]] static bool expand(const Slabs& slabs, const QueryNode& node, float tfar,
                                             Entry*& top, uint32_t& ref) {
     alignas(32) float enter[QueryNode::kWidth];
@@ -161,7 +161,7 @@ private:
       hit &= hit - 1;
       return Entry{node.child[i], enter[i]};
     };
-    // Mostly one or two are hit, whose order no branch predictor knows.
+    // Mostly one or two children are hit, whose order no branch predictor knows.
     Entry a = next();
     if (hit != 0) {
       Entry b = next();
@@ -190,7 +190,8 @@ private:
     return true;
   }
 
-  /// As keep_closest() of crossings.hpp, with the triangles in lanes.
+  /// Tests the triangles of a block, in lanes, and keeps the closest hit; see keep_closest() in
+  /// crossings.hpp.
   [[gnu::always_inline]] static void test_triangles(const TriangleBlock& block, const V3<Quad>& origin,
                                                     const V3<Quad>& direction, Ray& ray) {
     using F = typename Quad::F;
@@ -218,7 +219,7 @@ private:
     }
   }
 
-  /// Any other object, by the test that packets have.
+  /// Tests any other object, by the test for packets.
   CELLTRACE_ONE_COPY void test_other(uint32_t self, Ray& ray) {
     using F = typename S::F;
     const RayPacket& packet = ray.as_packet();

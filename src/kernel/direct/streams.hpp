@@ -1,4 +1,4 @@
-// Long arrays in main memory that is direct: there are no buffers. Kernel dialect.
+// Streams of long arrays in direct main memory, without buffers. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/radix_sort.hpp"

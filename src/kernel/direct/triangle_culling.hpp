@@ -1,4 +1,4 @@
-// Culls the packets of a bundle for triangles, by separating axes in the view of the bundle. Kernel dialect.
+// Culling of a bundle's packets for triangles, by separating axes in the view of the bundle. Kernel dialect.
 //
 // In the map of a BundleView, a ray hits a triangle if its direction is on the inner side of the three planes
 // through the origin and an edge. The edge functions are the scalar products of the direction and the planes'
@@ -20,13 +20,15 @@ public:
     const V3<S> from = view.to_origin(sides.v0);
     const V3<S> edge1 = view.mapped(sides.edge1), edge2 = view.mapped(sides.edge2);
     const V3<S> p = cross<S>(edge2, from), q = cross<S>(from, edge1), whole = cross<S>(edge2, edge1);
-    // Oriented so that edge functions of rays that hit the triangle in front of the origin are positive.
+    // The planes are oriented so that edge functions are positive for rays that hit the triangle in front of
+    // the origin.
     const F sign = S::select(dot<S>(edge2, q) < F(0.0f), F(-1.0f), F(1.0f));
     const V3<S> u = p * sign, v = q * sign, w = whole * sign - u - v;
     inward_[0].template store<S>(u);
     inward_[1].template store<S>(v);
     inward_[2].template store<S>(w);
-    // Larger than the overlap of neighbours (see SeenTriangle): no packet is culled whose rays would hit.
+    // The margin is larger than the overlap of neighbours (see SeenTriangle), so that no packet with a ray
+    // that would hit is culled.
     const F size = S::max(absolute_sum<S>(edge1), absolute_sum<S>(edge2));
     const F uncertainty = (absolute_sum<S>(from) + F(view.span)) * F(32.0f * detail::kUnitInLastPlace);
     const F rounding = uncertainty * size;
@@ -53,8 +55,8 @@ public:
   }
 
 private:
-  /// Computes the rectangles around the triangles' projections. Each corner lies within `reach` of where the
-  /// hits next to it are. Triangles that come too close to the plane of depth 0 have no bounds.
+  /// Computes the rectangles around the triangles' projections. Each corner lies within `reach` of the
+  /// nearest hits. Triangles that come too close to the plane of depth 0 have no bounds.
   [[gnu::always_inline]] void bound(const V3<S>& from, const V3<S>& edge1, const V3<S>& edge2,
                                     const F& reach) {
     const V3<S> corner = {-from.x, -from.y, -from.z};
@@ -75,7 +77,7 @@ private:
 
   static constexpr float kUnbounded = 3e38f;
 
-  // A lane for each triangle.
+  // Each lane has a triangle.
   VectorLanes inward_[3];       ///< normals of the planes through edges, inward
   FloatLanes low_[2], high_[2]; ///< rectangle of the projection, at depth 1
   FloatLanes least_[3];         ///< bound of n.x * x + n.y * y for a ray (x, y, 1) inside

@@ -1,46 +1,48 @@
 // Wavefront queues: lanes of many packets that need the same work wait until they fill a packet, for which
-// one body runs (Laine, Karras and Aila, Megakernels Considered Harmful, 2013). Kernel dialect, where memory
-// is direct.
+// one body runs (Laine, Karras and Aila, Megakernels Considered Harmful, 2013). Kernel dialect, for direct
+// memory.
 #pragma once
 
 #include "kernel/packet.hpp"
 
 namespace celltrace::kernel {
 
-/// The defaults of a kind of work, which derives from this.
+/// The base class of kinds of work, with defaults.
 struct WorkKind {
-  /// Packets that fill side by side: lanes of different keys stay apart.
+  /// Number of packets that fill side by side: lanes of different keys stay apart.
   static constexpr uint32_t kKeys = 1;
-  /// The capacity. As many as keys: a packet runs when it is full. More: full packets wait for run_next().
+  /// Capacity in packets. If it equals kKeys, a packet runs when it is full. If it is larger, full packets
+  /// wait for run_next().
   static constexpr uint32_t kPackets = 1;
-  /// Whether run_next() takes the oldest of full packets first, or the youngest.
+  /// True if run_next() takes the oldest full packet first, otherwise the youngest.
   static constexpr bool kOldestFirst = false;
-  /// Whether run_next() puts lanes of several keys together where no packet is full.
+  /// True if run_next() combines lanes of several keys when no packet is full.
   static constexpr bool kMixesKeys = false;
   /// Prepares a packet for its first lane.
   void begin() {}
 };
 
-/// Queues work of one kind, a WorkKind that has what its lanes bring as members, and besides
+/// Queues work of one kind, a WorkKind that has the data of its lanes as members, and
 ///
-///   Source                     where lanes come from
+///   Source                     source of lanes
 ///   put(from, lanes, to)       copies `lanes` of a Source into the packet's lanes from `to` on, in order
-///   source()                   the Source that a packet is for others, if it mixes keys
+///   source()                   returns the packet as a Source for others; only with kMixesKeys
 ///   run(key, lanes, worker...) the body: does the work of the packet's `lanes`, which are the first ones
 ///
 /// Lanes of one key run in the order in which they were pushed, unless full packets wait for each other.
 template <class Kind> class WavefrontQueue {
 public:
-  /// `packets`: there is room for Kind::kPackets.
+  /// Makes a queue; `packets` has room for Kind::kPackets.
   explicit WavefrontQueue(Kind* packets) : packets_(packets) { clear(); }
 
   bool empty() const { return full_count_ == 0 && count_of_all() == 0; }
-  /// Whether a packet is full, and waits.
+  /// Returns true if a full packet waits.
   bool has_full() const { return full_count_ != 0; }
-  /// Whether a packet's lanes can be pushed whatever their keys are: always, if full packets do not wait.
+  /// Returns true if all lanes of a packet can be pushed whatever their keys are; always, if full packets do
+  /// not wait.
   bool has_room() const { return !kWaits || free_count_ >= kKeys; }
 
-  /// Forgets all lanes.
+  /// Removes all lanes.
   void clear() {
     full_count_ = 0;
     for (free_count_ = 0; free_count_ < kPackets; ++free_count_)
@@ -49,8 +51,8 @@ public:
       begin_packet(key);
   }
 
-  /// Adds some lanes, for which there is room. Calls the body for each packet that becomes full, unless those
-  /// wait. The body may not push.
+  /// Adds some lanes, for which there must be room. Calls the body for each packet that becomes full, unless
+  /// full packets wait. The body must not push.
   template <class... Worker>
   void push(uint32_t key, uint32_t lanes, const typename Kind::Source& from, Worker&&... worker) {
     while (lanes != 0) {
@@ -72,15 +74,15 @@ public:
     }
   }
 
-  /// Calls the body for the next packet, which may have few lanes if none is full. There is one. Returns what
-  /// the body returns, which may push.
+  /// Calls the body for the next packet, which must exist; it may have few lanes if none is full. Returns the
+  /// result of the body, which may push.
   template <class... Worker> auto run_next(Worker&&... worker) {
     uint32_t lanes = kAll;
     const Packet next = has_full() ? take_full() : take_filling(lanes);
     if constexpr (kWaits) free_[free_count_++] = next.number;
     return packets_[next.number].run(next.key, lanes, worker...);
   }
-  /// Calls it until nothing waits.
+  /// Calls the body until nothing waits.
   template <class... Worker> void flush(Worker&&... worker) {
     while (!empty())
       run_next(worker...);
@@ -95,7 +97,7 @@ private:
     uint32_t number, key;
   };
 
-  /// Returns the lowest of some lanes, at most so many.
+  /// Returns the lowest of some lanes, at most `most` of them.
   static uint32_t lowest(uint32_t lanes, uint32_t most) {
     while (static_cast<uint32_t>(__builtin_popcount(lanes)) > most)
       lanes &= ~(0x80000000u >> __builtin_clz(lanes));
@@ -121,7 +123,7 @@ private:
     }
     return full_[full_count_];
   }
-  /// Takes a packet that has some `lanes`.
+  /// Takes a packet that is not full, with some `lanes`.
   Packet take_filling(uint32_t& lanes) {
     const uint32_t key = next_key();
     const Packet taken = {filling_[key], key};
@@ -129,8 +131,8 @@ private:
     begin_packet(key);
     return taken;
   }
-  /// Returns the first key that has lanes, or the one that has most, and then as many others' as there is
-  /// room for all of a key.
+  /// Returns the first key with lanes; or, with kMixesKeys, the key with the most lanes, to which it adds all
+  /// lanes of other keys if there is room for them.
   uint32_t next_key() {
     uint32_t next = 0;
     for (uint32_t key = 1; key < kKeys; ++key)
@@ -151,7 +153,7 @@ private:
   uint32_t free_[kPackets], free_count_ = 0; ///< numbers of packets, if full ones wait
   Packet full_[kPackets];
   uint32_t full_count_ = 0;
-  uint32_t filling_[kKeys], count_[kKeys]; ///< by key: the packet that fills, and lanes that it has
+  uint32_t filling_[kKeys], count_[kKeys]; ///< by key: the packet that fills, and the number of its lanes
 };
 
 } // namespace celltrace::kernel

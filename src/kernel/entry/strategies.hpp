@@ -1,4 +1,4 @@
-// Binds the kernel to its strategies: whoever compiles it for an SPU includes this. Kernel dialect.
+// The kernel with both strategies: code that compiles it for an SPU includes this file. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/strategy.hpp"

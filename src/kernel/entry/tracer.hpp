@@ -6,13 +6,13 @@
 
 namespace celltrace::kernel {
 
-// The programs as the PPE starts them; `argument` is the ea of the FrameBlock.
+// Programs that the PPE starts; `argument` is the effective address of the FrameBlock.
 
-/// Finds objects by a BVH; where code takes no local store, by what the frame asks for.
+/// Renders with a BVH; where code takes no local store, with the accelerator that the frame asks for.
 template <class Spu> void tracer(Spu& spu, ea_t argument) {
   Tracer<Spu, Strategy<Spu>::kAccelerators>(spu, argument).run();
 }
-/// By a uniform grid, which it also builds.
+/// Renders with a uniform grid, which it also builds.
 template <class Spu> void grid_tracer(Spu& spu, ea_t argument) {
   Tracer<Spu, kGridOnly>(spu, argument).run();
 }

@@ -1,9 +1,9 @@
-// The shadows of a light with an area, as POV-Ray samples them: a grid of places on it, of which only those
-// are looked at that the ones around them do not agree about. Kernel dialect.
+// Shadows of area lights, sampled as in POV-Ray: a grid of places on the light, of which only those are
+// sampled about which the surrounding places disagree. Kernel dialect.
 //
-// A quad of the grid is worth the mean of its corners, or of its quarters if it is divided; so it is done
-// with a stack of quads, each with the weight of its mean. What is known of places stays in a small table, as
-// quads share corners.
+// The value of a quad of the grid is the mean of its corners, or of its quarters if it is divided. The value
+// is computed with a stack of quads, each with the weight of its mean. Results of places are kept in a small
+// table, as quads share corners.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -16,7 +16,7 @@
 namespace celltrace::kernel {
 
 namespace detail {
-// Lanes by the plastic number's additive recurrence: neighbours are far from each other.
+// Offsets of lanes by the additive recurrence of the plastic number, which keeps neighbours far apart.
 alignas(64) constexpr float kJitterX[kSimdLanes] = {
     0.0f,       0.7548777f, 0.5097553f, 0.2646330f, 0.0195107f, 0.7743883f, 0.5292660f, 0.2841436f,
     0.0390213f, 0.7938990f, 0.5487767f, 0.3036543f, 0.0585320f, 0.8134097f, 0.5682873f, 0.3231650f};
@@ -30,11 +30,11 @@ struct LightPlace {
   uint32_t column, row;
 };
 
-/// A quad of the grid, and the lanes that look at it.
+/// A quad of the grid, and the lanes that sample it.
 struct LightQuad {
   uint8_t left, top, right, bottom;
   uint16_t lanes, level;
-  float weight; ///< of its mean
+  float weight; ///< weight of the mean of its corners
 
   static LightQuad whole(const LightRecord& light, uint32_t lanes) {
     return {0,
@@ -49,8 +49,8 @@ struct LightQuad {
   LightPlace corner(uint32_t number) const {
     return {(number & 1) == 0 ? left : right, (number & 2) == 0 ? top : bottom};
   }
-  /// Calls `push(quarter)` for the quarters, which some lanes look at. They share the middle, or lie on both
-  /// sides of it; of a line two are the same.
+  /// Calls `push(quarter)` for the quarters, which the lanes `among` sample. Quarters share the middle, or
+  /// lie on both sides of it. A quad that is one row or column wide has two halves instead.
   template <class Push> void divide(uint32_t among, const Push& push) const {
     const uint32_t x0 = (left + right) / 2u, x1 = (left + right + 1u) / 2u;
     const uint32_t y0 = (top + bottom) / 2u, y1 = (top + bottom + 1u) / 2u;
@@ -70,21 +70,21 @@ struct LightQuad {
 
 namespace module_areas {
 
-/// A number from 0 up to 1 that follows from the place alone, so that pictures do not depend on who renders
-/// them or how often.
+/// Returns a pseudo-random number in [0, 1) that depends on the place alone, so that pictures do not depend
+/// on which SPE renders them or how often.
 inline float scattered(uint32_t place) {
   uint32_t bits = (place ^ (place >> 16)) * 0x45D9F3Bu;
   bits = (bits ^ (bits >> 16)) * 0x45D9F3Bu;
   return static_cast<float>((bits ^ (bits >> 16)) >> 8) * (1.0f / 16777216.0f);
 }
 
-/// From -1/2 to 1/2: of the sum of a number for the lane and one for the place, from 0 to 1.
+/// Returns a jitter from -1/2 to 1/2 for the sum of a lane's and a place's numbers, each from 0 to 1.
 template <class S> [[gnu::always_inline]] inline typename S::F jitter(const typename S::F& sum) {
   using F = typename S::F;
   return S::select(sum >= F(1.0f), sum - F(1.5f), sum - F(0.5f));
 }
 
-/// What jitters a place along both axes.
+/// Pseudo-random numbers of a place for its jitter along both axes.
 struct PlaceJitter {
   float x, y;
 
@@ -95,8 +95,8 @@ struct PlaceJitter {
   }
 };
 
-/// From the middle of a light to a column and row of it, which may lie between places, and is seen from where
-/// it is `to_middle` to the middle.
+/// Returns the vector from the middle of a light to a column and row on it, which may lie between places.
+/// `to_middle` points from the surface to the middle.
 template <class S>
 [[gnu::always_inline]] inline V3<S> offset_at(const LightRecord& light, const V3<S>& to_middle,
                                               const typename S::F& column, const typename S::F& row) {
@@ -105,7 +105,7 @@ template <class S>
   F u = light.columns > 1 ? column * F(light.inverse_columns) - F(0.5f) : F(0.0f);
   F v = light.rows > 1 ? row * F(light.inverse_rows) - F(0.5f) : F(0.0f);
   if ((flags & light_flag::circular) != 0) {
-    // The square around each circle goes to that circle. POV-Ray's are off the middle by this much.
+    // Each square around the middle is mapped to a circle. POV-Ray's circles are off the middle by 0.001.
     u = u + F(0.001f);
     v = v + F(0.001f);
     const F shrunk = S::max(S::abs(u), S::abs(v)) / S::max(S::sqrt(u * u + v * v), F(1e-30f));
@@ -114,7 +114,7 @@ template <class S>
   }
   V3<S> across = splat3<S>(light.across), along = splat3<S>(light.along);
   if ((flags & light_flag::orient) != 0) {
-    // Both axes turn to the surface, and have the length of the first.
+    // Both axes turn toward the surface, and have the length of the first axis.
     const F zero(0.0f), one(1.0f), length = S::sqrt(dot<S>(across, across));
     const V3<S> toward = normalise<S>(to_middle);
     const auto near_z = S::abs(toward.z) > F(0.99f);
@@ -126,7 +126,8 @@ template <class S>
   return across * u + along * v;
 }
 
-/// The same for a place, jittered, of a packet's part from lane `first` on.
+/// Returns the vector from the middle to a place, with jitter, for the part of a packet that begins at lane
+/// `first`.
 template <class S>
 V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place, uint32_t first) {
   using F = typename S::F;
@@ -139,9 +140,9 @@ V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPla
   return offset_at<S>(light, to_middle, column, row);
 }
 
-/// The ray from surfaces to a place on a light, and how far it goes. As in POV-Ray, parallel light from a
-/// place goes to where the whole light points, and its rays end beside the place. Behind the light nothing is
-/// in the way.
+/// Sets the ray from surfaces to a place on a light, and its length. As in POV-Ray, parallel light from a
+/// place has the direction of the whole light, and its rays end beside the place. Nothing occludes points
+/// behind the light.
 template <class S>
 void aim_part(const LightRecord& light, const V3<S>& points, const V3<S>& to_middle, const LightPlace& place,
               uint32_t first, IncidentLight<S>& from_place) {
@@ -168,7 +169,7 @@ void aim(const LightRecord& light, const V3<typename Spu::simd>& points,
   });
 }
 
-/// Makes of the light of the middle, of the same colour, that of a place.
+/// Sets the light that comes from a place, with the colour of the light from the middle.
 template <class Spu>
 CELLTRACE_ONE_COPY void aim_shadow_rays(Spu& spu, const LightRecord& light,
                                         const Surfaces<typename Spu::simd>& s, const LightPlace& place,
@@ -183,46 +184,47 @@ CELLTRACE_ONE_COPY void aim_shadow_rays(Spu& spu, const LightRecord& light,
 
 } // namespace module_areas
 
-/// Where the sampling of a light stands that surfaces of a packet face. Whoever looks at places asks
-/// next_place() for them, one after the other, and leaves in light() what comes from there, or says by
-/// answer() where all of it does.
+/// The state of sampling a light that surfaces of a packet face. The caller gets places one by one from
+/// next_place(), and stores the light that comes from a place in light(), or reports with answer() the lanes
+/// in which all of it comes.
 template <class S> struct AreaShadow {
-  ShadowRays* to_place; ///< that is asked for
-  /// Before, that of the whole light; after, what comes through from the place.
+  ShadowRays* to_place; ///< rays to the current place
+  /// Returns the light of the current place: before sampling the whole light, afterwards the part that comes
+  /// through.
   VectorLanes& light() { return colour[corner_count]; }
 
-  // Its own.
+  // The members below are internal.
   static constexpr uint32_t kCorners = 4;
-  static constexpr float kTolerance = 0.1f; ///< by which colours of corners that agree may differ
-  static constexpr uint32_t kDivisions = 9; ///< of the longest grid
+  static constexpr float kTolerance = 0.1f; ///< difference of colours up to which corners agree
+  static constexpr uint32_t kDivisions = 9; ///< number of divisions of the longest grid
   static constexpr uint32_t kMaxQuads = 3 * kDivisions + 1;
-  static constexpr uint32_t kPlaces = 256; ///< in the table
+  static constexpr uint32_t kPlaces = 256; ///< size of the table
   static_assert((1u << (kDivisions - 1)) >= kMaxLightPlaces);
 
-  /// Lanes in which all light comes from a place, or none.
+  /// A place, and the lanes in which all or none of its light comes through.
   struct Known {
     uint16_t place, lit, dark;
   };
   static_assert(kMaxLightPlaces * kMaxLightPlaces <= 1u << 16);
 
   VectorLanes to_middle, whole;
-  FloatLanes share;    ///< of the whole light, of what has been looked at
-  VectorLanes more;    ///< what comes tinted, beside that; only where `is_tinted`
+  FloatLanes share;    ///< share of the whole light, summed over the places sampled so far
+  VectorLanes more;    ///< tinted light, in addition to `share`; only in lanes with `is_tinted`
   uint32_t is_tinted;  ///< lanes
-  uint32_t is_visible; ///< lanes that see a difference between all light and none
-  // What comes from the corners of the quad: in lanes that are lit all light, in those that are tinted a
-  // colour, in others nothing.
+  uint32_t is_visible; ///< lanes in which the difference between all and no light is visible
+  // Light from the corners of the quad: in `lit` lanes the whole light, in `tinted` lanes a colour, in others
+  // none.
   VectorLanes colour[kCorners];
   uint32_t lit[kCorners], tinted[kCorners];
   Known known[kPlaces];
   LightQuad quads[kMaxQuads];
   uint32_t quad_count;
-  uint32_t corner_count; ///< that are complete
-  LightQuad quad;        ///< the one that they are of
+  uint32_t corner_count; ///< number of finished corners
+  LightQuad quad;        ///< current quad
 
-  LightPlace place; ///< that is asked for
+  LightPlace place; ///< current place
   uint32_t lanes;
-  uint32_t rays_asked; ///< so far
+  uint32_t rays_asked; ///< number of rays so far
 
   Known& known_at(const LightPlace& at) {
     const auto name = static_cast<uint16_t>(at.row * kMaxLightPlaces + at.column);
@@ -246,7 +248,7 @@ CELLTRACE_ONE_COPY void begin_area(const LightRecord& light, const Surfaces<S>& 
   a.is_tinted = 0;
   a.is_visible = (absolute_sum<S>(incident.colour) > F(AreaShadow<S>::kTolerance)).bits();
   for (typename AreaShadow<S>::Known& entry : a.known)
-    entry = {0, 0, 0}; // of the first place nothing is known either
+    entry = {0, 0, 0}; // place 0 is unknown, too
   a.rays_asked = 0;
   a.quad_count = 0;
   a.lanes = 0;
@@ -254,7 +256,7 @@ CELLTRACE_ONE_COPY void begin_area(const LightRecord& light, const Surfaces<S>& 
   a.quad = LightQuad::whole(light, incident.facing);
 }
 
-/// Of the place that was asked for, `lit` and `tinted` lanes.
+/// Stores the result for the current place: its `lit` and `tinted` lanes.
 template <class S> void take_answer(AreaShadow<S>& a, uint32_t lit, uint32_t tinted) {
   const uint32_t corner = a.corner_count++;
   typename AreaShadow<S>::Known& known = a.known_at(a.place);
@@ -273,7 +275,7 @@ template <class S> void take_colours(AreaShadow<S>& a) {
   take_answer(a, a.lanes & lit.bits(), a.lanes & ~(lit | dark).bits());
 }
 
-/// In a part of the packet, from lane `first` on.
+/// Returns the colour of a corner for the part of the packet that begins at lane `first`.
 template <class Spu>
 V3<typename Spu::rare_simd> colour_of(const AreaShadow<typename Spu::simd>& a, uint32_t number,
                                       uint32_t first) {
@@ -285,8 +287,8 @@ V3<typename Spu::rare_simd> colour_of(const AreaShadow<typename Spu::simd>& a, u
   return select<R>(R::M::from_bits(part_of<Spu>(a.tinted[number], first)),
                    a.colour[number].template load_from<R>(first), untinted);
 }
-/// Of the lanes in which a corner is tinted, those in which neighbouring corners differ so much that the quad
-/// is looked at closer.
+/// Returns the lanes of `tinted` in which neighbouring corners differ so much that the quad has to be
+/// divided.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t disagreement(const AreaShadow<typename Spu::simd>& a, uint32_t tinted) {
   using R = typename Spu::rare_simd;
@@ -303,7 +305,7 @@ CELLTRACE_ONE_COPY uint32_t disagreement(const AreaShadow<typename Spu::simd>& a
   });
   return differ & tinted;
 }
-/// Adds `weight` times the corners to what comes tinted.
+/// Adds `weight` times the light of the corners to the tinted light.
 template <class Spu>
 CELLTRACE_ONE_COPY void add_tinted(AreaShadow<typename Spu::simd>& a, uint32_t lanes, float weight) {
   using R = typename Spu::rare_simd;
@@ -321,7 +323,8 @@ CELLTRACE_ONE_COPY void add_tinted(AreaShadow<typename Spu::simd>& a, uint32_t l
   a.is_tinted |= lanes;
 }
 
-/// All corners are known: adds their mean where they agree, and divides the quad where not.
+/// Finishes a quad of which all corners are known: adds their mean where they agree, and divides the quad
+/// elsewhere.
 template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -341,7 +344,7 @@ template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typen
   }
   const uint32_t agreed = q.lanes & ~divided;
   if (agreed != 0) {
-    // Weights are powers of 2: the sum is exact.
+    // Weights are powers of 2, so that the sum is exact.
     const float weight = 0.25f * q.weight;
     F share = F::load(a.share.lane);
     for (const uint32_t lit : a.lit)
@@ -352,7 +355,7 @@ template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typen
   if (divided != 0) q.divide(divided, [&](const LightQuad& quarter) { a.quads[a.quad_count++] = quarter; });
 }
 
-/// False: there is nothing more to look at.
+/// Advances to the next place to sample; false: there is none.
 template <class Spu>
 CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
   using S = typename Spu::simd;
@@ -386,8 +389,8 @@ CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShad
   }
 }
 
-/// Leaves of what surfaces would send on of the whole light what they do of its sum. That is 0 where the
-/// light was not asked for.
+/// Scales the light that surfaces would send on if the whole light came to them by the sampled share of that
+/// light. Channels of which the whole light has nothing become 0.
 template <class Spu>
 CELLTRACE_ONE_COPY void dim(Spu& spu, const AreaShadow<typename Spu::simd>& a, VectorLanes& sent) {
   using R = typename Spu::rare_simd;
@@ -410,13 +413,13 @@ CELLTRACE_ONE_COPY void dim(Spu& spu, const AreaShadow<typename Spu::simd>& a, V
 
 } // namespace module_areas
 
-/// Local store for the sampling of lights, if the scene has such.
+/// Allocates local store for the sampling of area lights, if the scene has any.
 template <class Spu> AreaShadow<typename Spu::simd>* allocate_area_shadow(Spu& spu, const FrameBlock& frame) {
   if (!has_areas(frame)) return nullptr;
   return spu.template allocate<AreaShadow<typename Spu::simd>>();
 }
 
-/// Starts the sampling of a light for the surfaces that face it, whose rays will be `to_place`.
+/// Starts the sampling of a light for the surfaces that face it; `to_place` will hold the rays.
 template <class Spu>
 void begin_sampling(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                     const IncidentLight<typename Spu::simd>& incident, ShadowRays& to_place,
@@ -426,20 +429,21 @@ void begin_sampling(Spu& spu, const LightRecord& light, const Surfaces<typename 
   module_areas::begin_area<typename Spu::simd>(light, s, incident, shadow);
 }
 
-/// Goes on to the next place that is asked for. False: there is none.
+/// Advances to the next place to sample; false: there is none.
 template <class Spu>
 bool next_place(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& shadow) {
   spu.enter_module(modules::kAreas);
   return module_areas::next_sample(spu, light, shadow);
 }
 
-/// Says that all light comes from the place that was asked for in `lit` lanes, and none in others.
+/// Reports that all light of the current place comes in `lit` lanes, and none in others.
 template <class S> void answer(AreaShadow<S>& shadow, uint32_t lit) {
   module_areas::take_answer(shadow, lit, 0);
 }
 
-/// Leaves of what surfaces would send on of a light what they do of that which comes from all of its area.
-/// `look(shadow)` leaves in `shadow.light()` what comes from `shadow.place`. Returns how many rays that took.
+/// Samples an area light and scales `sent`, the light that surfaces would send on if the whole light came to
+/// them, by the result. `look(shadow)` stores in `shadow.light()` the light that comes from `shadow.place`.
+/// Returns the number of rays.
 template <class Spu, class Look>
 uint32_t sample_area(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                      const IncidentLight<typename Spu::simd>& incident, ShadowRays& to_place,

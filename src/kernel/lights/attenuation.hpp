@@ -1,4 +1,4 @@
-// Less light off the axis of a beam and far away. The formulas are POV-Ray's. Kernel dialect.
+// Attenuation of light away from a beam's axis and with distance. The formulas are POV-Ray's. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -7,10 +7,11 @@
 
 namespace celltrace::kernel {
 
-/// Of a light, where less is none.
+/// Share of a light below which none is assumed.
 constexpr float kLeastShare = 1e-10f;
 
-/// The share of the light on the axis that there is `way_off` of it. Its edge is a cubic.
+/// Returns the share of a beam's light at the offset `way_off` from the axis. The edge of the beam is a
+/// cubic.
 template <class S> typename S::F beam_share(const LightRecord& light, const typename S::F& way_off) {
   using F = typename S::F;
   const F zero(0.0f), one(1.0f);
@@ -20,7 +21,7 @@ template <class S> typename S::F beam_share(const LightRecord& light, const type
   return S::select(way_off < one, share, zero);
 }
 
-/// The share of the light at the distance of fading that there is at `distance`. It is negative where an odd
+/// Returns the light at `distance` relative to that at the fade distance. The result is negative where an odd
 /// power of a negative distance is below -1.
 template <class Spu>
 typename Spu::simd::F fade_share(const LightRecord& light, const typename Spu::simd::F& distance) {

@@ -1,4 +1,4 @@
-// Parallel light in a cylinder that begins at the light's location. Kernel dialect.
+// The cylinder light: parallel light in a cylinder that begins at the light's location. Kernel dialect.
 #pragma once
 
 #include "kernel/lights/incident_light.hpp"
@@ -11,8 +11,8 @@ struct CylinderLight {
   static constexpr bool kIsBeam = true;
   static constexpr bool kIsParallel = true;
 
-  /// How far surfaces are off the axis, in units of the radius at which the light ends. Behind the location
-  /// there is none.
+  /// Returns the distance of surfaces from the axis, in units of the radius at which the light ends; 1, where
+  /// there is no light, behind the location.
   template <class S>
   static typename S::F way_off(const LightRecord& light, const Surfaces<S>& s, const IncidentLight<S>&) {
     using F = typename S::F;

@@ -1,4 +1,4 @@
-// The lights of a frame, and what each sends to surfaces. Kernel dialect.
+// The lights of a frame, and the light that surfaces receive from each. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -23,14 +23,14 @@ void for_each_light(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t f
 
 namespace module_lights {
 
-/// Those of `lanes` on whose objects a selective light shines. As in POV-Ray that says nothing about shadows:
-/// all objects cast them, in the light of a group too.
+/// Returns the lanes of `lanes` with objects on which a selective light shines. As in POV-Ray, all objects
+/// cast shadows in that light.
 template <class Spu>
 uint32_t lanes_of_its_objects(SceneAccess<Spu>& scene, const LightRecord& light, const WordLanes& objects,
                               uint32_t lanes) {
   uint32_t lit = 0;
   for_each_value<typename Spu::simd>(objects, lanes, [&](uint32_t object, uint32_t same) {
-    // Instances have all global lights.
+    // Instances are lit by all global lights.
     const uint32_t set =
         is_instanced(object) ? 0 : scene.object(object)->kind_and_flags >> object_flag::light_set_shift;
     const uint32_t word = scene.list_word(light.lit_sets + set / 32 * 4);
@@ -39,7 +39,7 @@ uint32_t lanes_of_its_objects(SceneAccess<Spu>& scene, const LightRecord& light,
   return lit;
 }
 
-/// Takes of the light that has been aimed what its beam and its distance leave.
+/// Attenuates the light that has been aimed by its beam and its distance.
 template <class Spu>
 CELLTRACE_ONE_COPY void attenuate(SceneAccess<Spu>& scene, const LightRecord& light,
                                   const Surfaces<typename Spu::simd>& s,
@@ -59,7 +59,7 @@ CELLTRACE_ONE_COPY void attenuate(SceneAccess<Spu>& scene, const LightRecord& li
   incident.facing &= (S::abs(share) > F(kLeastShare)).bits();
 }
 
-/// From the light of a point in the same place to that of a source that is not plain.
+/// Turns the light of a point light at the same place into that of a source that is not plain.
 template <class Spu>
 CELLTRACE_ONE_COPY void shape(SceneAccess<Spu>& scene, const LightRecord& light,
                               const Surfaces<typename Spu::simd>& s, uint32_t lanes,
@@ -84,8 +84,8 @@ CELLTRACE_ONE_COPY void aim_parallel(Spu& spu, const LightRecord& light, const V
 
 } // namespace module_lights
 
-/// Makes of `incident`, which has the light's colour only, what comes to the surfaces of `lanes`. It is not
-/// returned: an SPU would copy it.
+/// Completes `incident`, which has only the light's colour, with the light that the surfaces of `lanes`
+/// receive. The light is not returned, as an SPU would copy it.
 template <class Spu>
 void illuminate(SceneAccess<Spu>& scene, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                 uint32_t lanes, IncidentLight<typename Spu::simd>& incident) {
@@ -95,7 +95,7 @@ void illuminate(SceneAccess<Spu>& scene, const LightRecord& light, const Surface
   module_lights::shape(scene, light, s, lanes, incident);
 }
 
-/// Sets where a light comes from and how far shadow rays go, but nothing else.
+/// Sets only the direction to a light and the length of shadow rays.
 template <class Spu>
 void aim(Spu& spu, const LightRecord& light, const V3<typename Spu::simd>& points,
          IncidentLight<typename Spu::simd>& incident) {

@@ -1,31 +1,31 @@
-// What a light source sends to surfaces. Kernel dialect.
+// Light from a source as it reaches surfaces. Kernel dialect.
 #pragma once
 
 #include "kernel/lights/surfaces.hpp"
 
 namespace celltrace::kernel {
 
-/// The light of one source as it comes to surfaces if nothing is in the way.
+/// The light of one source as it reaches surfaces if nothing occludes it.
 template <class S> struct IncidentLight {
-  V3<S> direction;        ///< to where it comes from, of unit length
-  typename S::F distance; ///< that shadow rays go
-  typename S::F cosine;   ///< of the direction to the normal
+  V3<S> direction;        ///< unit vector toward the source
+  typename S::F distance; ///< length of shadow rays
+  typename S::F cosine;   ///< cosine of the angle between the direction and the normal
   V3<S> colour;
-  uint32_t facing; ///< lanes that it comes to
+  uint32_t facing; ///< lanes that the light reaches
 
   IncidentLight() = default;
-  /// Of a colour; nothing else is set.
+  /// Sets the colour alone.
   explicit IncidentLight(const float (&rgb)[3]) : colour(splat3<S>(rgb)) {}
 
-  /// Where the light comes from, as seen from the surfaces.
+  /// Sets direction and distance from the vector to the light.
   void set_ray(const V3<S>& to_light) {
     using F = typename S::F;
     distance = S::sqrt(dot<S>(to_light, to_light));
     direction = to_light * (F(1.0f) / S::max(distance, F(1e-30f)));
   }
-  /// After the direction has been set. Light along a surface counts as light from behind it. POV-Ray's least
-  /// cosine is 1e-10; in single precision rounding alone makes one of 1e-7, whose sign would speckle
-  /// highlights, which do not fade toward that angle.
+  /// Sets the cosine and the lanes that face the light, from its direction. Light along a surface counts as
+  /// light from behind it. POV-Ray's least cosine is 1e-10; in single precision rounding alone makes one of
+  /// 1e-7, whose sign would speckle highlights, which do not fade toward that angle.
   void face(const Surfaces<S>& s, uint32_t lanes) {
     constexpr float kLeastCosine = 1e-6f;
     cosine = dot<S>(direction, s.normal);
@@ -33,7 +33,7 @@ template <class S> struct IncidentLight {
   }
 };
 
-/// A part of what comes to them.
+/// Returns a part of the lanes.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const IncidentLight<typename Spu::simd>& light,
                                                      uint32_t first) {
@@ -49,12 +49,12 @@ template <class Spu>
       });
 }
 
-/// Rays against a light, and how far each goes.
+/// Shadow rays toward a light, and their lengths.
 struct ShadowRays {
   RayPacket rays;
   FloatLanes distance;
 };
-/// Those from points on objects.
+/// Makes shadow rays from points on objects.
 template <class S>
 void make_shadow_rays(const V3<S>& points, const WordLanes& objects, const IncidentLight<S>& light,
                       RayPacket& rays, FloatLanes& distance) {

@@ -1,11 +1,11 @@
-// All kinds of light sources. The order gives each its number in records. Kernel dialect.
+// All kinds of light sources. The order determines their numbers in records. Kernel dialect.
 //
 // A kind L has
 //   kName
-//   kIsBeam       whether it has an edge and a tightness
-//   kIsParallel   whether all its rays go along its axis even if it is not said to be parallel
+//   kIsBeam       true if the light has an edge and a tightness
+//   kIsParallel   true if all rays are parallel to the axis even without light_flag::parallel
 // and if it is a beam
-//   way_off(light, surfaces, incident)
+//   way_off(light, surfaces, incident)    returns the offset of surfaces from the axis (LightRecord)
 #pragma once
 
 #include "kernel/lights/cylinder.hpp"
@@ -20,7 +20,7 @@ namespace celltrace::kernel {
 using Lights = TypeList<PointLight, SpotLight, CylinderLight>;
 template <class L> constexpr uint32_t kLightKind = Lights::number<L>();
 
-/// Whether a light sends the same to all sides, however far.
+/// Returns true if a light sends the same to all sides and to any distance.
 constexpr bool is_plain(const LightRecord& light) {
   static_assert(kLightKind<PointLight> == 0);
   constexpr uint32_t of_shadows = light_flag::shadowless | light_flag::area | light_flag::circular |
@@ -34,35 +34,36 @@ constexpr bool is_shadowless(const LightRecord& light) {
 constexpr bool is_projected(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::projected) != 0;
 }
-/// Whether fogs take some of it on its way.
+/// Returns true if fogs dim the light on its way.
 constexpr bool is_dimmed(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::dimmed) != 0;
 }
-/// Whether it has to be found out what of the light comes to surfaces.
+/// Returns true if shadow rays have to determine how much of the light reaches surfaces.
 constexpr bool is_asked_for(const LightRecord& light) {
   return (light.kind_and_flags & (light_flag::shadowless | light_flag::projected)) != light_flag::shadowless;
 }
 constexpr bool has_area(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::area) != 0;
 }
-/// Whether some light of a frame has an area. Its sampling takes the local store of resident ray nodes.
+/// Returns true if a light of the frame has an area. Its sampling takes the local store of resident ray
+/// nodes.
 constexpr bool has_areas(const FrameBlock& frame) {
   return frame.light_places != frame.light_count;
 }
 
-/// Whether shadow rays that cross something translucent are walked (ShadowWalk): all of them.
+/// Returns true if all shadow rays that cross a translucent surface are walked (ShadowWalk).
 constexpr bool walks_translucent(const FrameBlock& frame) {
   return (frame.light_ways & light_way::stepwise) != 0;
 }
-/// Of these, whether it is enough to know all that a ray crosses.
+/// Returns true if such walks only need to know all surfaces that a ray crosses.
 constexpr bool walks_for_fading(const FrameBlock& frame) {
   return (frame.light_ways & light_way::only_fading) != 0;
 }
-/// As walks_translucent(), whether any of them are.
+/// Returns true if any shadow rays are walked.
 constexpr bool walks_shadows(const FrameBlock& frame) {
   return (frame.light_ways & (light_way::stepwise | light_way::near_surfaces)) != 0;
 }
-/// Of these, whether it takes a search from each surface on.
+/// Returns true if some walks need a new search from each surface on.
 constexpr bool restarts_shadows(const FrameBlock& frame) {
   return (frame.light_ways & light_way::restarts) != 0;
 }

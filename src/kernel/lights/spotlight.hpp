@@ -1,4 +1,4 @@
-// Light from a point in a cone. Kernel dialect.
+// The spotlight: light from a point in a cone. Kernel dialect.
 #pragma once
 
 #include "kernel/lights/incident_light.hpp"
@@ -11,8 +11,8 @@ struct SpotLight {
   static constexpr bool kIsBeam = true;
   static constexpr bool kIsParallel = false;
 
-  /// How far surfaces are off the axis: 1 minus the cosine of the angle at the light. It comes from the
-  /// vector between the two directions, as the cosine of a small angle has few digits.
+  /// Returns the offset of surfaces from the axis: 1 minus the cosine of the angle at the light. The offset
+  /// is computed from the vector between the two directions, as the cosine of a small angle has few digits.
   template <class S>
   static typename S::F way_off(const LightRecord& light, const Surfaces<S>&,
                                const IncidentLight<S>& incident) {

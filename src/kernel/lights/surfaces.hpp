@@ -5,16 +5,16 @@
 
 namespace celltrace::kernel {
 
-/// A surface as seen by sixteen rays.
+/// Surfaces as seen by sixteen rays.
 template <class S> struct Surfaces {
   V3<S> point, normal;      ///< normal flipped toward the viewer
-  V3<S> direction;          ///< of the rays that arrive
-  const WordLanes* objects; ///< what the points lie on
-  uint32_t any_side = 0;    ///< lanes that light may come to from all sides
-  uint32_t lit_through = 0; ///< lanes in which light from behind counts as if it came from before
+  V3<S> direction;          ///< direction of the arriving rays
+  const WordLanes* objects; ///< objects that the points lie on
+  uint32_t any_side = 0;    ///< lanes that receive light from all sides
+  uint32_t lit_through = 0; ///< lanes in which light from behind counts as if it came from the front
 };
 
-/// A part of them.
+/// Returns a part of the lanes.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const Surfaces<typename Spu::simd>& s, uint32_t first) {
   return whole_or<Spu>(

@@ -1,4 +1,4 @@
-// Ray queries in local store: bundles are not more than their packets. Kernel dialect.
+// Ray queries in local store, where a bundle is answered packet by packet. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/traversal.hpp"

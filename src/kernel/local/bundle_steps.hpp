@@ -1,5 +1,5 @@
-// Steps of a bundle's traversal in local store: an object that has been fetched is tested against each
-// packet. Kernel dialect.
+// Steps of a bundle's traversal in local store: each packet is tested against an object that has been
+// fetched. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/bvh_traversal.hpp"
@@ -21,7 +21,7 @@ protected:
 
   static void end_view() {}
   static constexpr const void* view() { return nullptr; }
-  /// Fetching an object costs more than to test the rays.
+  /// False, as fetching an object costs more than testing the rays.
   static constexpr bool trusts_frusta() { return false; }
   static constexpr uint32_t doubted_at(const NodeRef&) { return 0; }
   [[gnu::always_inline]] void set_own_frustum(uint32_t packet, const RayQuery&, Frustum<S>& frustum) {

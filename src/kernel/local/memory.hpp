@@ -1,5 +1,4 @@
-// Main memory behind local store: records come through the software cache, everything else by DMA. Kernel
-// dialect.
+// Main memory behind local store: records come through the software cache, other data by DMA. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -17,12 +16,12 @@ struct LocalMemory {
   }
 
   template <class Cache> static const uint8_t* image(Cache&) { return nullptr; }
-  /// One copy of the code for all records, as local store is short.
+  /// Reads any record with one copy of the code, as local store is short.
   template <class Record, class Cache>
   static const Record* read_apart(Cache& cache, uint32_t offset, DataKind kind) {
     return reinterpret_cast<const Record*>(read_bytes(cache, offset, sizeof(Record), kind));
   }
-  /// `access`: a SceneAccess.
+  /// Returns the offset of a member of a sequence and prefetches it; `access` is a SceneAccess.
   template <class Access, class Sequence>
   CELLTRACE_ONE_COPY static uint32_t member(Access& access, const Sequence& objects, uint32_t i) {
     const uint32_t object = access.offset_of(objects, i);
@@ -38,7 +37,7 @@ struct LocalMemory {
   template <class Spu, class T> using StreamWriter = LocalStreamWriter<Spu, T>;
   template <class Spu> using SortTarget = LocalSortTarget<Spu>;
 
-  /// Each `Owner` has code of its own, as it is in a module of its own.
+  /// DMA for one `Owner`. Each owner has its own copy of the code, as it is in a code module of its own.
   template <class Spu, class Owner> class Transfers {
   protected:
     explicit Transfers(Spu& spu) : spu_(spu) {}

@@ -1,4 +1,4 @@
-// Steps of a packet's traversal in local store: one node or leaf after the other. Kernel dialect.
+// Steps of a packet's traversal in local store: one node or leaf after another. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/packet_traversal.hpp"

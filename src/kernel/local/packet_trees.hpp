@@ -1,5 +1,5 @@
-// The ray trees of a bundle in local store: each packet of primary rays has its own, one after the other.
-// Kernel dialect.
+// The ray trees of a bundle in local store: each packet of primary rays has its own tree, traced one after
+// another. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -11,7 +11,7 @@ template <class Tracer, class Spu> class PacketTrees {
 protected:
   using S = typename Spu::simd;
 
-  /// Primary rays lie where the rays to a light will be.
+  /// Primary rays share memory with the later shadow rays.
   struct PrimaryRays {
     template <class Member> static RayPacket& of(Member& member) { return member.to_light.rays; }
   };

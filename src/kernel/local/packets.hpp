@@ -1,4 +1,5 @@
-// Packets where local store is short of code: one copy of what is not shorter than a call. Kernel dialect.
+// Packets where local store for code is scarce: functions that are not shorter than a call have one copy.
+// Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -17,7 +18,7 @@ struct LocalPackets {
                                                   V3<S>& into) {
     put_elsewhere<S>(lanes, values, into);
   }
-  /// By a call: inlined, each quadword would take two instructions.
+  /// Copies a packet by a call: inlined, each quadword would take two instructions.
   template <class Packet> [[gnu::always_inline]] static void copy_packet(const Packet& from, Packet& to) {
     copy_bytes(&to, &from, sizeof(Packet));
   }

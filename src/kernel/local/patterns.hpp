@@ -1,4 +1,4 @@
-// Patterns where local store is short: nothing is kept from point to point. Kernel dialect.
+// Patterns where local store is scarce: nothing is kept from point to point. Kernel dialect.
 #pragma once
 
 #include "kernel/scene_access.hpp"
@@ -18,7 +18,7 @@ struct LocalPatterns {
     static constexpr int32_t kTaken = 0;
     template <class... Arguments> static constexpr bool suffice(const Arguments&...) { return false; }
     template <class... Arguments> static constexpr bool suffice_in(const Arguments&...) { return false; }
-    /// By the usual metric alone.
+    /// Supports the usual metric alone.
     [[gnu::always_inline]] static typename S::F least_along(const typename S::F& way, float metric) {
       return metric == 2.0f ? way * way : typename S::F(0.0f);
     }

@@ -9,13 +9,13 @@
 namespace celltrace::kernel {
 
 struct LocalProgram {
-  /// The accelerator of a program that has no grid.
+  /// Accelerators of a program without a grid.
   static constexpr uint32_t kAccelerators = kBvhOnly;
 
-  /// The PPE's side has it built.
+  /// Does nothing, as the PPE's side has built the BVH.
   template <class Spu> static PrepareResult build_bvh(Spu&, const FrameBlock&) { return {0, true}; }
 
-  /// One copy for all channels.
+  /// Quantises one channel; all channels share one copy of the code.
   template <class S>
   CELLTRACE_ONE_COPY static typename S::I quantise(const FrameBlock& frame, const typename S::F& value) {
     return detail::quantise<S>(frame, value);

@@ -1,4 +1,4 @@
-// Shading in local store: whatever is short of code, lane by lane. Kernel dialect.
+// Shading in local store: short code, lane by lane. Kernel dialect.
 #pragma once
 
 #include "kernel/local/spilling_stack.hpp"
@@ -11,7 +11,7 @@ struct LocalShading {
   // --- the tree ---
 
   template <class Spu, uint32_t kResident> using RayStack = SpillingStack<Spu, kResident>;
-  /// All rays stay in the packets of their trees.
+  /// All rays stay in the packets of their own trees.
   template <class Spu> struct RayPooling {
     static constexpr bool takes(const RayNode&) { return false; }
   };
@@ -27,7 +27,7 @@ struct LocalShading {
 
   // --- light ---
 
-  /// Rounds begin dark.
+  /// Clears the light at the beginning of a round.
   template <class S, class LitPoints> static void begin_round(const LightRound& round, const LitPoints&) {
     round.template clear<S>();
   }
@@ -36,7 +36,7 @@ struct LocalShading {
   static void end_fresh(const LightRound&) {}
   static constexpr bool is_aimed(uint32_t, uint32_t) { return false; }
 
-  /// Is not asked: light on dark surfaces is none.
+  /// Returns false without a test: light on dark surfaces is no light anyway.
   template <class Spu>
   static constexpr bool are_dark(const Surfaces<typename Spu::simd>&,
                                  const MaterialLanes<typename Spu::simd>&, uint32_t) {
@@ -47,7 +47,7 @@ struct LocalShading {
     return false;
   }
 
-  // --- rays that go on ---
+  // --- secondary rays ---
 
   template <class Spu, class S = typename Spu::simd, class F = typename S::F>
   [[gnu::always_inline]] static void
@@ -71,7 +71,7 @@ struct LocalShading {
     });
     return inside;
   }
-  /// All of them are crossed one by one.
+  /// Leaves all interiors to be crossed one by one.
   template <class Spu>
   static uint32_t cross_single_interiors(const SceneAccess<Spu>&, const WordLanes&, uint32_t lanes,
                                          const RayNode&, Refraction& result) {

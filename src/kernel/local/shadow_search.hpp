@@ -1,4 +1,4 @@
-// Shadow rays in local store: they are walked wherever what they cross matters. Kernel dialect.
+// Shadow rays in local store: they are walked wherever the surfaces that they cross matter. Kernel dialect.
 #pragma once
 
 #include "kernel/shading/shadow_tracer.hpp"

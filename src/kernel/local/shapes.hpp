@@ -1,4 +1,4 @@
-// Shapes where local store is short of code. Kernel dialect.
+// Shapes where local store for code is scarce. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/instances_module.hpp"
@@ -11,7 +11,7 @@ struct LocalShapes {
     return rays;
   }
 
-  /// Rays of instances go packet by packet.
+  /// Rays of instances are traversed packet by packet.
   template <class Spu> struct InstanceRays {
     using S = typename Spu::simd;
     using Stack = TraversalStack<1, kMaxMeshLevels>;

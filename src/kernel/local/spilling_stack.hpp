@@ -6,7 +6,8 @@
 
 namespace celltrace::kernel {
 
-/// Its first nodes are in local store; deeper ones are spilled to main memory, at most `spill_nodes` of them.
+/// A stack whose first nodes are in local store; deeper ones are spilled to main memory, at most
+/// `spill_nodes` of them.
 template <class Spu, uint32_t kResident> class SpillingStack {
 public:
   SpillingStack(Spu& spu, ea_t spill, uint32_t spill_nodes, uint32_t resident, RayNode& next)
@@ -20,7 +21,7 @@ public:
   RayNode& next() { return next_; }
   RayNode& next_like(const RayNode&) { return next_; }
 
-  /// Leaves next() as it is.
+  /// Pushes next(), which keeps its value; false: the stack is full.
   bool push() {
     if (size_ == capacity_) return false;
     if (size_ < resident_nodes_) {
@@ -35,7 +36,7 @@ public:
     return true;
   }
 
-  /// `node` lies in local store.
+  /// Pops into `node`, which lies in local store.
   void pop(RayNode& node) {
     --size_;
     if (size_ < resident_nodes_) {

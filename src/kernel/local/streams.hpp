@@ -1,5 +1,5 @@
-// Long arrays in main memory by DMA: two buffers for what is read or written in order, and for what is sorted
-// a line of output for each bucket. Kernel dialect.
+// Streams of long arrays in main memory by DMA: two buffers for sequential reads or writes, and for sorting
+// one output line for each bucket. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -67,7 +67,7 @@ private:
     spu_.put(buffer_[current_], target_ + sent_, bytes, tag_ + current_);
     sent_ += bytes;
     current_ ^= 1;
-    // The other buffer is about to be filled: its last transfer has to be over.
+    // The other buffer is filled next, so that its last transfer has to be complete.
     spu_.wait_all(1u << (tag_ + current_));
   }
 
@@ -80,7 +80,7 @@ private:
   T* buffer_[2];
 };
 
-/// Full lines are put by DMA.
+/// Output of a sort, which puts full lines by DMA.
 template <class Spu> class LocalSortTarget {
 public:
   LocalSortTarget(Spu& spu, const uint32_t* begin, uint32_t* next)
@@ -107,8 +107,8 @@ private:
     SortPair pairs[kPairsPerLine];
   };
 
-  /// Puts the current line of a bucket by DMA. At its ends a bucket may share a line with its neighbours;
-  /// there its own pairs are put one by one.
+  /// Puts the current line of a bucket by DMA. The first and the last line of a bucket may be shared with its
+  /// neighbours; their pairs are put one by one.
   void send(ea_t target, uint32_t bucket) {
     const uint32_t end = next_[bucket];
     const uint32_t line = (end - 1) & ~(kPairsPerLine - 1);

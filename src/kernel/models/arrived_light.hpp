@@ -1,5 +1,5 @@
-// The light that has arrived at the surfaces of a context: the answers to its shadow searches, in place of a
-// Traversal. Kernel dialect.
+// The light that has arrived at the surfaces of a context: answers to the context's shadow searches, in place
+// of a Traversal. Kernel dialect.
 #pragma once
 
 #include "kernel/lights/area_shadow.hpp"
@@ -8,7 +8,7 @@
 
 namespace celltrace::kernel::models {
 
-/// An answer with what was asked.
+/// An answer with the head of its question.
 struct alignas(64) AnsweredSearch {
   LightOnItsWay light;
   uint32_t kind, lanes, primary, number, unused[12];
@@ -21,7 +21,7 @@ struct alignas(128) AnswerBlock {
   AnsweredSearch answers[kAnswers];
 };
 
-/// Fetches answers from `first` on, of `searches`.
+/// Fetches the answers from index `first` on, of `searches` in all.
 template <class Spu>
 void fetch_answers(Spu& spu, ea_t first_search, uint32_t first, uint32_t searches, AnswerBlock& block,
                    uint32_t tag) {
@@ -41,10 +41,11 @@ public:
       : spu_(spu), area_(allocate_area_shadow(spu, frame)),
         to_place_(area_ != nullptr ? spu.template allocate<ShadowRays>() : nullptr) {}
 
-  /// Whether some lights of the frame have areas.
+  /// Returns true if some lights of the frame have areas.
   bool has_areas() const { return area_ != nullptr; }
 
-  /// Answers to `searches` searches, the first of which `block` holds already. More are fetched under `tag`.
+  /// Begins to read the answers to `searches` searches. `block` holds the first ones already; more are
+  /// fetched under `tag`.
   void arrive(ea_t first_search, uint32_t searches, AnswerBlock& block, uint32_t tag) {
     first_search_ = first_search;
     searches_ = searches;
@@ -54,11 +55,11 @@ public:
     cursor_ = 0;
   }
 
-  /// No light was asked for.
+  /// Begins without answers, as no light was asked for.
   void arrive_nothing() { searches_ = cursor_ = 0; }
 
-  /// Puts what has arrived of the lights of a round where it was gathered. Lights come in order; of those
-  /// that count nowhere nothing was asked.
+  /// Replaces the gathered light of a round by the light that has arrived. Answers are in the order of the
+  /// lights; lights that count in no lane have no answer.
   void take(const LightRound& round) {
     round.clear<S>();
     for (; cursor_ < searches_; ++cursor_) {
@@ -67,9 +68,9 @@ public:
       round.gathered[next.number - round.first] = next.light.colour;
     }
   }
-  /// The same in a frame some of whose lights have areas, where the round has gathered again; it counts in
-  /// the lanes that `lanes_of(gathered)` says. Returns how many rays a sampling of these lights would have
-  /// traced.
+  /// Replaces the gathered light of a round if some lights of the frame have areas. The round has gathered
+  /// again, and a light counts in the lanes that `lanes_of(gathered)` returns. Returns the number of rays
+  /// that sampling these lights would have traced.
   template <class LanesOf>
   uint32_t take(SceneAccess<Spu>& scene, const FrameBlock& frame, const LightRound& round,
                 Surfaces<S>& surfaces, const LanesOf& lanes_of) {
@@ -88,7 +89,7 @@ public:
       surfaces.any_side = lanes;
       IncidentLight<S> incident(light.colour);
       illuminate(scene, light, surfaces, lanes, incident);
-      // All its places were asked for, row by row.
+      // All places of the light were asked for, row by row.
       rays += sample_area(
           spu_, light, surfaces, incident, *to_place_, *area_, gathered, [&](AreaShadow<S>& shadow) {
             shadow.light() =
@@ -112,13 +113,13 @@ private:
 
   Spu& spu_;
   AreaShadow<S>* area_;  ///< null if no light has an area
-  ShadowRays* to_place_; ///< likewise
+  ShadowRays* to_place_; ///< null if no light has an area
   ea_t first_search_ = 0;
   uint32_t searches_ = 0;
   AnswerBlock* block_ = nullptr;
   uint32_t tag_ = 0;
-  uint32_t first_ = 0;  ///< index of the answer that the block begins with
-  uint32_t cursor_ = 0; ///< answer that was asked for last
+  uint32_t first_ = 0;  ///< index of the first answer in the block
+  uint32_t cursor_ = 0; ///< index of the next answer
 };
 
 } // namespace celltrace::kernel::models

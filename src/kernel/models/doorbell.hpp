@@ -1,5 +1,5 @@
-// How the SPEs of a pipeline tell each other that there is something to do: bits of signal 2, which merge and
-// cannot be lost, or of words in the mailbox. Kernel dialect.
+// Doorbells by which the SPEs of a pipeline tell each other of work: bits of signal 2, which merge and cannot
+// be lost, or bits of words in the mailbox. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
@@ -7,18 +7,18 @@
 
 namespace celltrace::kernel::models {
 
-/// What has been rung and not been taken.
+/// Bits that were rung and have not been taken.
 template <class Spu> class Doorbell {
 public:
   Doorbell(Spu& spu, const StageBlock& stage)
       : spu_(spu), by_mailbox_((stage.tasks & task::by_mailbox) != 0) {}
 
-  /// Sleeps until something is rung.
+  /// Sleeps until a bit is rung.
   void wait() {
     rung_ |= by_mailbox_ ? spu_.read_in_mailbox() : spu_.read_signal_2();
     look();
   }
-  /// Sees what has been rung meanwhile.
+  /// Collects bits that were rung meanwhile.
   void look() {
     if (by_mailbox_) {
       while (spu_.in_mailbox_count() != 0)
@@ -33,7 +33,7 @@ public:
     rung_ &= ~bit;
     return rung;
   }
-  /// A context that was rung, each in its turn.
+  /// Takes a context that was rung, in round-robin order; false: there is none.
   bool take_context(uint32_t& context) {
     const uint32_t contexts = rung_ & bell::contexts;
     if (contexts == 0) return false;
@@ -51,14 +51,14 @@ private:
   uint32_t last_ = 0;
 };
 
-/// A word on its way to a register of another SPE: in the last word of a quadword, as the registers are.
+/// A word for a register of another SPE: in the last word of a quadword, as the registers are.
 struct alignas(16) OutgoingWord {
   uint32_t unused[3];
   uint32_t value;
 };
 
-/// Rings behind all commands of `tag`, without waiting for them: who hears it may rely on what they put.
-/// `word` stays as it is until the tag is complete.
+/// Rings an SPE after all commands of `tag`, without waiting for them: the receiver may rely on the data that
+/// they put. `word` must not change until the tag group is complete.
 template <class Spu>
 void ring_behind(Spu& spu, uint32_t spe, uint32_t bits, OutgoingWord& word, uint32_t tag) {
   word.value = bits;

@@ -1,4 +1,4 @@
-// The program of an SPE that does nothing but make primary rays. Kernel dialect.
+// The program of an SPE that only generates primary rays. Kernel dialect.
 #pragma once
 
 #include "kernel/entry/strategies.hpp"
@@ -7,7 +7,7 @@
 
 namespace celltrace::kernel::models {
 
-/// `argument` is the ea of the SPE's StageBlock.
+/// Runs the program; `argument` is the effective address of the SPE's StageBlock.
 template <class Spu> void generator(Spu& spu, ea_t argument) {
   Stage<Spu> stage(spu, argument);
   JobSender<Spu> sender(spu, stage.orders());

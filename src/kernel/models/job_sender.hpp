@@ -1,5 +1,5 @@
-// Who is told of a job: the searcher that its context belongs to, or whichever has the least to do. Kernel
-// dialect.
+// Choice of the searcher for a job: the one that the job's context belongs to, or the one with the fewest
+// jobs. Kernel dialect.
 #pragma once
 
 #include "kernel/models/doorbell.hpp"
@@ -12,13 +12,13 @@ public:
   JobSender(Spu& spu, const StageBlock& stage)
       : spu_(spu), stage_(stage), load_(spu.template allocate<uint8_t>(kMaxSearchers, 16)) {}
 
-  /// Where a context's job lies, and its searches.
+  /// Return the effective addresses of a context's job and of its searches.
   ea_t job(uint32_t context) const { return stage_.jobs + static_cast<ea_t>(context) * stage_.job_bytes; }
   ea_t search(uint32_t context, uint32_t index) const {
     return job(context) + sizeof(JobRecord) + static_cast<ea_t>(index) * sizeof(SearchRecord);
   }
 
-  /// Sends the job of a context, which the commands of `tag` are putting to its place.
+  /// Sends the job of a context, which commands of `tag` are putting to main memory.
   void send(uint32_t context, OutgoingWord& word, uint32_t tag) {
     ++jobs_;
     sent_under_[context] = 1u << tag;
@@ -35,7 +35,8 @@ public:
     word.value = 1u << context;
     spu_.putf(&word.value, spu_.addresses(stage_.first_searcher + searcher).in_mailbox, 4, tag);
   }
-  /// The answer to a context's job has come. Every put of jobs that wait is complete when `tags` are.
+  /// Accounts for the answer to a context's job, and assigns a waiting job to the free searcher. Every put of
+  /// waiting jobs is complete when `tags` are.
   void answered(uint32_t context, uint32_t tags) {
     if ((stage_.tasks & task::dispatch) == 0) return;
     const uint32_t searcher = assigned_[context];
@@ -48,7 +49,7 @@ public:
     spu_.send_mailbox(stage_.first_searcher + searcher, 1u << next);
   }
 
-  /// Sees to it that nothing of the context's last job is still leaving: its memory may be used again.
+  /// Waits until all puts of the context's last job are complete, so that its memory may be reused.
   void wait_until_sent(uint32_t context) {
     if (sent_under_[context] != 0) spu_.wait_all(sent_under_[context]);
   }
@@ -57,7 +58,7 @@ public:
 
 private:
   static constexpr uint32_t kMaxSearchers = 256;
-  /// One that it works on, and one to fetch meanwhile.
+  /// Jobs per searcher: one to work on, and one to fetch meanwhile.
   static constexpr uint32_t kJobsPerSearcher = 2;
 
   uint32_t least_loaded() {
@@ -76,11 +77,11 @@ private:
 
   Spu& spu_;
   const StageBlock& stage_;
-  uint8_t* load_; ///< jobs of each searcher
+  uint8_t* load_; ///< index: searcher; number of jobs
   uint8_t assigned_[kMaxContexts];
-  uint32_t sent_under_[kMaxContexts] = {}; ///< tag groups
-  uint32_t waiting_ = 0;                   ///< contexts whose jobs no searcher has
-  uint32_t next_ = 0;                      ///< searcher to look at first
+  uint32_t sent_under_[kMaxContexts] = {}; ///< index: context; tag groups
+  uint32_t waiting_ = 0;                   ///< contexts whose jobs have no searcher yet
+  uint32_t next_ = 0;                      ///< searcher to consider first
   uint64_t jobs_ = 0;
 };
 

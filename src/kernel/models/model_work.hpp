@@ -1,5 +1,5 @@
-// Scalar work of the stages besides that of the kernels that they share with the tracer; see scalar_work.hpp
-// for the method. Kernel dialect.
+// Charges for scalar work of the stages in addition to that of the kernels that they share with the tracer;
+// see scalar_work.hpp for the method. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
@@ -8,15 +8,15 @@ namespace celltrace::kernel::models {
 
 namespace model_work {
 
-// Each is {fixed, floating, memory, shuffle, branches, shift, waits, misses}.
+// Each constant is {fixed, floating, memory, shuffle, branches, shift, waits, misses}.
 
-/// A job taken, and one sent: doorbell, addresses, commands.
+/// Taking and sending a job: doorbell, addresses, commands.
 constexpr ScalarWork kJob = {0, 0, 0, 23, 21, 17, 0, 163, "kJob"};
-/// A search of a job, fetched and put.
+/// Fetching and putting a search of a job.
 constexpr ScalarWork kSearch = {503, 0, 269, 187, 78, 13, 1049, 222, "kSearch"};
-/// A packet's rays or answers, copied within local store.
+/// Copying a packet's rays or answers within local store.
 constexpr ScalarWork kCopy = {0, 0, 0, 0, 0, 3, 0, 0, "kCopy"};
-/// Rays that are handed over with their voxels.
+/// Handing over rays with their voxels.
 constexpr ScalarWork kHandOver = {189, 0, 90, 22, 28, 3, 150, 60, "kHandOver"};
 
 } // namespace model_work

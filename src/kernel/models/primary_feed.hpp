@@ -1,5 +1,5 @@
-// The first stage: gives contexts that are free the next packets of primary rays, and knows when the frame is
-// complete. Kernel dialect.
+// The first stage: gives free contexts the next packets of primary rays, and detects the end of the frame.
+// Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/primary_rays.hpp"
@@ -17,7 +17,7 @@ public:
       : spu_(spu), stage_(stage), frame_(frame), sender_(sender), row_(stage.first_row),
         slots_(spu.template allocate<Slot>(kSlots)) {}
 
-  /// A context is free: for the first time, or because its packet is complete.
+  /// Accepts a context that is free for the first time, or because its packet is complete.
   void give_back(uint32_t context) {
     const uint32_t bit = 1u << context;
     heard_ |= bit;
@@ -29,13 +29,13 @@ public:
     }
     report();
   }
-  /// No new packets.
+  /// Stops issuing packets.
   void stop() {
     stopped_ = true;
     report();
   }
 
-  /// Of everything that it puts.
+  /// Tag groups of everything that it puts.
   static constexpr uint32_t kTags = 0xFu << 24;
 
 private:
@@ -73,8 +73,8 @@ private:
     }
   }
 
-  /// Tells the PPE how far the frame is, when it listens, and that it is complete. That is not before every
-  /// shader has been heard: nothing may ring in an SPE that has left.
+  /// Tells the PPE how far the frame is, if it listens, and when it is complete. A frame is complete only
+  /// after every shader has reported: nothing may ring in an SPE that has left.
   void report() {
     const bool all_issued = stopped_ || row_ >= frame_.packet_rows;
     const bool complete = all_issued && busy_ == 0 && (heard_ & stage_.announced) == stage_.announced;
@@ -94,9 +94,9 @@ private:
   uint32_t row_;
   Slot* slots_;
   uint32_t slot_ = 0;
-  uint32_t heard_ = 0; ///< contexts
+  uint32_t heard_ = 0; ///< contexts that have reported
   uint32_t busy_ = 0;
-  uint32_t completed_ = 0; ///< packets
+  uint32_t completed_ = 0; ///< number of packets
   bool stopped_ = false;
   bool finished_ = false;
 };

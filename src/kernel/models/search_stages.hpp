@@ -1,7 +1,7 @@
-// What an SPE does with a search: all of it; or, in the split pipeline, one of its halves. Kernel dialect.
+// The part of a search that an SPE performs: all of it or, in the split pipeline, one half. Kernel dialect.
 //
-// Split, one SPE walks every ray to the next voxel that has objects, another one tests these and sends the
-// rays back that hit nothing there: neither knows what the other does.
+// In the split pipeline one SPE walks every ray to the next voxel with objects. Another one tests these and
+// sends back the rays that hit nothing there. Neither depends on how the other one works.
 #pragma once
 
 #include "kernel/accel/traversal.hpp"
@@ -13,7 +13,7 @@
 
 namespace celltrace::kernel::models {
 
-/// Walks and tests, by any accelerator.
+/// A complete search, with any accelerator.
 template <class Spu> class WholeSearch {
 public:
   using S = typename Spu::simd;
@@ -33,7 +33,7 @@ private:
   Traversal<Spu> traversal_;
 };
 
-/// Primary rays that hit something, and that were ever sent back.
+/// Counts primary rays that hit something, and those that were sent back at least once.
 inline void count_primary(const SearchRecord& search, StageReport& report) {
   if (search.primary == 0) return;
   uint32_t hits = 0;
@@ -46,13 +46,13 @@ inline void count_primary(const SearchRecord& search, StageReport& report) {
   report.primary_hits_returned += count(search.returned & hits);
 }
 
-/// How far a ray has to be looked at: to its closest hit yet, or to the light.
+/// Returns the distance up to which a ray is searched: that of its closest hit so far, or of the light.
 inline float limit_of(const SearchRecord& search, uint32_t lane) {
   return static_cast<SearchKind>(search.kind) == SearchKind::closest ? search.hits.distance.lane[lane]
                                                                      : search.light.distance.lane[lane];
 }
 
-/// Takes the pending rays to their next voxels that list objects.
+/// The walking half: advances the pending rays to their next voxels that list objects.
 template <class Spu> class GridWalk {
 public:
   using S = typename Spu::simd;
@@ -61,7 +61,8 @@ public:
 
   GridWalk(SceneAccess<Spu>& scene, const FrameBlock& frame) : scene_(scene), grid_(frame.grid) {}
 
-  /// Rays that leave the grid are no longer pending. Calls `on_begin(search)` before the first step of all.
+  /// Walks the pending rays; those that leave the grid are no longer pending. Calls `on_begin(search)` before
+  /// the first step of the search.
   template <class OnBegin> void run(SearchRecord& search, OnBegin on_begin) {
     const bool begins = search.walked == 0;
     if (begins) {
@@ -74,7 +75,7 @@ public:
       enter = walk.leave();
       walk.step(lanes);
     };
-    if (!begins) step(walk.lanes()); // what is there has been tested
+    if (!begins) step(walk.lanes()); // the objects in the current voxel have been tested
     uint32_t in_voxels = 0;
     while (walk.lanes() != 0) {
       scene_.spu().compute(scalar_work::kPacketStep);
@@ -110,7 +111,7 @@ private:
     if (begins) return {grid_, search.rays, search.pending};
     return {grid_, search.rays, search.pending, load_words<S>(search.place)};
   }
-  /// Keeps where those of `lanes` are.
+  /// Stores the positions of the rays in `lanes`.
   void hand_over(const VoxelWalk<S>& walk, const F& enter, uint32_t lanes, SearchRecord& search) {
     scene_.spu().compute(model_work::kHandOver);
     const auto here = S::M::from_bits(lanes);
@@ -129,7 +130,7 @@ private:
   uint64_t voxels_ = 0;
 };
 
-/// Tests the pending rays against the objects of the voxels that they are in.
+/// The testing half: tests the pending rays against the objects of the voxels that they are in.
 template <class Spu> class VoxelTests {
 public:
   using S = typename Spu::simd;
@@ -138,7 +139,7 @@ public:
   VoxelTests(SceneAccess<Spu>& scene, const FrameBlock& frame)
       : frame_(frame), objects_(scene), grid_(objects_, frame.grid) {}
 
-  /// Tests the objects that are in no voxel, before a search begins.
+  /// Tests the objects that are in no voxel, before the walk begins.
   void test_unbounded(SearchRecord& search) {
     if (frame_.unbounded_count == 0) return;
     objects_.set_reflected(search.reflected);
@@ -153,7 +154,7 @@ public:
     darken(search);
   }
 
-  /// Rays that need to go no farther are no longer pending.
+  /// Tests the pending rays; those that are complete are no longer pending.
   void run(SearchRecord& search) {
     objects_.hit_filter().begin_packet();
     objects_.set_reflected(search.reflected);
@@ -187,7 +188,7 @@ private:
     search.pending &= search.lit;
     darken(search);
   }
-  /// Lanes to which no light comes.
+  /// Sets the light of occluded lanes to 0.
   static void darken(SearchRecord& search) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     VectorLanes& colour = search.light.colour;

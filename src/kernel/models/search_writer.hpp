@@ -1,5 +1,5 @@
-// Searches on their way to main memory, as one job: while jobs leave, the next one is written. Kernel
-// dialect.
+// Writer of searches, which leave for main memory as one job: while jobs leave, the next one is written.
+// Kernel dialect.
 #pragma once
 
 #include "kernel/models/job_sender.hpp"
@@ -9,7 +9,7 @@ namespace celltrace::kernel::models {
 
 template <class Spu> class SearchWriter {
 public:
-  /// Of everything that it puts.
+  /// Tag groups of everything that it puts.
   static constexpr uint32_t kTags = 0xFu << 10;
 
   SearchWriter(Spu& spu, JobSender<Spu>& sender)
@@ -21,12 +21,12 @@ public:
     count_ = 0;
     spu_.wait_all(1u << tag());
   }
-  /// Room for the next search, whose question the caller writes.
+  /// Returns room for the next search, whose question the caller writes.
   SearchRecord& next() {
     if (count_ != 0 && count_ % kRecords == 0) spu_.wait_all(1u << tag());
     return sets_[current_].searches[count_ % kRecords];
   }
-  /// The search is written.
+  /// Puts the search that the caller has written.
   void put() {
     SearchRecord& search = sets_[current_].searches[count_ % kRecords];
     search.walked = 0;
@@ -35,7 +35,7 @@ public:
     ++count_;
   }
   uint32_t count() const { return count_; }
-  /// All searches are written, at least one: sends the job.
+  /// Sends the job, after put() of all its searches, of which there must be at least one.
   void send() {
     Set& set = sets_[current_];
     set.job.searches = count_;

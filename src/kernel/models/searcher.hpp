@@ -1,5 +1,5 @@
-// The program of an SPE that searches: takes jobs from main memory, one record after the other with the next
-// one under way, and passes them on. Kernel dialect.
+// The program of an SPE that searches: takes jobs from main memory, one record after another while the next
+// one is fetched, and passes them on. Kernel dialect.
 #pragma once
 
 #include "kernel/entry/strategies.hpp"
@@ -19,7 +19,7 @@ public:
 
   void run() {
     Item item;
-    bool ahead = false; // `item` is being fetched
+    bool ahead = false; // true while `item` is being fetched
     while (ahead || wait_for_job(item)) {
       if (!ahead) fetch(item);
       Slot& slot = slots_[current_];
@@ -46,7 +46,7 @@ public:
 
 private:
   static constexpr uint32_t kFirstGetTag = 8;
-  /// One for all puts: who is rung behind the last record of a job finds all of them.
+  /// Tag of all puts: an SPE that is rung after the last record of a job finds all records in main memory.
   static constexpr uint32_t kPutTag = 10;
 
   struct Slot {
@@ -62,10 +62,10 @@ private:
     return orders_.jobs + static_cast<ea_t>(item.context) * orders_.job_bytes + sizeof(JobRecord) +
            static_cast<ea_t>(item.index) * sizeof(SearchRecord);
   }
-  /// In the split pipeline a record travels with where its rays are.
+  /// Returns true in the split pipeline, where records travel with the positions of their rays.
   bool split() const { return stage_.has(task::walk | task::test); }
 
-  /// False: the frame is over.
+  /// Waits for the first search of a job; false: the frame is over.
   bool wait_for_job(Item& item) {
     while (!next_job(item)) {
       if (doorbell_.take(bell::quit)) return false;
@@ -88,7 +88,8 @@ private:
 
   void fetch(const Item& item) {
     Slot& slot = slots_[current_];
-    // What was put from here has to be gone, and so has what was put to there, if the job was here before.
+    // Earlier puts from this slot have to be complete, and so have puts to the source, if the job was here
+    // before.
     spu_.wait_all(1u << kPutTag);
     const uint32_t head = item.index == 0 ? static_cast<uint32_t>(sizeof(JobRecord)) : 0u;
     const uint32_t bytes = split() ? static_cast<uint32_t>(sizeof(SearchRecord)) : search_part::question;
@@ -118,8 +119,8 @@ private:
   }
   bool walking() const { return static_cast<JobStage>(job_.stage) == JobStage::walk; }
 
-  /// To who is next: rays that are in voxels to be tested, those that hit nothing there back to be walked,
-  /// and answers to who asked.
+  /// Hands a job to the next SPE: rays in voxels to the tester, rays without a hit there back to the walker,
+  /// and answers to the shader.
   void hand_on(uint32_t context, Slot& slot) {
     ++stage_.stage_report().jobs;
     uint32_t to = orders_.shader[context];
@@ -161,7 +162,7 @@ private:
   VoxelTests<Spu> tests_;
 };
 
-/// `argument` is the ea of the SPE's StageBlock.
+/// Runs the program; `argument` is the effective address of the SPE's StageBlock.
 template <class Spu> void searcher(Spu& spu, ea_t argument) {
   Searcher<Spu>(spu, argument).run();
 }

@@ -1,5 +1,5 @@
-// The program of an SPE that shades: works off the trees of many packets at once, each of which has a
-// question under way most of the time. Kernel dialect.
+// The program of an SPE that shades: works on the ray trees of many packets at once, each of which waits for
+// a search most of the time. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -30,7 +30,7 @@ public:
   void run() {
     announce();
     uint32_t context = 0;
-    bool ahead = false; // its answer is being fetched
+    bool ahead = false; // true while the answer to `context` is being fetched
     while (ahead || wait_for_answer(context)) {
       if (!ahead) fetch(context);
       const uint32_t present = context;
@@ -53,7 +53,7 @@ private:
   static constexpr uint32_t kFirstTag = 8;
   static constexpr uint32_t kResident = 1; // nodes of each stack in local store
 
-  /// What a context waits for.
+  /// The answer that a context waits for.
   enum class Awaits : uint32_t { packet, hits, light };
 
   using Tracer = RayTracer<Spu, kResident>;
@@ -65,12 +65,12 @@ private:
 
     Tracer tracer;
     HitPoints<S> points;
-    VectorLanes of_root; ///< what has come of the root's light of the first round
-    bool is_root = true; ///< of the tree, is what is being shaded
-    uint32_t hit = 0;    ///< lanes
+    VectorLanes of_root; ///< light that has arrived at the root in the first round
+    bool is_root = true; ///< true while the root of the tree is shaded
+    uint32_t hit = 0;    ///< lanes with a hit
     Awaits awaits = Awaits::packet;
     uint32_t column = 0, row = 0;
-    uint32_t searches = 0; ///< under way
+    uint32_t searches = 0; ///< number of searches in progress
   };
   struct alignas(128) ContextStorage {
     uint8_t bytes[sizeof(Context)];
@@ -84,7 +84,7 @@ private:
 
   uint32_t tag() const { return 1u << (kFirstTag + current_); }
 
-  /// As many of its contexts as there is room for.
+  /// Creates as many of its contexts as local store has room for.
   void place_contexts() {
     constexpr uint32_t bytes = sizeof(ContextStorage) + (kResident + 1) * kRayNodeBytes;
     for (uint32_t context = 0; context < kMaxContexts; ++context) {
@@ -104,7 +104,7 @@ private:
     for_each_lane(placed_, [&](uint32_t context) { feed_.give_back(context); });
   }
 
-  /// False: the frame is over.
+  /// Waits for the answer to a context; false: the frame is over.
   bool wait_for_answer(uint32_t& context) {
     doorbell_.look();
     while (!doorbell_.take_context(context)) {
@@ -118,7 +118,7 @@ private:
     return true;
   }
 
-  /// Trees that are under way are given up: they may take minutes.
+  /// Gives up the trees in progress, as they may take minutes.
   void stop() {
     stopped_ = true;
     if (stage_.has(task::generate)) feed_.stop();
@@ -180,14 +180,14 @@ private:
     take_light(number);
   }
 
-  /// Shades what was hit, and sends a shadow search for every light that counts; false if none does.
+  /// Shades the hits, and sends a shadow search for every light that counts; false: no light does.
   bool shade(uint32_t number) {
     Context& context = *contexts_[number];
     writer_.begin(number);
     for (uint32_t first = 0; first == 0 || first < frame_.light_count; first += kLightsARound) {
       LightRound round = LightRound::from(frame_, first, gathered_);
       round.clear<S>();
-      // Light comes to pixels in the order of the rounds, in whatever program.
+      // Pixels receive light in the order of the rounds, as in the other programs.
       round.only_gathers = first != 0;
       context.tracer.shade_hits(context.points, context.hit, round);
       ask_for_light(context, round);
@@ -198,13 +198,14 @@ private:
     writer_.send();
     return true;
   }
-  /// Not inlined: its surfaces are not on the stack while hits are shaded.
+  /// Sends the shadow searches of a round. Not inlined, so that its surfaces are not on the stack while hits
+  /// are shaded.
   CELLTRACE_ONE_COPY void ask_for_light(Context& context, const LightRound& round) {
     const RayPacket& rays = context.tracer.node().rays;
     Surfaces<S> surfaces =
         context.points.surfaces(rays.direction.template load<S>(), context.tracer.hits().object);
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t i, const LightRecord& light) {
-      if (is_shadowless(light)) return; // no light is projected: such scenes are refused
+      if (is_shadowless(light)) return; // no light is projected, as such scenes are rejected
       const VectorLanes& gathered = round.gathered[i - round.first];
       const uint32_t lanes = context.tracer.lanes_that_count(gathered, context.hit);
       if (lanes == 0) return;
@@ -243,14 +244,14 @@ private:
     writer_.put();
   }
 
-  /// Adds what has come of the light that was asked for; that of the first round to what primary rays hit
-  /// when the tree is done.
+  /// Adds the light that has arrived; the light of the first round at hits of primary rays is added when the
+  /// tree is complete.
   void take_light(uint32_t number) {
     Context& context = *contexts_[number];
     for (uint32_t first = 0; first == 0 || first < frame_.light_count; first += kLightsARound) {
       LightRound round = LightRound::from(frame_, first, gathered_);
       round.clear<S>();
-      // Answers from areas are of their places, not of what surfaces send on.
+      // Answers for areas are the light of places, not the light that surfaces send on.
       round.only_gathers = first == 0;
       if (first != 0 || light_.has_areas()) context.tracer.shade_hits(context.points, context.hit, round);
       if (light_.has_areas())
@@ -264,7 +265,8 @@ private:
     }
     go_on(number);
   }
-  /// Not inlined: its surfaces are not on the stack while hits are shaded.
+  /// Samples the area lights of a round from the answers. Not inlined, so that its surfaces are not on the
+  /// stack while hits are shaded.
   CELLTRACE_ONE_COPY void take_areas(Context& context, const LightRound& round) {
     const RayPacket& rays = context.tracer.node().rays;
     const WordLanes& objects = context.tracer.hits().object;
@@ -275,7 +277,7 @@ private:
         });
   }
 
-  /// To the next node of the tree, or the next packet.
+  /// Advances to the next node of the tree, or to the next packet.
   void go_on(uint32_t number) {
     Context& context = *contexts_[number];
     const bool more = context.tracer.advance();
@@ -344,10 +346,10 @@ private:
   uint32_t current_ = 0;
   Context* contexts_[kMaxContexts] = {};
   bool stopped_ = false;
-  uint32_t placed_ = 0; ///< contexts
+  uint32_t placed_ = 0; ///< contexts that were created
 };
 
-/// `argument` is the ea of the SPE's StageBlock.
+/// Runs the program; `argument` is the effective address of the SPE's StageBlock.
 template <class Spu> void shader(Spu& spu, ea_t argument) {
   Shader<Spu>(spu, argument).run();
 }

@@ -1,4 +1,4 @@
-// What every program of a pipeline has: its orders, the scene, its reports. Kernel dialect.
+// Common parts of all programs of a pipeline: orders, scene, reports. Kernel dialect.
 #pragma once
 
 #include "kernel/models/stage_block.hpp"
@@ -8,7 +8,7 @@ namespace celltrace::kernel::models {
 
 template <class Spu> class Stage {
 public:
-  /// `block`: ea of the StageBlock.
+  /// Fetches the orders; `block` is the effective address of the StageBlock.
   Stage(Spu& spu, ea_t block)
       : spu_(spu), orders_(*spu.template allocate<StageBlock>()),
         frame_(*spu.template allocate<FrameBlock>()), report_(*spu.template allocate<ReportRecord>()),
@@ -23,7 +23,7 @@ public:
   StageReport& stage_report() { return stage_report_; }
   bool has(uint32_t tasks) const { return (orders_.tasks & tasks) != 0; }
 
-  /// Counts what the cache did.
+  /// Adds the counters of the software cache to the report.
   void add_cache(SceneAccess<Spu>& scene) {
     for (uint32_t kind = 0; kind < kDataKinds; ++kind) {
       const CacheCounters counters = scene.cache().counters(static_cast<DataKind>(kind));

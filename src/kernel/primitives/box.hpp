@@ -1,4 +1,4 @@
-// Box: from -1 to 1 on each axis of its space. Kernel dialect.
+// The box: from -1 to 1 on each axis of its space. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/local_shape.hpp"
@@ -12,8 +12,8 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
   static constexpr bool kHasFaces = true;
   static constexpr bool kHasCoordinates = true;
 
-  /// The slab test (Kay and Kajiya 1986): where rays enter the box and where they leave it. Those that miss
-  /// it leave it before they enter it.
+  /// Returns the interval of rays inside the box by the slab test (Kay and Kajiya 1986). Rays that miss the
+  /// box leave it before they enter it.
   template <class S>
   [[gnu::always_inline]] static SlabInterval<S> slabs_along(const V3<S>& o, const V3<S>& d) {
     using F = typename S::F;
@@ -39,9 +39,10 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     return S::max(S::max(S::abs(p.x), S::abs(p.y)), S::abs(p.z)) < F(1.0f);
   }
 
-  /// The face is the one whose plane is nearest in the world: in its own space, the error of a point across
-  /// a thin box is larger than its distance from the narrow sides. `ratio` and `second` are by how much more
-  /// the box is long along x and y than along z, as parts of that; 0 where it does not matter.
+  /// Returns the normal of the face whose plane is nearest in the world: in the box's own space, the error of
+  /// a point across a thin box is larger than its distance from the narrow sides. `ratio` and `second` are
+  /// the excess of the lengths along x and y over that along z, relative to that along z; 0 where it does not
+  /// matter.
   template <class S>
   [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
@@ -50,15 +51,15 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     const F x = in_x + in_x * parameters.ratio, y = in_y + in_y * parameters.second;
     const auto is_x = (x <= y) & (x <= z);
     const auto is_y = (y <= z) & !is_x;
-    // Across a very thin box, rounding may make the coordinate 0, which would be no normal. It is a multiple
-    // of a power of two then that is too large for the sum to become 0.
+    // Across a very thin box, rounding may make the coordinate 0, which would be no normal. The coordinate is
+    // then a multiple of a power of two that is too large for the sum to become 0.
     const F shift(0.298828125f);
     return {S::select(is_x, p.x + shift, zero), S::select(is_y, p.y + shift, zero),
             S::select(is_x | is_y, zero, p.z + shift)};
   }
 
-  /// The cube from -1 to 1 unfolded: four sides around it in a row, and one above and one below the second of
-  /// them.
+  /// Maps the unfolded cube from -1 to 1: four sides around it in a row, and one above and one below the
+  /// second of them.
   template <class S>
   [[gnu::always_inline]] static void coordinates(const SurfacePoint<S>& at, typename S::F& u,
                                                  typename S::F& v) {
@@ -74,8 +75,8 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     v = S::select(is_y, S::select(side.y < zero, z, F(3.0f) - z), one + y) * F(1.0f / 3);
   }
 
-  /// Where a ray comes from millions of times a box's thickness away, its distance does not tell two faces
-  /// apart: it has come to the nearer one.
+  /// Returns the distance of a point from its face. If a ray's path is more than a million times the box's
+  /// thickness, its distance does not tell two faces apart: it has hit the nearer one.
   template <class S>
   [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient,
                                                        const V3<S>& way) {

@@ -1,4 +1,4 @@
-// Cone: x^2 + y^2 = r^2 in its space, where the radius r grows from `ratio` (the smaller radius over the
+// The cone: x^2 + y^2 = r^2 in its space, where the radius r grows from `ratio` (the smaller radius over the
 // larger one) at z = 0 to 1 at z = 1, by `second`; with or without caps. Kernel dialect.
 #pragma once
 
@@ -18,7 +18,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     using F = typename S::F;
     const V3<S>& d = rays.direction;
     const F zero(0.0f), one(1.0f);
-    // About the point of the ray that is nearest to the middle, so that little cancels.
+    // The equation is about the point of the ray that is nearest to the middle, so that little cancels.
     const F length_square = S::max(dot<S>(d, d), F(1e-30f));
     const V3<S> from_middle = {rays.origin.x, rays.origin.y, rays.origin.z - F(0.5f)};
     const F shift = -dot<S>(from_middle, d) / length_square;
@@ -28,7 +28,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     const F b = o.x * d.x + o.y * d.y - radius * growth;
     const F k = o.x * o.x + o.y * o.y - radius * radius;
     const F square = b * b - a * k;
-    // Where a < 0 there is always a crossing, at the apex at least; less is rounding.
+    // If a < 0 there is always a crossing, at the apex at least; a negative square is rounding.
     const auto steep = a < zero;
     const auto crosses = (square >= zero) | steep;
     Crossings<S>& c = *crossings;
@@ -38,7 +38,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     const F q = -(b + S::select(b < zero, -root, root));
     const F first = q * finite_inverse<S>(a), second = k * finite_inverse<S>(q);
     const F low = S::min(first, second), high = S::max(first, second);
-    // Inside is between the crossings or, of a steep ray, beyond the one in the nappe where r > 0.
+    // The inside is between the crossings or, for a steep ray, beyond the one in the nappe where r > 0.
     const F far_away(1e20f);
     const auto upward = d.z > zero;
     const F enter = S::select(steep, S::select(upward, high, -far_away), low);

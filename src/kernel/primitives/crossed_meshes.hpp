@@ -1,5 +1,5 @@
-// Which crossings with a mesh that has no inside CSG gets to see: those that POV-Ray's search finds before it
-// ends. A part of the code module of meshes. Kernel dialect.
+// Crossings with a mesh without an inside vector that CSG sees, which are those that POV-Ray's search finds
+// before it ends. A part of the code module of meshes. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -13,7 +13,7 @@ namespace celltrace::kernel {
 
 namespace module_meshes {
 
-/// Shares of the way to the points that are asked about, by which single precision may miss them.
+/// Relative error in single precision of the distance to the points in question.
 constexpr float kNearCrossing = 3e-5f;
 
 template <class S> V3<S> least_of(const V3<S>& a, const V3<S>& b) {
@@ -23,7 +23,7 @@ template <class S> V3<S> greatest_of(const V3<S>& a, const V3<S>& b) {
   return {S::max(a.x, b.x), S::max(a.y, b.y), S::max(a.z, b.z)};
 }
 
-/// Where rays enter and leave a box.
+/// The interval of rays inside a box.
 template <class S> struct BoxCrossing {
   typename S::F enter, leave;
 
@@ -37,7 +37,7 @@ template <class S> struct BoxCrossing {
   }
 };
 
-/// Of a part of a packet; see found_crossings().
+/// Finds the crossings for a part of a packet; see found_crossings().
 template <class Spu>
 uint32_t found_crossings_of_part(SceneAccess<Spu>& scene, const ObjectRecord& solid,
                                  const V3<typename Spu::rare_simd>& origins,
@@ -53,13 +53,13 @@ uint32_t found_crossings_of_part(SceneAccess<Spu>& scene, const ObjectRecord& so
   const V3<S> direction = to_local<S>(solid.geometry, way, 0.0f);
   const V3<S> inverse = {finite_inverse<S>(direction.x), finite_inverse<S>(direction.y),
                          finite_inverse<S>(direction.z)};
-  // Crossings where the ray starts are those of what it starts on.
+  // Crossings at the ray's origin belong to the object that it starts on.
   const F nearest =
       (F(kMinHitDistance) + absolute_sum<S>(origins) * F(1e-6f)) / S::max(absolute_sum<S>(way), F(1e-20f));
   F entered(-kEveryCrossing), reached(kEveryCrossing);
   I number = I::splat(-1);
   uint32_t found = 0;
-  // Each turn finds the crossing whose box is entered next.
+  // Each round finds the crossing whose box is entered next.
   while (lanes != 0) {
     F enter = S::min(reached + S::abs(reached) * F(kNearCrossing), F(1.0f + kNearCrossing)), at(0.0f);
     I next = I::splat(-1);
@@ -102,9 +102,10 @@ uint32_t found_crossings_of_part(SceneAccess<Spu>& scene, const ObjectRecord& so
   return found;
 }
 
-/// Which of the points in `lanes`, on triangles of a mesh, POV-Ray's search along rays from `origins` finds.
-/// It takes the triangles by where their boxes are entered, and ends at one whose box begins behind the last
-/// crossing that was found. `solid`: of a SolidRecord. Distances are shares of the way to the point.
+/// Returns the points of `lanes`, on triangles of a mesh, that POV-Ray's search along rays from `origins`
+/// finds. The search visits triangles in the order in which their boxes are entered, and ends at a triangle
+/// whose box begins behind the last crossing that was found. `solid` is part of a SolidRecord. Distances are
+/// relative to that of the point.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t found_crossings(SceneAccess<Spu>& scene, const ObjectRecord& record,
                                             const V3<typename Spu::simd>& origins,

@@ -1,4 +1,4 @@
-// The crossings of rays with an object, however many there are. Kernel dialect.
+// Sequences of a ray's crossings with an object. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/crossings.hpp"
@@ -8,16 +8,16 @@
 namespace celltrace::kernel {
 
 /// Hands out the crossings of a packet's rays with one object in the order of their distance, one pair of
-/// each ray at a time. Shapes whose crossings are roots of a polynomial find all at once. If it `kGoesOn`,
-/// the shape finds the first ones, and is asked for the next ones beyond those that were handed out, until
-/// there are none.
+/// each ray at a time. Shapes whose crossings are roots of a polynomial find all at once. If `kGoesOn`, the
+/// shape finds the first ones, and is asked for the next ones beyond those that were handed out, until there
+/// are none.
 template <class S, bool kGoesOn> class CrossingSequence {
 public:
   using F = typename S::F;
 
-  /// Where the shape puts pairs.
+  /// Returns the place for the shape's pairs.
   Crossings<S>* pairs() { return pairs_; }
-  /// The shape has put so many there, and it may `go_on`.
+  /// Begins with the `count` pairs that the shape has stored; if it `goes_on`, it may find more.
   void begin(uint32_t count, bool goes_on) {
     count_ = count;
     next_ = 0;
@@ -25,8 +25,8 @@ public:
     if constexpr (kGoesOn) further_.found = 0;
   }
 
-  /// Goes on to the next pair that some ray has; false: there is none. `find_after(after, crossings)` finds
-  /// each ray's next pair beyond `after`, which is kEveryCrossing of rays that want none.
+  /// Advances to the next pair of any ray; false: there is none. `find_after(after, crossings)` finds each
+  /// ray's next pair beyond `after`, which is kEveryCrossing for rays that need none.
   template <class FindAfter> bool next(const FindAfter& find_after) {
     while (next_ < count_) {
       const Crossings<S>& c = pairs_[next_++];
@@ -37,21 +37,21 @@ public:
     if constexpr (kGoesOn) return goes_on_ && find_next(find_after);
     return false;
   }
-  /// The pair that next() has gone on to, which the caller may change.
+  /// Returns the current pair, which the caller may change.
   Crossings<S>& current() { return pairs_[next_ - 1]; }
-  /// No more crossings of these rays are asked for.
+  /// Ends the search for crossings of some rays.
   void end(uint32_t lanes) {
     if constexpr (kGoesOn) further_.lanes &= ~lanes;
   }
 
 private:
-  /// Rays that cross an object more often are taken to leave it.
+  /// Rays with more pairs are assumed to leave the object.
   static constexpr uint32_t kMostPairs = 256;
 
   struct Further {
     uint32_t lanes = 0; ///< rays that may have more
-    uint32_t found = 0; ///< pairs, after the first ones
-    FloatLanes after;   ///< by ray, the farthest crossing that was handed out
+    uint32_t found = 0; ///< number of pairs after the first ones
+    FloatLanes after;   ///< the farthest crossing of each ray that was handed out
   };
   struct Nothing {};
 
@@ -66,7 +66,7 @@ private:
     S::select(asked, F::load(further_.after.lane), F(kEveryCrossing)).store(further_.after.lane);
     find_after(further_.after, c);
     const F after = F::load(further_.after.lane);
-    c.near_hit = c.near_hit & asked & (c.near > after); // whatever the shape finds, this ends
+    c.near_hit = c.near_hit & asked & (c.near > after); // ends though shapes may find it again
     c.far_hit = c.far_hit & asked & (c.far > after);
     next_ = 1;
     if ((c.near_hit | c.far_hit).bits() == 0) return false;

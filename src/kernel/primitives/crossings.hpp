@@ -1,4 +1,4 @@
-// Where rays cross the surface of a shape. Kernel dialect.
+// Crossings of rays with the surface of a shape. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -8,34 +8,34 @@
 
 namespace celltrace::kernel {
 
-/// Hits nearer or farther than this are none, as in POV-Ray.
+/// Distances of hits, as in POV-Ray: nearer or farther crossings do not count.
 constexpr float kMinHitDistance = 1e-4f;
 constexpr float kMaxHitDistance = 1e7f;
-/// Epsilon at both ends of a shadow ray, which is POV-Ray's: closer crossings do not count, so that a surface
-/// does not shadow itself.
+/// Epsilon at both ends of a shadow ray, as in POV-Ray: closer crossings do not count, so that a surface does
+/// not shadow itself.
 constexpr float kShadowEpsilon = 1e-3f;
 
 /// Two crossings of each ray of a packet with a surface, by distance along the ray. Distances of lanes
-/// outside their mask are meaningless. Shapes with one crossing have `far_hit` empty; shapes with more fill
-/// several.
+/// outside their mask are meaningless. Shapes with one crossing have an empty `far_hit`; shapes with more
+/// than two fill several pairs.
 template <class S> struct Crossings {
   typename S::F near, far;
   typename S::M near_hit, far_hit;
-  typename S::F u, v; ///< of triangles: barycentric coordinates, the weights of the second and third vertex
+  typename S::F u, v; ///< for triangles: barycentric coordinates, the weights of the second and third vertex
 
-  /// Makes it none. Field by field: masks that were just written stall processors that copy them as a part of
-  /// something larger.
+  /// Removes the crossings. Works member by member, as masks that were just written stall processors that
+  /// copy them as a part of something larger.
   void clear() {
     near = far = u = v = typename S::F(0.0f);
     near_hit = far_hit = S::M::none();
   }
 };
-/// In place of a distance, where all crossings of a ray are asked for.
+/// Limit in place of a distance if all crossings of a ray are wanted.
 constexpr float kEveryCrossing = 1e30f;
-/// No shape has more pairs of crossings: a torus has four crossings.
+/// Largest number of pairs of crossings that a shape fills: a torus has four crossings.
 constexpr uint32_t kMaxCrossingPairs = 2;
 
-/// The rays that start on an object, of as many lanes as S has, from `first` on.
+/// Returns the rays that start on an object, for as many lanes as S has, beginning at lane `first`.
 template <class S>
 typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self, uint32_t first = 0) {
   using I = typename S::I;
@@ -54,8 +54,8 @@ template <class S> void keep_closest(const Crossings<S>& c, uint32_t self, HitPa
   const F nearest = F::load(hits.distance.lane);
   const M hit = near_valid | far_valid;
   const M not_farther = hit & (distance <= nearest);
-  // Of two hits at the same distance that of the object with the lower offset counts: the result does not
-  // depend on the order of the tests.
+  // The hit of the object with the lower offset wins if two hits are at the same distance, so that the result
+  // does not depend on the order of the tests.
   auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
   const I present = I::load(objects);
   const I candidate = I::splat(static_cast<int32_t>(self));
@@ -71,7 +71,7 @@ struct SingleHit {
   float distance, u, v;
   uint32_t object;
 };
-/// As keep_closest(), of the ray in one lane.
+/// Merges a crossing of the ray in one lane into its closest hit; see keep_closest().
 [[gnu::always_inline]] inline void keep_closer(const SingleHit& hit, uint32_t lane, HitPacket& hits) {
   const float nearest = hits.distance.lane[lane];
   const auto present = static_cast<int32_t>(hits.object.lane[lane]);

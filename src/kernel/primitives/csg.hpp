@@ -1,4 +1,4 @@
-// Constructive solid geometry: which crossings with a part's surface count. Kernel dialect.
+// Constructive solid geometry: decides which crossings with a part's surface count. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/crossed_meshes.hpp"
@@ -8,8 +8,8 @@
 
 namespace celltrace::kernel {
 
-/// Which of the points in `lanes` are in a solid; of a mesh without an inside, which of its crossings with
-/// rays from `origins` CSG gets to see.
+/// Returns the points of `lanes` that are inside a solid; for a mesh without an inside vector, the crossings
+/// with rays from `origins` that CSG sees.
 template <class Spu>
 uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename Spu::simd>& origins,
                       const V3<typename Spu::simd>& points, uint32_t lanes) {
@@ -31,19 +31,20 @@ uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename
   return module_shapes::inside(scene.spu(), record, points) & lanes;
 }
 
-/// In place of lanes that come from a mirror: the rays see everything.
+/// Value in place of lanes that come from a mirror if rays see everything.
 constexpr uint32_t kSeesAll = 0x80000000u;
 
-/// The lanes that do not see what has these flags, of rays of which those in `reflected` come from a mirror.
+/// Returns the lanes to which an object with these flags is invisible; rays in `reflected` come from a
+/// mirror.
 inline uint32_t blind_lanes(uint32_t flags, uint32_t reflected) {
   if (reflected == kSeesAll) return 0;
   return ((flags & object_flag::no_image) != 0 ? ~reflected : 0) |
          ((flags & object_flag::no_reflection) != 0 ? reflected : 0);
 }
 
-/// Which of the points in `lanes`, where rays from `origins` cross the surface of a part, satisfy its
-/// condition and those of all levels above it. Each lane has a place in the program of its own, which only
-/// goes forward.
+/// Returns the points of `lanes`, where rays from `origins` cross the surface of a part, that satisfy the
+/// part's condition and those of all levels above it. Each lane has its own place in the program, which only
+/// advances.
 template <class Spu>
 [[gnu::noinline]] uint32_t
 csg_accepted(SceneAccess<Spu>& scene, uint32_t condition, const V3<typename Spu::simd>& origins,

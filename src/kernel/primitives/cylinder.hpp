@@ -1,4 +1,4 @@
-// Cylinder: radius 1 around the z axis of its space, from z = 0 to z = 1; with or without caps. Kernel
+// The cylinder: radius 1 around the z axis of its space, from z = 0 to z = 1; with or without caps. Kernel
 // dialect.
 #pragma once
 
@@ -18,7 +18,7 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     using F = typename S::F;
     const V3<S>&o = rays.origin, &d = rays.direction;
     const F zero(0.0f), one(1.0f);
-    // The infinite cylinder, about the point of the ray that is nearest to the axis.
+    // The infinite cylinder is intersected about the point of the ray that is nearest to the axis.
     const F square = d.x * d.x + d.y * d.y;
     const auto along_axis = square <= F(1e-14f) * (square + d.z * d.z);
     const F inverse = one / S::select(along_axis, one, square);
@@ -51,8 +51,8 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     return (p.x * p.x + p.y * p.y < F(1.0f)) & (p.z > F(0.0f)) & (p.z < F(1.0f));
   }
 
-  /// As of a box, `ratio` is by how much the radius is more than the height, as a part of that; 0 where it
-  /// does not matter.
+  /// Returns the normal. `ratio` is the excess of the radius over the height, relative to the height, as for
+  /// a box; 0 where it does not matter.
   template <class S>
   [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;

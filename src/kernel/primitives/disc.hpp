@@ -1,5 +1,5 @@
-// Disc: radius 1 around the origin of its space in the plane z = 0, with a hole of radius `ratio`. The half-
-// space z < 0 is inside, as in POV-Ray. Kernel dialect.
+// The disc: radius 1 around the origin of its space in the plane z = 0, with a hole of radius `ratio`. The
+// half-space z < 0 is inside, as in POV-Ray. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/local_shape.hpp"

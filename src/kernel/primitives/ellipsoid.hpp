@@ -1,4 +1,4 @@
-// Ellipsoid: what an affine transformation makes of a sphere; the unit sphere of its space. Kernel dialect.
+// The ellipsoid, an affinely transformed sphere: the unit sphere of its space. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/local_shape.hpp"
@@ -27,7 +27,8 @@ struct EllipsoidPrimitive : LocalPrimitive<EllipsoidPrimitive> {
     return dot<S>(p, p) < typename S::F(1.0f);
   }
 
-  /// The point is moved to the sphere first: it may be far from it by what rounding does to long rays.
+  /// Returns the normal at the nearest point of the sphere, from which rounding may move the end of a long
+  /// ray.
   template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
     return normalise<S>(p);
   }
@@ -41,8 +42,8 @@ struct EllipsoidPrimitive : LocalPrimitive<EllipsoidPrimitive> {
 
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, false}; }
 
-  /// Tighter than those of a box around the sphere: half the extent along an axis is the length of that row
-  /// of the map from the unit sphere to the world.
+  /// Returns bounds that are tighter than those of a box around the sphere: half the extent along an axis is
+  /// the length of that row of the map from the unit sphere to the world.
   static Aabb bounds(const ObjectRecord& object, const ExtraRecord&) {
     return round_bounds_in_world(object.geometry);
   }

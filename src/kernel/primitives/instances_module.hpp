@@ -1,8 +1,8 @@
 // The code module of instances: objects that are meshes of which the scene image has one copy, in a space of
 // its own. Kernel dialect.
 //
-// A packet's rays go to the mesh's space and traverse the BVH of the mesh there. Their directions keep what
-// length they get, so that distances are those of the world.
+// A packet's rays are transformed to the mesh's space and traverse the mesh's BVH there. Their directions are
+// not normalised, so that distances are those in the world.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -19,35 +19,35 @@
 
 namespace celltrace::kernel {
 
-/// What an instance's ExtraRecord has in place of its first value: the offset of an InstanceRecord.
+/// Returns the offset of an InstanceRecord, which an instance's ExtraRecord has in place of its first value.
 inline uint32_t instance_of(const ExtraRecord& extra) {
   uint32_t offset;
   memcpy(&offset, extra.value, sizeof offset);
   return offset;
 }
 
-/// A triangle of an instance as other triangles have it: in the world.
+/// A triangle of an instance with records like those of other triangles, in the world.
 struct InstancedTriangle {
   ObjectRecord object;
-  ExtraRecord extra; ///< of a smooth one
+  ExtraRecord extra; ///< for a smooth triangle
 };
 
-/// A triangle's distance is rounded: boxes around it are a little longer than they are.
+/// Factor by which boxes are extended along rays, as distances of triangles are rounded.
 constexpr float kLongerBox = 1.00001f;
 
 /// The part of an instance's test that is the same for all of its rays.
 struct InstanceTest {
-  uint32_t first_number, first_triangle; ///< of the mesh's first triangle: its number, and its offset
-  float nearest;                         ///< hits are farther
-  bool any;                              ///< any hit will do: rays end with their first
+  uint32_t first_number, first_triangle; ///< number and offset of the mesh's first triangle
+  float nearest;                         ///< hits must be farther than this
+  bool any;                              ///< any-hit query: rays end with their first hit
 };
 
-/// The work that it took.
+/// The work of a test.
 struct InstanceWork {
   uint32_t nodes, triangles;
 };
 
-/// The offset of the InstanceRecord that a triangle's number belongs to.
+/// Returns the offset of the InstanceRecord that a triangle's number belongs to.
 template <class Spu> uint32_t instance_with(SceneAccess<Spu>& scene, uint32_t number) {
   constexpr auto kBytes = static_cast<uint32_t>(sizeof(InstanceRecord));
   uint32_t first = scene.list_word(offsetof(ImageHeader, instance_offset));
@@ -70,8 +70,8 @@ namespace module_instances {
 template <class S> struct MeshRays {
   V3<S> origin, direction, inverse;
 
-  /// Pushes the children of a node that some of them enter before `reach`, the nearest on top unless `any`
-  /// order will do.
+  /// Pushes the children of a node that some of the rays enter before `reach`, the nearest on top unless the
+  /// query is `any`.
   [[gnu::always_inline]] void expand(const NodeRecord& node, const typename S::F& reach, bool any,
                                      TraversalStack<1, kMaxMeshLevels>& stack) const {
     using F = typename S::F;
@@ -88,7 +88,8 @@ template <class S> struct MeshRays {
   }
 
 private:
-  /// Where they enter a child of a node, and which of them do that before `reach`.
+  /// Finds the distances at which rays enter a child of a node, and returns the rays that do so before
+  /// `reach`.
   [[gnu::always_inline]] uint32_t find_entry(const float (&bounds)[6][4], uint32_t child,
                                              const typename S::F& reach, typename S::F& enter) const {
     using F = typename S::F;
@@ -104,8 +105,8 @@ private:
   }
 };
 
-/// Replaces hits by closer ones with the object's triangles that are farther than `nearest`. Where `any` will
-/// do, `hits` has kInstancedBit in place of objects, and rays end with their first hit.
+/// Replaces hits by closer ones with the object's triangles that are farther than `nearest`. In an `any`
+/// query, `hits` has kInstancedBit in place of objects, and rays end with their first hit.
 template <class Spu>
 CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPacket& rays,
                                           const ObjectRecord& object, float nearest, bool any,
@@ -156,7 +157,7 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
       if (stack.size() == 0) return work;
       const auto& next = stack.pop();
       ref = next.ref;
-      // What has been hit since then may be nearer.
+      // Hits since the entry was pushed may be nearer.
       const uint32_t lanes =
           next.lanes & (F(next.enter) <= F::load(hits.distance.lane) * F(kLongerBox)).bits();
       if (few.traverse(scene, lanes, ref, test, stack, hits, work)) continue;

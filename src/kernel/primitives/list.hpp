@@ -1,12 +1,12 @@
-// All shapes. The order gives each its kind, a number in its records. Kernel dialect.
+// All shapes. The order determines their kinds, which are numbers in records. Kernel dialect.
 //
 // A shape P derives from ShapeTraits, or from LocalPrimitive (local_shape.hpp), and has
 //   kName            for statistics
-//   kCrossingPairs   what intersect() fills, at most kMaxCrossingPairs
-//   kHasParameters   whether it reads its ExtraRecord
+//   kCrossingPairs   number of pairs that intersect() fills, at most kMaxCrossingPairs
+//   kHasParameters   true if it reads its ExtraRecord
 //   intersect(rays, object, extra, self, crossings), inside(point, object, extra)
 //   bounds(object, extra), overlaps(object, extra, box)
-// and what its traits ask for.
+// and the functions that its traits require.
 #pragma once
 
 #include "kernel/primitives/box.hpp"
@@ -59,7 +59,7 @@ static_assert(kPrimitiveKind<SpherePrimitive> == static_cast<uint32_t>(ObjectKin
                   kPrimitiveKind<TrianglePrimitive> == static_cast<uint32_t>(ObjectKind::triangle),
               "the kinds that have names");
 
-/// Of objects that are no shapes: instances of meshes (instances_module.hpp).
+/// Kind of objects that are no shapes: instances of meshes (instances_module.hpp).
 constexpr uint32_t kInstanceKind = kPrimitives;
 constexpr uint32_t kObjectKinds = kPrimitives + 1;
 static_assert(kObjectKinds <= kMaxPrimitives, "a counter for each in ReportRecord");

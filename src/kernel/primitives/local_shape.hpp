@@ -1,14 +1,14 @@
-// Shapes in a space of their own: what a box, a cylinder or a torus is under any affine transformation. Their
+// Shapes in a space of their own, such as boxes, cylinders and tori under any affine transformation. Their
 // records hold the map from the world to that space. Kernel dialect.
 //
 // A shape derives from LocalPrimitive<itself> and has
-//   kName, kCrossingPairs, kHasParameters             as list.hpp says
-//   intersect_local(rays, parameters, crossings)      in the shape's space
-//   inside_local(point, parameters)                   lanes inside
-//   gradient(point, parameters)                       outward normal, of any length, at a point of it
-//   off_face(point, gradient, way)                    how far off its flat face, times that length
-//   off_parallel_faces(point, way, share)             moved toward the middle between faces along `way`
-//   local_bounds(ratio)
+//   kName, kCrossingPairs, kHasParameters             as in list.hpp
+//   intersect_local(rays, parameters, crossings)      finds crossings, in the shape's space
+//   inside_local(point, parameters)                   returns the lanes inside
+//   gradient(point, parameters)                       returns the outward normal, of any length
+//   off_face(point, gradient, way)                    returns the distance from a face, times that length
+//   off_parallel_faces(point, way, share)             moves a point toward the middle of faces along `way`
+//   local_bounds(ratio)                               returns its LocalBounds
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -20,40 +20,43 @@
 
 namespace celltrace::kernel {
 
-/// What a shape has besides its map. One shape for all lanes, or in each lane another.
+/// Parameters of a shape besides its map. All lanes have one shape, or each lane has its own.
 template <class S> struct LocalParameters {
-  typename S::F ratio;  ///< of a cone, a torus, a disc, a box or a cylinder: see there
-  typename S::F second; ///< of a superellipsoid, a box or a cone: see there
+  typename S::F ratio;  ///< for a cone, torus, disc, box or cylinder; see there
+  typename S::F second; ///< for a superellipsoid, box or cone; see there
   typename S::M open;   ///< cylinders and cones without caps
 };
 
-/// By ray, where it enters a convex solid and where it leaves it: of crossings those are asked for that are
-/// inside, or that are not. Of rays that miss the solid `enter` is beyond `leave`.
+/// The intervals of rays inside a convex solid, and whether crossings inside or outside of it are wanted. For
+/// rays that miss the solid, `enter` is beyond `leave`.
 struct ClippedRays {
   FloatLanes enter, leave;
   bool keeps_inside;
 };
 
-/// Which of a ray's crossings are asked for.
+/// The crossings of a ray that are wanted.
 struct AskedCrossings {
-  /// After the first crossing that is farther than this the others may be left out.
+  /// Distance after which one crossing suffices: once a ray has a crossing beyond it, the others may be left
+  /// out.
   float enough = kEveryCrossing;
-  /// By ray: crossings that are farther than this or behind the origin may be left out. nullptr: none.
+  /// For each ray: crossings that are farther than this or behind the origin may be left out. nullptr: no
+  /// limit.
   const FloatLanes* limit = nullptr;
-  /// By ray, of shapes that go on: crossings up to this are known. nullptr: all beyond the origin are asked
-  /// for.
+  /// For each ray of shapes with kGoesOn: crossings up to this distance are known. nullptr: all crossings
+  /// beyond the origin are wanted.
   const FloatLanes* after = nullptr;
 };
 inline constexpr AskedCrossings kAllCrossings;
 
-/// Rays in a shape's space. Directions have any length, so that distances are those of the world.
+/// Rays in a shape's space. Directions are not normalised, so that distances are those in the world.
 template <class S> struct LocalRays {
   V3<S> origin, direction;
   typename S::M starts_here; ///< rays that start on this object
   const AskedCrossings* asked = &kAllCrossings;
-  uint32_t first = 0; ///< lane of the packet that the rays begin with
+  uint32_t first = 0; ///< lane of the packet's first ray
 
-  /// asked->after of these rays, 0 without one; and asked->limit, kEveryCrossing without one.
+  /// Return asked->after of these rays, or 0 if it is null, and asked->limit, or kEveryCrossing if it is
+  /// null.
   typename S::F after() const { return of_these(asked->after, 0.0f); }
   typename S::F limit() const { return of_these(asked->limit, kEveryCrossing); }
 
@@ -63,14 +66,14 @@ private:
   }
 };
 
-/// Around a shape: along the third axis from `low` to `high`; across it `radius` to all sides of a disc, or
-/// of a square.
+/// Bounds of a shape: along the third axis from `low` to `high`; across it a disc, or a square, that extends
+/// by `radius`.
 struct LocalBounds {
   float low, high, radius;
   bool square;
 };
 
-/// A point (w = 1) or a direction (w = 0) in the space of a shape.
+/// Transforms a point (w = 1) or a direction (w = 0) to the space of a shape.
 template <class S> V3<S> to_local(const float (&map)[12], const V3<S>& v, float w) {
   using F = typename S::F;
   const float* m = map;
@@ -79,22 +82,22 @@ template <class S> V3<S> to_local(const float (&map)[12], const V3<S>& v, float 
           F(m[8]) * v.x + F(m[9]) * v.y + F(m[10]) * v.z + F(m[11] * w)};
 }
 
-/// 1 / x, finite where x is 0.
+/// Returns 1 / x, which is finite for x = 0.
 template <class S> typename S::F finite_inverse(const typename S::F& x) {
   using F = typename S::F;
   const F least(1e-20f);
   return F(1.0f) / S::select(S::abs(x) > least, x, S::select(x < F(0.0f), -least, least));
 }
 
-/// The rays that go into a shape from a point of its surface.
+/// Returns the rays that go into a shape from a point of its surface.
 template <class Shape, class S>
 [[gnu::always_inline]] inline typename S::M go_inward(const LocalRays<S>& rays,
                                                       const LocalParameters<S>& parameters) {
   return dot<S>(Shape::template gradient<S>(rays.origin, parameters), rays.direction) < typename S::F(0.0f);
 }
 
-/// Of a convex shape: a ray that starts on it does not enter it again, and leaves it only if it goes inward.
-/// The crossing at the origin itself is none, wherever rounding puts it.
+/// Removes crossings of rays that start on a convex shape: such a ray does not enter it again, and leaves it
+/// only if it goes inward. The crossing at the origin does not count, wherever rounding puts it.
 template <class Shape, class S>
 void drop_start(const LocalRays<S>& rays, const LocalParameters<S>& parameters, Crossings<S>& c) {
   if (rays.starts_here.bits() == 0) return;
@@ -102,8 +105,8 @@ void drop_start(const LocalRays<S>& rays, const LocalParameters<S>& parameters, 
   c.far_hit = c.far_hit & !(rays.starts_here & !go_inward<Shape, S>(rays, parameters));
 }
 
-/// A coordinate `at` of a ray that goes `along` that axis, moved toward the `middle` by a share of the way
-/// there if the ray is parallel to the planes across the axis.
+/// Returns the coordinate `at` of a ray with direction `along` on that axis; if the ray is parallel to the
+/// planes across the axis, the coordinate is moved toward `middle` by a share of the distance.
 template <class S>
 [[gnu::always_inline]] inline typename S::F
 off_parallel_plane(const typename S::F& at, const typename S::F& along, float middle, float share) {
@@ -112,7 +115,7 @@ off_parallel_plane(const typename S::F& at, const typename S::F& along, float mi
   return S::select(S::abs(along) < F(kLeastSlope), at + (F(middle) - at) * F(share), at);
 }
 
-/// Where rays are between the planes z = low and z = high.
+/// The interval of rays between the planes z = low and z = high.
 template <class S> struct SlabInterval {
   typename S::F enter, leave;
 
@@ -126,7 +129,7 @@ template <class S> struct SlabInterval {
   }
 };
 
-/// The inverse of a map without its translation, and where the origin of the shape's space is in the world.
+/// The inverse of a map without its translation, and the position of the space's origin in the world.
 struct LocalToWorld {
   float row[3][3], origin[3];
 
@@ -145,7 +148,7 @@ struct LocalToWorld {
   }
 };
 
-/// The bounds of a shape in the world.
+/// Returns the bounds of a shape in the world.
 CELLTRACE_ONE_COPY inline Aabb bounds_in_world(const float (&map)[12], const LocalBounds& local) {
   const LocalToWorld world(map);
   Aabb box;
@@ -161,7 +164,7 @@ CELLTRACE_ONE_COPY inline Aabb bounds_in_world(const float (&map)[12], const Loc
   return box;
 }
 
-/// Those of the unit sphere.
+/// Returns the bounds of the unit sphere of a space in the world.
 CELLTRACE_ONE_COPY inline Aabb round_bounds_in_world(const float (&map)[12]) {
   const LocalToWorld world(map);
   Aabb box;
@@ -174,7 +177,8 @@ CELLTRACE_ONE_COPY inline Aabb round_bounds_in_world(const float (&map)[12]) {
   return box;
 }
 
-/// Conservative: the box, mapped to the space of the shape, against a ball around the shape.
+/// Returns true if a shape may overlap a box: conservatively tests the box, mapped to the space of the shape,
+/// against a ball around the shape.
 inline bool overlaps_in_world(const float (&g)[12], const LocalBounds& local, const Aabb& box) {
   const float half_height = 0.5f * (local.high - local.low);
   const float radius =
@@ -201,8 +205,8 @@ template <class S>
   return {typename S::F(extra.value[0]), typename S::F(extra.value[1]), open ? S::M::all() : S::M::none()};
 }
 
-/// A packet's rays in the space of an object, whose offset is `self`: as many as S has lanes, from `first`
-/// on.
+/// Transforms a packet's rays to the space of an object, whose offset is `self`, for as many lanes as S has,
+/// beginning at lane `first`.
 template <class S>
 LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self, uint32_t first = 0,
                         const AskedCrossings& asked = kAllCrossings) {
@@ -211,7 +215,7 @@ LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint3
           lanes_that_start_on<S>(rays, self, first), &asked, first};
 }
 
-/// What a shape in a space of its own is to the rest of the kernel.
+/// The interface of a shape in a space of its own to the rest of the kernel.
 template <class Shape> struct LocalPrimitive : ShapeTraits {
   static constexpr bool kIsLocal = true;
 

@@ -1,4 +1,4 @@
-// The code module of the insides of meshes. Kernel dialect.
+// The code module of meshes: tests of points against their insides. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -10,9 +10,9 @@ namespace celltrace::kernel {
 
 namespace module_meshes {
 
-/// Which of the points have a triangle above them. Where triangles share an edge or a corner, all that are
-/// there reckon its column by the same operations, and rows and columns are half-open intervals: a point
-/// under it counts for as many triangles as one beside it.
+/// Returns the points that have a triangle above them. Triangles that share an edge or a corner compute its
+/// column by the same operations, and rows and columns are half-open intervals: a point under it counts for
+/// as many triangles as one beside it.
 template <class S>
 [[gnu::always_inline]] inline uint32_t under(const MeshTriangleRecord& triangle, const V3<S>& points) {
   using F = typename S::F;
@@ -21,7 +21,7 @@ template <class S>
   const F other =
       S::select(points.y < F(triangle.row[1]), F(triangle.column[0]) + from_0 * F(triangle.slope[0]),
                 F(triangle.column[1]) + from_1 * F(triangle.slope[1]));
-  // Of triangles that are nearly parallel to the inside vector the gradient is not worth much.
+  // The gradient of triangles that are nearly parallel to the inside vector is inaccurate.
   const F height = F(triangle.height) + (points.x - F(triangle.column[0])) * F(triangle.gradient[0]) +
                    from_0 * F(triangle.gradient[1]);
   const F bounded = S::max(F(triangle.least_height), S::min(F(triangle.greatest_height), height));
@@ -30,7 +30,7 @@ template <class S>
       .bits();
 }
 
-/// Which of the points in `lanes` are in a mesh. `solid`: of its SolidRecord.
+/// Returns the points of `lanes` that are inside a mesh. `solid` is part of the mesh's SolidRecord.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t inside(SceneAccess<Spu>& scene, const ObjectRecord& solid,
                                    const V3<typename Spu::simd>& points, uint32_t lanes) {

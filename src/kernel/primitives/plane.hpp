@@ -1,4 +1,4 @@
-// Plane: z = 0 of its space; the half-space z < 0 is inside. Kernel dialect.
+// The plane: z = 0 of its space; the half-space z < 0 is inside. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -6,7 +6,7 @@
 
 namespace celltrace::kernel {
 
-/// Of the map, only the third row: the unit normal, and minus the distance.
+/// Intersects a plane, reading only the third row of the map: the unit normal, and minus the distance.
 template <class S>
 CELLTRACE_ONE_COPY void intersect_plane(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
                                         Crossings<S>& c) {
@@ -45,7 +45,7 @@ struct PlanePrimitive : LocalPrimitive<PlanePrimitive> {
     return {F(0.0f), F(0.0f), F(1.0f)};
   }
 
-  /// It has none: planes are not in the BVH, unless CSG bounds them.
+  /// Returns unlimited bounds: planes are not in the BVH, unless CSG bounds them.
   static LocalBounds local_bounds(float) { return {0.0f, 0.0f, kUnboundedRadius, true}; }
   static constexpr float kUnboundedRadius = 1e30f;
 };

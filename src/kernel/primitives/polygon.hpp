@@ -1,5 +1,5 @@
-// Polygon: in the plane z = 0 of its space, within the square from -1 to 1. Its own test finds where rays
-// cross the square; module_polygons leaves those of the crossings that are in the polygon. Nothing is inside.
+// The polygon: in the plane z = 0 of its space, within the square from -1 to 1. Its own test finds the
+// crossings with the square; module_polygons removes those outside the polygon. A polygon has no inside.
 // Kernel dialect.
 #pragma once
 
@@ -16,7 +16,7 @@ struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
   static constexpr bool kHasFaces = true;
   static constexpr bool kHasEdges = true;
 
-  /// Puts x and y of where they cross into u and v.
+  /// Finds the crossings, and stores their x and y in u and v.
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
     using F = typename S::F;
@@ -46,7 +46,7 @@ struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
   static LocalBounds local_bounds(float) { return {0.0f, 0.0f, 1.0f, true}; }
 };
 
-/// What a polygon's ExtraRecord has in place of its second and third value.
+/// Data in a polygon's ExtraRecord in place of its second and third value.
 struct PolygonEdges {
   uint32_t first; ///< offset of a PolygonEdgeRecord
   uint32_t count;

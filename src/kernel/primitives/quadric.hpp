@@ -1,5 +1,5 @@
-// Quadric: a x^2 + b y^2 + c z^2 + l z + k = 0 of its space, where each factor is -1, 0 or 1. Below 0 is
-// inside. Kernel dialect.
+// The quadric: a x^2 + b y^2 + c z^2 + l z + k = 0 of its space, where each factor is -1, 0 or 1. Negative
+// values are inside. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/plane.hpp"
@@ -13,7 +13,7 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
   static constexpr bool kIsBounded = false;
   static constexpr bool kIsHeavy = true;
 
-  /// `ratio` of a quadric: its factors as the digits of a number.
+  /// Returns the `ratio` of a quadric: its factors as the digits of a number.
   static constexpr float code(int a, int b, int c, int l, int k) {
     return static_cast<float>((((k + 1) * 2 + l) * 3 + c + 1) * 9 + (b + 1) * 3 + a + 1);
   }
@@ -23,7 +23,7 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     F linear, constant;
 
     [[gnu::always_inline]] explicit Factors(const LocalParameters<S>& parameters) {
-      // Without the last digits, each by itself: none waits for another.
+      // The last digits are removed separately for each factor, so that none waits for another.
       const auto without = [&](float base) __attribute__((always_inline)) {
         return S::floor((parameters.ratio + F(0.5f)) * F(1.0f / base));
       };
@@ -47,7 +47,8 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     using M = typename S::M;
     const Factors<S> f(parameters);
     const V3<S>& d = rays.direction;
-    // From the point that is closest to the middle: far origins would cancel all digits.
+    // The equation is about the ray's point that is closest to the middle: far origins would cancel all
+    // digits.
     const F middle = -dot<S>(rays.origin, d) * finite_inverse<S>(dot<S>(d, d));
     const V3<S> o = rays.origin + d * middle;
     const V3<S> bent = f.square * d;
@@ -59,7 +60,7 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     const F root = S::sqrt(S::max(discriminant, F(0.0f)));
     const F q = -(b + S::select(b < F(0.0f), -root, root));
     const F first = c * finite_inverse<S>(q) + middle, second = q * finite_inverse<S>(a) + middle;
-    // A ray that starts on the surface may cross it once more: elsewhere.
+    // A ray that starts on the surface may cross it once more, elsewhere.
     const M starts_first = S::abs(first) <= S::abs(second);
     const M first_hit = real & !(rays.starts_here & starts_first);
     const M second_hit = real & !(rays.starts_here & !starts_first);
@@ -82,7 +83,7 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     return {half.x, half.y, half.z + f.linear * typename S::F(0.5f)};
   }
 
-  /// It has none, as planes have none.
+  /// Returns unlimited bounds, as for planes.
   static LocalBounds local_bounds(float) { return PlanePrimitive::local_bounds(0.0f); }
 };
 

@@ -7,32 +7,32 @@
 
 namespace celltrace::kernel {
 
-/// Points on the surface of one object, whose surface coordinates are asked for.
+/// Points on the surface of one object whose surface coordinates are wanted.
 template <class S> struct SurfacePoint {
   const ObjectRecord& object;
-  const ExtraRecord* extra;           ///< null: it has none, or the shape does not read it
+  const ExtraRecord* extra;           ///< null: the object has none, or the shape does not read it
   const V3<S>& point;                 ///< in the world
-  const typename S::F &hit_u, &hit_v; ///< of the hits: a triangle's barycentric coordinates
+  const typename S::F &hit_u, &hit_v; ///< for triangles: barycentric coordinates of the hits
 };
 
 struct ShapeTraits {
-  static constexpr bool kIsLocal = false;  ///< its geometry is a map to a space of its own (local_shape.hpp)
-  static constexpr bool kIsBounded = true; ///< it can be in the BVH by itself
-  static constexpr bool kIsHeavy =
-      false; ///< the code of its intersect() is large: it has a code module apart
-  static constexpr bool kHasHeavyPoints = false; ///< that of its inside() and of its normals is: likewise
-  static constexpr bool kHasFaces = false;       ///< flat ones: then it has off_face()
-  /// It finds a ray's first pair of crossings, and the next one beyond rays.after() when it is asked again,
-  /// as rays.asked->after says (crossing_sequence.hpp). Such shapes are heavy.
+  static constexpr bool kIsLocal = false;  ///< the geometry is a map to a space of its own (local_shape.hpp)
+  static constexpr bool kIsBounded = true; ///< the shape can be in the BVH without CSG
+  static constexpr bool kIsHeavy = false;  ///< intersect() is large and has a code module of its own
+  static constexpr bool kHasHeavyPoints = false; ///< inside() and normals have a module of their own
+  static constexpr bool kHasFaces = false;       ///< the shape has flat faces, and off_face()
+  /// True if the shape finds a ray's first pair of crossings, and when it is asked again the next pair beyond
+  /// rays.after() (crossing_sequence.hpp). Shapes with this trait are heavy.
   static constexpr bool kGoesOn = false;
-  /// Crossings of its plane count where its edges say (polygons_module.hpp).
+  /// True if crossings of the shape's plane count only inside its edges (polygons_module.hpp).
   static constexpr bool kHasEdges = false;
-  /// It has coordinates(surface_point, u, v). If not, they are x and y of the point.
+  /// True if the shape has coordinates(surface_point, u, v). Otherwise its surface coordinates are x and y of
+  /// the point.
   static constexpr bool kHasCoordinates = false;
   static constexpr bool kReadsExtraForCoordinates = false;
-  /// It has may_hit(), crossed() and surely_crossed(), which tell what is in shadow where solving for its
-  /// crossings would take longer. Where memory is direct they are asked (direct/shape_shadows.hpp). Such
-  /// shapes are local, and have no parameter but the first.
+  /// True if the shape has may_hit(), crossed() and surely_crossed(), which decide what is in shadow where
+  /// solving for its crossings would take longer. Only direct memory uses them (direct/shape_shadows.hpp).
+  /// Shapes with this trait are local, and have only the first parameter.
   static constexpr bool kTellsShadows = false;
 };
 

@@ -1,6 +1,6 @@
-// The code modules of the shapes: what the rest of the kernel calls of them. Kernel dialect.
+// The code modules of shapes, and the functions by which the rest of the kernel calls them. Kernel dialect.
 //
-// Spheres and triangles that are no parts of CSG do not come here: their code is always resident.
+// Spheres and triangles that are not part of a CSG do not come here: their code is resident.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -10,16 +10,16 @@
 
 namespace celltrace::kernel {
 
-/// The objects that rays of a packet hit, side by side.
+/// The objects that rays of a packet hit, one in each lane.
 template <class S> struct ObjectLanes {
-  V3<S> geometry[4];             ///< as ObjectRecord's
-  V3<S> normals[3];              ///< the values of ExtraRecords, of smooth triangles
-  LocalParameters<S> parameters; ///< of shapes in a space of their own
-  uint32_t of_kind[kPrimitives]; ///< lanes by kind; each is of one
+  V3<S> geometry[4];             ///< as in ObjectRecord
+  V3<S> normals[3];              ///< values of the ExtraRecords of smooth triangles
+  LocalParameters<S> parameters; ///< for shapes in a space of their own
+  uint32_t of_kind[kPrimitives]; ///< index: kind; lanes with objects of the kind
   uint32_t smooth;
 };
 
-/// The objects of a part of the rays.
+/// Returns the objects of a part of the rays.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const ObjectLanes<typename Spu::simd>& o,
                                                      uint32_t first) {
@@ -40,35 +40,35 @@ template <class Spu>
       });
 }
 
-/// Whether crossings with a kind count where its edges say.
+/// Returns true if crossings with a kind count only inside its edges.
 constexpr bool has_edges(uint32_t kind) {
   return Primitives::has_edges(kind);
 }
 
-/// Whether a kind's geometry is a map to a space of its own.
+/// Returns true if a kind's geometry is a map to a space of its own.
 constexpr bool is_local(uint32_t kind) {
   return kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>;
 }
 
-/// Whether a kind's intersections are in a module of their own. Not those of no kind.
+/// Returns true if a kind's intersections are in a module of their own; false for unknown kinds.
 constexpr bool is_heavy(uint32_t kind) {
   return Primitives::is_heavy(kind);
 }
 
-/// Whether its normals and what is inside are in a module of their own. Likewise.
+/// Returns true if the code for a kind's normals and inside is in a module of its own; false for unknown
+/// kinds.
 constexpr bool has_heavy_points(uint32_t kind) {
   return Primitives::has_heavy_points(kind);
 }
 
-/// The unit normals of shapes in a space of their own, of those with heavy points or of the others, at points
-/// of their surfaces: the gradient there is transformed by the transposed map. If it `kMoves` them, `moved`
-/// receives the points, of which those of flat faces are moved there; rays have come to them on the ways
-/// `way`.
+/// Returns the unit normals of shapes in a space of their own, of those with heavy points or of the others,
+/// at points of their surfaces: the gradient there is transformed by the transposed map. If `kMoves`, `moved`
+/// receives the points, moved onto flat faces; `way` is the path of each ray to its point.
 template <class S, bool kOfHeavy, bool kMoves>
 [[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, const V3<S>& point,
                                                         [[maybe_unused]] const V3<S>& way,
                                                         [[maybe_unused]] V3<S>* moved) {
-  // Three rows of four.
+  // The map is three rows of four.
   const V3<S>* const g = o.geometry;
   const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
   const V3<S> local = {dot<S>(rows[0], point) + g[1].x, dot<S>(rows[1], point) + g[2].y,
@@ -83,7 +83,7 @@ template <class S, bool kOfHeavy, bool kMoves>
         const auto mask = S::M::from_bits(o.of_kind[kind]);
         V3<S> of_kind;
         if constexpr (kMoves && Shape::kHasFaces) {
-          // A face that a ray is parallel to is not the one that it has hit.
+          // A ray that is parallel to a face has not hit that face.
           const V3<S> local_way = {dot<S>(rows[0], way), dot<S>(rows[1], way), dot<S>(rows[2], way)};
           const V3<S> off_others = Shape::template off_parallel_faces<S>(local, local_way, 1.0f);
           of_kind = Shape::template gradient<S>(off_others, o.parameters);
@@ -103,8 +103,8 @@ template <class S, bool kOfHeavy, bool kMoves>
 
 namespace module_heavy {
 
-/// As module_shapes::intersect(), of heavy shapes, which take so many lanes at a time as rare code does, and
-/// time for each crossing.
+/// Intersects heavy shapes; see module_shapes::intersect(). Heavy shapes process as many lanes at a time as
+/// rare code does, and take time for each crossing.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
                                       const ExtraRecord& extra, uint32_t self, const AskedCrossings& asked,
@@ -147,7 +147,7 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
 
 } // namespace module_heavy
 
-/// Which of the points are in a solid that is heavy, and has heavy points or not.
+/// Returns the points inside a heavy solid, with or without heavy points.
 template <class Spu, bool kHeavyPoints>
 [[gnu::always_inline]] inline uint32_t inside_heavy(const SolidRecord& solid,
                                                     const V3<typename Spu::simd>& points) {
@@ -167,7 +167,7 @@ template <class Spu, bool kHeavyPoints>
 
 namespace module_heavy_points {
 
-/// As module_shapes::inside(), of shapes with heavy points.
+/// Returns the points inside a solid with heavy points; see module_shapes::inside().
 template <class Spu>
 CELLTRACE_ONE_COPY [[gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord& solid,
                                                     const V3<typename Spu::simd>& points) {
@@ -175,7 +175,7 @@ CELLTRACE_ONE_COPY [[gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord&
   return inside_heavy<Spu, true>(solid, points);
 }
 
-/// As local_normal(), of shapes with heavy points.
+/// Returns the normals of shapes with heavy points; see local_normal().
 template <class Spu>
 CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
                                                       const V3<typename Spu::rare_simd>& point) {
@@ -187,7 +187,7 @@ CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLane
 
 namespace module_shapes {
 
-/// The crossings of rays in the space of a shape that is not heavy.
+/// Finds the crossings of rays in the space of a shape that is not heavy.
 template <class Spu, class Shape>
 [[gnu::always_inline]] inline void intersect_local(const LocalRays<typename Spu::simd>& rays,
                                                    const LocalParameters<typename Spu::simd>& parameters,
@@ -197,8 +197,8 @@ template <class Spu, class Shape>
                                      crossings);
 }
 
-/// The crossings of a packet with an object; returns how many pairs. Rays are transformed in one place for
-/// all shapes that want it: local store is short.
+/// Finds the crossings of a packet with an object; returns the number of pairs. Rays are transformed in one
+/// place for all shapes that need it, as local store is short.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
                                       const ExtraRecord& extra, uint32_t self,
@@ -225,7 +225,7 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
   return pairs;
 }
 
-/// The same of a shape that is known, where there is room for code.
+/// Finds the crossings with a shape that is known at compile time, where there is room for code.
 template <class Spu, class Shape>
 [[gnu::always_inline]] inline void intersect_shape(const RayPacket& rays, const ObjectRecord& object,
                                                    const ExtraRecord& extra, uint32_t self,
@@ -238,7 +238,7 @@ template <class Spu, class Shape>
     Shape::template intersect<S>(rays, object, extra, self, crossings);
 }
 
-/// Which of the points are in a solid whose points are not heavy.
+/// Returns the points inside a solid without heavy points.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<typename Spu::simd>& points) {
   using S = typename Spu::simd;
@@ -260,20 +260,20 @@ CELLTRACE_ONE_COPY uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<
 
 } // namespace module_shapes
 
-/// The unit normals of shapes in a space of their own whose points are not heavy.
+/// Returns the unit normals of shapes in a space of their own without heavy points.
 template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
   return normal_in_own_space<S, false, false>(o, point, point, nullptr);
 }
-/// The same where there is room for the code. Points along a ray are as exact as its distance, points moved
-/// onto flat faces as themselves: a pattern may have a step there.
+/// Returns the unit normals where there is room for more code, and moves `point` onto flat faces. Points
+/// along a ray are only as exact as its distance, and a pattern may have a step on a flat face.
 template <class S>
 CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& way, V3<S>& point) {
   const V3<S> along_ray = point;
   return normal_in_own_space<S, false, true>(o, along_ray, way, &point);
 }
 
-/// Finds the normals of objects that are no spheres, triangles or planes, part by part. Points on flat faces
-/// move there if a packet is one part; others stay where they are.
+/// Finds the normals of objects other than spheres, triangles or planes, part by part. Points on flat faces
+/// are moved onto them if a packet is one part; otherwise points stay.
 template <class Spu>
 [[gnu::always_inline]] inline void
 find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,

@@ -1,4 +1,4 @@
-// Sphere: centre and radius in the world. Kernel dialect.
+// The sphere: centre and radius in the world. Kernel dialect.
 #pragma once
 
 #include "kernel/aabb.hpp"
@@ -11,9 +11,9 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// The crossings with a sphere around the point that is `half_chord_centre` along the ray, `square` = (half
-/// chord)^2. A ray that starts on the sphere leaves it at twice that distance, exactly, whatever the rounding
-/// of its origin.
+/// Returns the crossings with a sphere at the distance `half_chord_centre` along the ray, plus and minus half
+/// the chord, where `square` = (half chord)^2. A ray that starts on the sphere leaves it at exactly twice
+/// that distance, whatever the rounding of its origin.
 template <class S>
 Crossings<S> chord(const typename S::F& half_chord_centre, const typename S::F& square,
                    const typename S::M& starts_here) {
@@ -32,15 +32,15 @@ Crossings<S> chord(const typename S::F& half_chord_centre, const typename S::F& 
 
 } // namespace detail
 
-/// The geometric test (Haines, in Glassner, An Introduction to Ray Tracing).
+/// Intersects a sphere by the geometric test (Haines, in Glassner, An Introduction to Ray Tracing).
 template <class S>
 Crossings<S> intersect_sphere(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
                               const ObjectRecord& object) {
   using F = typename S::F;
   const V3<S> to_centre = splat3<S>(object.geometry) - origin;
   const F along = dot<S>(to_centre, direction);
-  // The perpendicular itself, not |to_centre|^2 - along^2: the difference of two large squares loses small
-  // spheres that are far away.
+  // The perpendicular is computed itself, not |to_centre|^2 - along^2: the difference of two large squares
+  // loses small spheres that are far away.
   const V3<S> perpendicular = to_centre - direction * along;
   const F radius(object.geometry[3]);
   return detail::chord<S>(along, radius * radius - dot<S>(perpendicular, perpendicular), starts_here);
@@ -86,7 +86,7 @@ struct SpherePrimitive : ShapeTraits {
     return box;
   }
 
-  /// The surface touches a box whose nearest point is inside and whose farthest one is outside.
+  /// Returns true if the surface may touch a box: its nearest point is inside and its farthest one outside.
   static bool overlaps(const ObjectRecord& object, const ExtraRecord&, const Aabb& box) {
     const float* g = object.geometry;
     float nearest = 0.0f;

@@ -1,11 +1,11 @@
-// Superellipsoid: (|x|^p + |y|^p)^(q/p) + |z|^q = 1 of its space, where p is `ratio` and q is `second`.
+// The superellipsoid: (|x|^p + |y|^p)^(q/p) + |z|^q = 1 of its space, where p is `ratio` and q is `second`.
 // Kernel dialect.
 //
-// Rays are followed by the sum's root, to the power 1/q: as a distance does, it grows in proportion to how
-// far a point is from the centre, so that single precision does for any exponents. Where p and q are 1 or
-// more it is convex: no tangent comes above it, so that Newton's method leads from outside to the crossing
-// and not beyond it. Otherwise the shape is thin along the planes between the octants; these part the line
-// into intervals, in each of which the root turns once at most.
+// Rays are followed by the sum's root, to the power 1/q: like a distance, it grows in proportion to a point's
+// distance from the centre, so that single precision suffices for any exponents. If p and q are 1 or more the
+// shape is convex: no tangent rises above the root, so that Newton's method leads from outside to the
+// crossing and not beyond it. Otherwise the shape is thin along the planes between the octants, which divide
+// the line into intervals with at most one turn of the root.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -32,7 +32,7 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
     const Line<S> line(rays, parameters);
     if (line.in_box.bits() == 0) return;
     const F one(1.0f);
-    // One shape for all rays.
+    // All rays have one shape.
     const bool is_convex = ((parameters.ratio >= one) & (parameters.second >= one)).bits() != 0;
     // A ray that starts here goes inward, and leaves the shape next, or outward, and enters it next; another
     // crossing before that is the start itself.
@@ -64,7 +64,7 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
 private:
   static constexpr float kLeast = 1e-37f;
 
-  /// Those of the powers that Terms has.
+  /// Exponents of the powers in Terms.
   template <class S> struct Exponents {
     using F = typename S::F;
     F of[5];
@@ -79,7 +79,7 @@ private:
     [[gnu::always_inline]] F raise(int number, const F& x) const { return pow<S>(x, of[number]); }
   };
 
-  /// The same of one shape for all lanes, where there is room for more code: products and square roots take
+  /// Exponents if all lanes have one shape, where there is room for more code: products and square roots take
   /// less time than other powers.
   template <class S> struct ExponentsOfOne : Exponents<S> {
     using F = typename S::F;
@@ -106,7 +106,7 @@ private:
     }
     static F product(const F& x, int n) {
       if (n == 1) return x;
-      // What is less counts for nothing in a sum of about 1, and its products may be denormal.
+      // Smaller numbers do not matter in a sum of about 1, and their products may be denormal.
       F factor = S::max(x, F(n < 4 ? 1e-12f : 0.0055f)), all(1.0f);
       for (;; factor = factor * factor) {
         if ((n & 1) != 0) all = all * factor;
@@ -120,16 +120,16 @@ private:
     }
   };
 
-  /// What the equation says at a point.
+  /// The terms of the equation at a point.
   template <class S> struct Terms {
     using F = typename S::F;
-    /// |x|^p, |y|^p, |z|^q, the sum of the first two to the power q/p, and that of the next two to the power
-    /// 1/q.
+    /// Values of |x|^p, |y|^p, |z|^q, the sum of the first two to the power q/p, and the sum of the previous
+    /// two to the power 1/q.
     F power[5];
 
     template <class Powers> [[gnu::always_inline]] Terms(const V3<S>& at, const Powers& powers) {
       F base[5] = {S::abs(at.x), S::abs(at.y), S::abs(at.z)};
-      // A loop, as local store has room for one copy of powers.
+      // In a loop, as local store has room for one copy of powers.
       for (int i = 0; i < 5; ++i) {
         if (i == 3) base[i] = power[0] + power[1];
         if (i == 4) base[i] = sum();
@@ -138,7 +138,7 @@ private:
     }
     [[gnu::always_inline]] F sum() const { return power[3] + power[2]; }
     [[gnu::always_inline]] F root() const { return power[4]; }
-    /// Of the root.
+    /// Returns the gradient of the root.
     [[gnu::always_inline]] V3<S> gradient(const V3<S>& at) const {
       const F along = root() / S::max(sum(), F(kLeast));
       const F across = along * power[3] / S::max(power[0] + power[1], F(kLeast));
@@ -147,28 +147,28 @@ private:
     }
 
   private:
-    /// Cusps are at 0, where the gradient has no end.
+    /// Returns 1 / x, limited near cusps at 0, where the gradient is infinite.
     [[gnu::always_inline]] static F inverse(const F& x) {
       const F away = S::max(S::abs(x), F(1e-7f));
       return F(1.0f) / S::select(x < F(0.0f), -away, away);
     }
   };
 
-  /// The lines of rays, by the distance in the shape's space from where they are closest to the centre.
+  /// The lines of rays, by the distance in the shape's space from the point that is closest to the centre.
   template <class S> struct Line {
     using F = typename S::F;
     using M = typename S::M;
-    /// For code that leaves out what is not asked for.
+    /// True if there is room for code that leaves out crossings that are not wanted.
     static constexpr bool kHasRoom = S::kLanes == kSimdLanes;
 
     std::conditional_t<kHasRoom, ExponentsOfOne<S>, Exponents<S>> exponents;
-    F inverse_scale, shift; ///< of distances along rays
+    F inverse_scale, shift; ///< for distances along rays
     V3<S> o, d;
-    V3<S> planes; ///< where the line crosses the planes between octants
-    /// Where it is in the box: a little more of it, so that it is outside at both ends for certain.
+    V3<S> planes; ///< distances of the planes between octants
+    /// The interval in a slightly extended box, so that both ends are certainly outside of the shape.
     F enter, leave;
     M in_box;
-    /// Where there is room: the rays, and from where on crossings are looked for.
+    /// If kHasRoom: the rays, and the distance from which on crossings are wanted.
     const LocalRays<S>* asking;
     F begin;
 
@@ -194,10 +194,10 @@ private:
     }
 
     F distance_at(const F& t) const { return (t + shift) * inverse_scale; }
-    /// Whether those after a crossing need not be found.
+    /// Returns true if crossings after this one need not be found.
     M is_enough(const F& distance) const { return distance > F(asking->asked->enough); }
 
-    /// Of the rays that start on the shape.
+    /// Returns the rays that start on the shape and go inward.
     M goes_inward(const M& start) const {
       if (start.bits() == 0) return M::none();
       F value, slope;
@@ -205,7 +205,7 @@ private:
       return slope < F(0.0f);
     }
 
-    /// The root of the sum, less 1: below 0 inside.
+    /// Finds the root of the sum, less 1, and its slope: negative values are inside.
     CELLTRACE_ONE_COPY void at(const F& t, F& value, F& slope) const {
       const V3<S> p = o + d * t;
       const Terms<S> terms(p, exponents);
@@ -213,9 +213,9 @@ private:
       slope = dot<S>(terms.gradient(p), d);
     }
 
-    /// Of the rays `wanted`, those that cross a convex shape: `near` and `far`, which are outside before and
-    /// behind it, move to the crossings. Where there is room for code, not `near` of rays that start on it,
-    /// nor `far` where `near` is enough. The result of a ray depends on no other ray.
+    /// Returns the rays of `wanted` that cross a convex shape: `near` and `far`, which are outside in front
+    /// of and behind it, move to the crossings. If kHasRoom, `near` does not move for rays that start on the
+    /// shape, nor `far` if `near` is enough. The result of a ray depends on no other ray.
     CELLTRACE_ONE_COPY M cross_convex(F& near, F& far, M wanted) const {
       const F zero(0.0f);
       for (int end = 0; end < 2; ++end) {
@@ -230,7 +230,7 @@ private:
           F above, along;
           at(t, above, along);
           along = along * ahead;
-          // Where it rises, or the other end has come, there was none.
+          // A ray misses the shape if the value rises, or the other end is reached.
           const M misses = moves & (above > zero) & ((along >= zero) | ((limit - t) * ahead <= zero));
           wanted = wanted & !misses;
           moves = moves & !misses;
@@ -243,8 +243,8 @@ private:
       return wanted;
     }
 
-    /// The crossings with a shape that may be entered twice. Of rays that start on it and go `inward` or not,
-    /// the next one behind the start is the first.
+    /// Finds the crossings with a shape that may be entered twice. The first crossing of a ray that starts on
+    /// the shape is the next one behind the start, according to `inward`.
     void cross_thin(M starts, const M& inward, Crossings<S>* crossings) const {
       const F zero(0.0f);
       const F low = S::min(planes.x, planes.y), high = S::max(planes.x, planes.y);
@@ -298,13 +298,13 @@ private:
     }
 
   private:
-    /// Of the rays `wanted`, which are on the same side at `low` and `high`, those that are on the other one
-    /// in between: there `high` becomes a place where they are.
+    /// Returns the rays of `wanted`, on one side of the surface at `low` and `high`, that are on the other
+    /// side in between; `high` moves to such a place.
     CELLTRACE_ONE_COPY M other_side(F low, F& high, const M& outside, M wanted) const {
       M found = M::none();
       if (wanted.bits() == 0) return found;
       const F zero(0.0f), sign = S::select(outside, F(1.0f), F(-1.0f));
-      const F margin = (high - low) * F(1e-4f); // off cusps, at which slopes mean nothing
+      const F margin = (high - low) * F(1e-4f); // off cusps, at which slopes are meaningless
       F end = high - margin, at_low, at_end, slope_low, slope_end;
       low = low + margin;
       at(low, at_low, slope_low);
@@ -313,7 +313,7 @@ private:
       at_end = at_end * sign, slope_end = slope_end * sign;
       wanted = wanted & (slope_low < zero) & (slope_end > zero);
       for (int i = 0; i < 14 && wanted.bits() != 0; ++i) {
-        // Where the tangents meet.
+        // The next place is where the tangents meet.
         const F width = end - low;
         const F meet = (at_low - at_end + slope_end * width) / S::max(slope_end - slope_low, F(1e-20f));
         const F t = low + S::select((meet > zero) & (meet < width), meet, width * F(0.5f));
@@ -335,8 +335,8 @@ private:
       return found;
     }
 
-    /// Of the rays `wanted`, the crossing between `low` and `high`; `falls`: outside at `low`. The result of
-    /// a ray depends on no other ray.
+    /// Returns the crossing between `low` and `high` for the rays `wanted`; `falls`: outside at `low`. The
+    /// result of a ray depends on no other ray.
     CELLTRACE_ONE_COPY F root_between(F low, F high, const M& falls, M wanted) const {
       const F sign = S::select(falls, F(-1.0f), F(1.0f)), half(0.5f);
       F t = (low + high) * half;
@@ -358,7 +358,7 @@ private:
     }
   };
 
-  /// Newton's method ends where it moves less than this: the next step would be in the order of its square.
+  /// Step below which Newton's method ends: the next one would be in the order of its square.
   static constexpr float kConverged = 1e-5f;
 };
 

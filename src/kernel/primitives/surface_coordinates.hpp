@@ -1,4 +1,4 @@
-// Surface coordinates that several shapes have. Kernel dialect.
+// Surface coordinates of several shapes. Kernel dialect.
 #pragma once
 
 #include "kernel/angles.hpp"
@@ -6,14 +6,14 @@
 
 namespace celltrace::kernel {
 
-/// An angle in turns from 0 up to 1.
+/// Returns an angle in turns, in [0, 1).
 template <class S>
 [[gnu::always_inline]] inline typename S::F whole_turns(const typename S::F& y, const typename S::F& x) {
   const typename S::F turns = turns_inline<S>(y, x);
   return turns - S::floor(turns);
 }
 
-/// Around the y axis, and from pole to pole.
+/// Finds the coordinates on a sphere: around the y axis, and from pole to pole.
 template <class S>
 [[gnu::always_inline]] inline void map_sphere(const V3<S>& p, typename S::F& u, typename S::F& v) {
   using F = typename S::F;

@@ -1,8 +1,8 @@
-// Torus: around the z axis of its space, major radius 1, minor radius `ratio`. Kernel dialect.
+// The torus: around the z axis of its space, major radius 1, minor radius `ratio`. Kernel dialect.
 //
 // Measured from the point of the ray that is nearest to the centre, the quartic has no cubic term. The three
-// places where its slope is 0 part the ray into intervals with one crossing at most, each of which is found
-// by Newton's method between bounds: that stands the rounding of single precision, which closed formulas of
+// places where its slope is 0 divide the ray into intervals with at most one crossing, which is found by
+// Newton's method between bounds: this tolerates the rounding of single precision, which closed formulas of
 // quartics do not.
 #pragma once
 
@@ -44,12 +44,12 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     auto starts = rays.starts_here;
     F distance[4];
     typename S::M hit[4] = {S::M::none(), S::M::none(), S::M::none(), S::M::none()};
-    auto asks = near_enough; // for further crossings
-    F value = one;           // of the first bound: it is outside
+    auto asks = near_enough; // rays that want further crossings
+    F value = one;           // value at the current bound, which is outside at first
     F half_width = zero;
     for (int i = 0; i < 4; ++i) {
       const F next = f.at(bounds[i + 1]);
-      // The two crossings about each least value are where a parabola would have them, nearly.
+      // The two crossings about each minimum are close to those of a parabola.
       if (i % 2 == 0) half_width = f.half_width(bounds[i + 1], next);
       const F about = i % 2 == 0 ? bounds[i + 1] - half_width : bounds[i] + half_width;
       const auto falls = value > zero;
@@ -76,9 +76,9 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     }
   }
 
-  /// Those of the rays `wanted`, which may hit it, that cross a torus farther than `rays.asked->enough`, and
-  /// nearer than its limit by kShadowEpsilon, where `clipped` keeps crossings (nullptr: everywhere). None of
-  /// them starts on it.
+  /// Returns the rays of `wanted`, which may hit the torus, that cross it farther than `rays.asked->enough`,
+  /// nearer than their limit less kShadowEpsilon, and where `clipped` keeps crossings (nullptr: everywhere).
+  /// None of them may start on the torus.
   template <class S>
   static typename S::M crossed(const typename S::M& wanted, const LocalRays<S>& rays,
                                const typename S::F& ratio, const ClippedRays* clipped) {
@@ -93,12 +93,12 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     if (clipped == nullptr) return f.crosses(wanted, {Stretch{first, last}});
     const F enter = there(F::load(clipped->enter.lane)), leave = there(F::load(clipped->leave.lane));
     if (clipped->keeps_inside) return f.crosses(wanted, {Stretch{S::max(first, enter), S::min(last, leave)}});
-    // Of rays that miss the solid, both stretches overlap.
+    // For rays that miss the solid, both stretches overlap.
     return f.crosses(wanted, {Stretch{first, S::min(last, enter)}, Stretch{S::max(first, leave), last}});
   }
 
-  /// Some of those, at little cost: rays that are within the torus where they cross its plane, and were
-  /// outside of it before. Not those of which rounding might decide.
+  /// Returns some of the rays for which crossed() is true, at little cost: rays that are inside the torus
+  /// where they cross its plane, and were outside before. Rays for which rounding might decide are left out.
   template <class S>
   static typename S::M surely_crossed(const LocalRays<S>& rays, const typename S::F& ratio,
                                       const ClippedRays* clipped) {
@@ -137,13 +137,13 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
 
   template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
     using F = typename S::F;
-    // From the nearest point of the circle in the tube's middle.
+    // The normal points from the nearest point of the circle in the tube's middle.
     const F inverse = F(1.0f) / S::max(S::sqrt(p.x * p.x + p.y * p.y), F(1e-20f));
     return {p.x - p.x * inverse, p.y - p.y * inverse, p.z};
   }
 
-  /// All rays that hit the torus before their limits, and few that do not. Most rays that come to a torus
-  /// miss it, many of them through its hole: one division or two tell, where the quartic would take four
+  /// Returns all rays that hit the torus before their limits, and few others. Most rays that come near a
+  /// torus miss it, many of them through its hole: this test takes one division or two, the quartic four
   /// roots and more divisions.
   template <class S> static typename S::M may_hit(const LocalRays<S>& rays, const typename S::F& ratio) {
     using F = typename S::F;
@@ -154,7 +154,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     const F ahead = dot<S>(o, d), outside = dot<S>(o, o) * F(1.0f - 1e-6f) - outer * outer;
     const auto in_ball = ahead * ahead >= dot<S>(d, d) * outside;
     const auto comes_near = (ahead <= zero) | (outside <= zero);
-    // Where it is as near to the plane as the tube, it does not leave the hole.
+    // A ray through the hole does not leave the hole while it is as near to the plane as the tube.
     const SlabInterval<S> slab(o.z, d.z, -height, height);
     const auto from_axis = [&](const F& t) {
       const F x = o.x + d.x * t, y = o.y + d.y * t;
@@ -163,16 +163,16 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     const F hole = S::max(one - ratio - rounding, zero), hole_square = hole * hole;
     const auto in_hole = (from_axis(slab.enter) < hole_square) & (from_axis(slab.leave) < hole_square);
     const auto near_enough = in_ball & comes_near & (slab.leave >= zero) & !in_hole;
-    if constexpr (S::kLanes != kSimdLanes) return near_enough; // there is no room for code
+    if constexpr (S::kLanes != kSimdLanes) return near_enough; // there is no room for more code
     const FloatLanes* const limit = rays.asked->limit;
     const auto in_time = limit != nullptr ? near_enough & (slab.enter <= F::load(limit->lane)) : near_enough;
     if (in_time.bits() == 0) return in_time;
-    // And comes to the tube there.
+    // The ray must also come near the tube there.
     const F nearest = -(o.x * d.x + o.y * d.y) / S::max(d.x * d.x + d.y * d.y, F(1e-30f));
     return in_time & (from_axis(S::min(S::max(nearest, slab.enter), slab.leave)) <= outer * outer);
   }
 
-  /// Around the ring, and around the tube. The axes here are z, x, y of POV-Ray's.
+  /// Finds the coordinates around the ring and around the tube. The axes here are z, x, y of POV-Ray's.
   template <class S>
   [[gnu::always_inline]] static void coordinates(const SurfacePoint<S>& at, typename S::F& u,
                                                  typename S::F& v) {
@@ -185,14 +185,14 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static LocalBounds local_bounds(float ratio) { return {-ratio, ratio, 1.0f + ratio, false}; }
 
 private:
-  /// Ratios below this are those of thin tori.
+  /// Ratio below which tori are thin.
   static constexpr float kThin = 0.1f;
-  /// Newton's method ends where it moves less than this: the next step would be in the order of its square.
+  /// Step below which Newton's method ends: the next one would be in the order of its square.
   static constexpr float kConverged = 1e-4f;
-  /// Likewise Halley's, whose next step would be in the order of its cube.
+  /// Step below which Halley's method ends: the next one would be in the order of its cube.
   static constexpr float kStationary = 1e-3f;
 
-  /// Rays measured from their nearest points to the centre, in the unit of the torus's space.
+  /// Rays measured from their nearest points to the centre, in units of the torus's space.
   template <class S> struct FromCentre {
     using F = typename S::F;
     F scale, inverse_scale, shift;
@@ -205,16 +205,16 @@ private:
       shift = -dot<S>(rays.origin, direction);
       origin = rays.origin + direction * shift;
     }
-    /// Of a distance along the ray.
+    /// Converts a distance along the ray.
     F place_at(const F& distance) const { return distance * scale - shift; }
   };
 
-  /// t^4 + p t^2 + q t + r along a ray, which is a torus's function at the ray's points.
+  /// The quartic t^4 + p t^2 + q t + r along a ray, which is the torus's function at the ray's points.
   template <class S> struct Quartic {
     using F = typename S::F;
     V3<S> origin, direction;
-    F inner, outer, p, q, r; ///< the first two are radii of the torus
-    typename S::M thin;      ///< tori
+    F inner, outer, p, q, r; ///< `inner` and `outer` are radii of the torus
+    typename S::M thin;      ///< lanes with thin tori
 
     Quartic(const FromCentre<S>& rays, const F& ratio) : origin(rays.origin), direction(rays.direction) {
       const V3<S>&o = origin, &d = direction;
@@ -227,17 +227,17 @@ private:
       q = F(-8.0f) * (o.x * d.x + o.y * d.y);
       r = g * g - four * (o.x * o.x + o.y * o.y);
     }
-    /// A little farther along the ray than the torus: it is outside for certain.
+    /// Returns a place slightly beyond the torus, which is certainly outside.
     F end() const {
       return S::sqrt(S::max(outer * outer - dot<S>(origin, origin), F(0.0f))) * F(1.001f) + F(1e-4f);
     }
 
-    /// Where a zero is looked for.
+    /// An interval in which a zero is searched for.
     struct Stretch {
       F first, last;
     };
-    /// Which of the rays `wanted` have a zero in one of some stretches: between the places where the slope is
-    /// 0 the sign changes, or it does not.
+    /// Returns the rays of `wanted` with a zero in one of some stretches: the sign changes at an end of a
+    /// stretch or at a place where the slope is 0.
     template <uint32_t kCount>
     typename S::M crosses(const typename S::M& wanted, const Stretch (&stretches)[kCount]) const {
       const F zero(0.0f);
@@ -261,9 +261,10 @@ private:
       return S::M::from_bits(crossed & 0xFFFF);
     }
 
-    /// Of a thin torus from the point: r is the difference of numbers of which the square of a thin tube is
-    /// too small a part. The first factor is that of the tube on the axis's side of the point. Where rays are
-    /// taken in parts, as there is no room for code, all tori are thin.
+    /// Returns the value. For a thin torus it is computed from the point: r is a difference of numbers of
+    /// which the square of a thin tube is too small a part. The first factor is that of the tube on the
+    /// axis's side of the point. If rays are processed in parts, for lack of room for code, all tori count as
+    /// thin.
     F at(const F& t) const {
       if constexpr (S::kLanes == kSimdLanes) {
         const uint32_t thin_lanes = thin.bits() & 0xFFFF;
@@ -283,9 +284,10 @@ private:
     }
     F slope(const F& t) const { return (F(4.0f) * t * t + F(2.0f) * p) * t + q; }
 
-    /// Of the rays `wanted`, in rising order; where there is only one, all are that.
+    /// Finds the places where the slope is 0 for the rays `wanted`, in rising order; if there is only one,
+    /// all three are that place.
     void stationary_points(typename S::M wanted, F& a, F& b, F& c) const {
-      // x^3 + (p/2) x - |q|/4 is convex for x > 0 and has its greatest zero there: Halley's method comes down
+      // x^3 + (p/2) x - |q|/4 is convex for x > 0 and has its greatest zero there: Halley's method descends
       // to it from any bound. No torus reaches farther than 2 from its centre.
       const F half(0.5f), zero(0.0f);
       const F linear = p * half, constant = S::abs(q) * F(0.25f);
@@ -301,7 +303,7 @@ private:
         wanted = wanted & moves;
       }
       const F greatest = S::select(q < zero, x, -x);
-      // The others are zeros of t^2 + greatest t + (greatest^2 + p/2).
+      // The other places are zeros of t^2 + greatest t + (greatest^2 + p/2).
       const F discriminant = F(-3.0f) * greatest * greatest - F(2.0f) * p;
       const auto three = discriminant > zero;
       const F root = S::sqrt(S::max(discriminant, zero));
@@ -312,22 +314,24 @@ private:
       b = S::max(S::min(greatest, v), u);
     }
 
-    /// The cube root of x >= 0, or up to a tenth more: a third of the logarithm that the bits are, nearly.
+    /// Returns the cube root of x >= 0, or up to a tenth more: the bits are nearly the logarithm, which is
+    /// divided by three.
     static F above_cube_root(const F& x) {
       using I = typename S::I;
       const F third = S::to_float(S::bits_of(x)) * F(1.0f / 3);
       return F(1.07f) * S::float_of(S::to_int(third) + I::splat(0x2A50'0000));
     }
 
-    /// How far from `least`, where the slope is 0 and the value is `value`, a parabola of the same curvature
-    /// has its zeros.
+    /// Returns the distance of a parabola's zeros from `least`, where the slope is 0, the value is `value`,
+    /// and the curvature is the same.
     F half_width(const F& least, const F& value) const {
       const F curvature = F(12.0f) * least * least + F(2.0f) * p;
       return S::sqrt(S::max(F(-2.0f) * value / S::max(curvature, F(1e-6f)), F(0.0f)));
     }
 
-    /// Of the rays `wanted`, the zero between `low` and `high`, between which the slope has one sign, and
-    /// perhaps near `about`; `falls`: positive at `low`. The result of a ray depends on no other ray.
+    /// Returns the zero between `low` and `high`, between which the slope has one sign, for the rays
+    /// `wanted`; it is probably near `about`. `falls`: positive at `low`. The result of a ray depends on no
+    /// other ray.
     F root_between(F low, F high, const F& about, const typename S::M& falls, typename S::M wanted) const {
       const F sign = S::select(falls, F(-1.0f), F(1.0f)), half(0.5f);
       F t = S::select((about >= low) & (about <= high), about, (low + high) * half);

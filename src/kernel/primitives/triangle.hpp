@@ -1,4 +1,4 @@
-// Triangle: three vertices in the world. The minimum-storage test of Moeller and Trumbore (1997). Kernel
+// The triangle: three vertices in the world. The minimum-storage test of Moeller and Trumbore (1997). Kernel
 // dialect.
 #pragma once
 
@@ -12,14 +12,14 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-// What all tests of triangles have in common.
+// Constants of all tests of triangles.
 constexpr float kUnitInLastPlace = 6e-8f;
-constexpr float kMaxOverlap = 1e-3f;        ///< of neighbours, in barycentric coordinates
-constexpr float kLeastDeterminant = 1e-30f; ///< rays along the plane have less
+constexpr float kMaxOverlap = 1e-3f;        ///< largest overlap of neighbours, in barycentric coordinates
+constexpr float kLeastDeterminant = 1e-30f; ///< rays parallel to the plane have less
 
 } // namespace detail
 
-/// A triangle for a packet of rays, or one for each lane.
+/// A triangle for a packet of rays, or one triangle for each lane.
 template <class S> struct TriangleSides {
   V3<S> v0, edge1, edge2;
 
@@ -30,9 +30,9 @@ template <class S> struct TriangleSides {
   }
 };
 
-/// Neighbours overlap by what the rounding of the barycentric coordinates may amount to, so that no ray slips
-/// between them: that grows with the distance over the triangle's size, and as the ray gets parallel to it.
-/// Returns this overlap, times the determinant.
+/// Returns the overlap of neighbouring triangles, times the determinant. The overlap is the largest rounding
+/// error of the barycentric coordinates, so that no ray slips between triangles: it grows with the distance
+/// over the triangle's size, and as the ray becomes parallel to the triangle.
 template <class S>
 [[gnu::always_inline]] inline typename S::F triangle_overlap(const V3<S>& from_v0, const V3<S>& edge1,
                                                              const V3<S>& edge2) {
@@ -41,7 +41,8 @@ template <class S>
   return absolute_sum<S>(from_v0) * (F(detail::kUnitInLastPlace) * size);
 }
 
-/// A triangle as seen from the origins of a packet's rays; what packets of one origin have in common.
+/// A triangle as seen from the origins of a packet's rays: the part of the test that packets of one origin
+/// share.
 template <class S> class SeenTriangle {
 public:
   using F = typename S::F;
@@ -54,7 +55,7 @@ public:
     overlap_ = triangle_overlap<S>(from_v0_, edge1_, edge2_);
   }
 
-  /// By rays of these directions.
+  /// Returns the crossings of rays with these directions.
   [[gnu::always_inline]] Crossings<S> crossed(const V3<S>& direction,
                                               const typename S::M& starts_here) const {
     const V3<S> p = cross<S>(direction, edge2_);
@@ -72,8 +73,8 @@ public:
     return c;
   }
 
-  /// Which rays of these directions cross it between the distances `first` and `last`. Everything is compared
-  /// times the determinant, so that nothing has to be divided by it.
+  /// Returns the rays with these directions that cross the triangle between the distances `first` and `last`.
+  /// All comparisons are multiplied by the determinant, so that nothing has to be divided by it.
   [[gnu::always_inline]] typename S::M crossed_between(const V3<S>& direction,
                                                        const typename S::M& starts_here, const F& first,
                                                        const F& last) const {
@@ -89,7 +90,7 @@ public:
     return (size > F(detail::kLeastDeterminant)) & inside & in_between & !starts_here;
   }
 
-  /// By the rays of a packet.
+  /// Returns the crossings of a packet's rays.
   [[gnu::always_inline]] Crossings<S> crossed(const RayPacket& rays, uint32_t self) const {
     return crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self));
   }
@@ -105,8 +106,8 @@ Crossings<S> intersect_triangle(const V3<S>& origin, const V3<S>& direction, con
   return SeenTriangle<S>(origin, TriangleSides<S>::of(object)).crossed(direction, starts_here);
 }
 
-/// Separating axes of a triangle and a box (Akenine-Moeller 2001): the box's axes are those of the candidate
-/// voxels already; left are the triangle's normal and the nine cross products of edges.
+/// Tests a triangle and a box by separating axes (Akenine-Moeller 2001). The candidate voxels already overlap
+/// on the box's axes; the test is for the triangle's normal and the nine cross products of edges.
 inline bool triangle_overlaps(const ObjectRecord& object, const Aabb& box) {
   float vertex[3][3];
   float half[3];
@@ -158,12 +159,12 @@ struct TrianglePrimitive : ShapeTraits {
                                        lanes_that_start_on<S>(rays, self), object);
   }
 
-  /// A triangle alone has no inside; that of a mesh is found by its inside_vector.
+  /// Returns no lanes: a triangle alone has no inside; that of a mesh is found by its inside vector.
   template <class S> static typename S::M inside(const V3<S>&, const ObjectRecord&, const ExtraRecord&) {
     return S::M::none();
   }
 
-  /// Interpolates those of its vertices.
+  /// Interpolates the surface coordinates of the vertices.
   template <class S>
   [[gnu::always_inline]] static void coordinates(const SurfacePoint<S>& at, typename S::F& u,
                                                  typename S::F& v) {

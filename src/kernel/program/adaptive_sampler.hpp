@@ -1,5 +1,5 @@
-// Antialiasing by the adaptive method: pixels whose corners differ are divided into squares, as often as
-// these differ (after Whitted 1980). Kernel dialect.
+// Antialiasing by the adaptive method: pixels whose corners differ are divided into squares, again and again
+// while their corners differ (after Whitted 1980). Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -24,10 +24,10 @@ class AdaptiveSampler : public PixelSampler<Spu, SamplingMethod::adaptive, kChan
   static constexpr uint32_t kSquares = squares_at_once(kEdge);
   static constexpr uint32_t kRows = sampled_rows(kEdge);
 
-  /// The nine points of a square that is divided, in whole vectors.
+  /// Size of the nine points of a divided square, in whole vectors.
   static constexpr uint32_t kEncoded = (9 * kChannels + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
   struct Scratch : Base::Scratch {
-    Square squares[kSquares]; ///< that are being divided
+    Square squares[kSquares]; ///< squares that are being divided
     alignas(64) float encoding[kEncoded];
   };
 
@@ -36,12 +36,12 @@ class AdaptiveSampler : public PixelSampler<Spu, SamplingMethod::adaptive, kChan
 public:
   static constexpr uint32_t kScratchBytes = sizeof(Scratch);
 
-  /// As FixedSampler's.
+  /// Allocates memory; see FixedSampler.
   AdaptiveSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, uint8_t* scratch)
       : Base(spu, frame, samples, *reinterpret_cast<Scratch*>(scratch)),
         sums_(*spu.template allocate<Sums>()) {}
 
-  /// As FixedSampler's.
+  /// Takes colours and makes samples; see FixedSampler::advance().
   CELLTRACE_ONE_COPY bool advance(uint32_t column, uint32_t row) {
     if (takes_points(column, row)) return false;
     if (under_way_)
@@ -53,7 +53,7 @@ public:
   }
 
 private:
-  /// Of the colours of pixels, by row and channel.
+  /// Sums of the colours of pixels, by row and channel.
   struct alignas(128) Sums {
     alignas(64) float row[kRows][kChannels][kSampledEdge];
   };
@@ -70,7 +70,7 @@ private:
   }
 
   /// Makes the samples of as many squares as there is room for, the last ones first. False: the block is
-  /// done.
+  /// complete.
   CELLTRACE_ONE_COPY bool ask_for_squares() {
     while (waiting_ == 0) {
       if (rows_ != 0) write_rows();
@@ -93,13 +93,14 @@ private:
     end_asking(asked_ * kSamplesOfSquare);
     return true;
   }
-  /// Those that are being divided: behind the waiting ones.
+  /// Fetches the squares that are being divided, which follow the waiting ones.
   void fetch_squares() {
     fetch(scratch().squares, stored_square(waiting_), asked_ * static_cast<uint32_t>(sizeof(Square)));
   }
   static float edge_of(const Square& square) { return 1.0f / static_cast<float>(1u << square.level); }
 
-  /// The next rows of pixels: those whose corners are alike are done, of the others the squares wait.
+  /// Compares the corners of the pixels in the next rows: pixels with equal corners are complete, the squares
+  /// of the others wait.
   CELLTRACE_ONE_COPY void compare_corners() {
     first_row_ = next_row_;
     rows_ = smaller_of(height_ - next_row_, kRows);
@@ -124,7 +125,7 @@ private:
     return differing(upper, 0, upper, 1) | differing(upper, 0, lower, 0) | differing(upper, 0, lower, 1) |
            differing(upper, 1, lower, 0) | differing(upper, 1, lower, 1) | differing(lower, 0, lower, 1);
   }
-  /// The means of the corners of pixels, or 0 where they are divided.
+  /// Stores the means of the corners of pixels, or 0 for divided pixels.
   static void sum_corners(const Points& upper, const Points& lower, uint32_t divided,
                           float (&sums)[kChannels][kSampledEdge]) {
     const V3<R> zero = {F(0.0f), F(0.0f), F(0.0f)};
@@ -158,13 +159,13 @@ private:
     square.level = 0;
     push(square);
   }
-  /// `square` lies in local store.
+  /// Stores a waiting square; `square` lies in local store.
   CELLTRACE_ONE_COPY void push(const Square& square) {
     send(&square, stored_square(waiting_++), sizeof square);
     arrive();
   }
 
-  /// Makes four of each square that was asked for: those whose corners are alike are done, the others wait.
+  /// Divides each square with samples in four: squares with equal corners are complete, the others wait.
   CELLTRACE_ONE_COPY void divide_squares() {
     fetch_squares();
     take_channels(asked_ * kSamplesOfSquare);
@@ -172,7 +173,7 @@ private:
       divide(scratch().squares[i], i * kSamplesOfSquare);
   }
   CELLTRACE_ONE_COPY void divide(Square& square, uint32_t first) {
-    // Nine points, row by row: corners are known, what is between them are samples.
+    // Nine points, row by row: corners are known, the points between them are samples.
     float points[9][kChannels];
     for (uint32_t axis = 0; axis < kChannels; ++axis)
       for (uint32_t i = 0; i < 9; ++i)
@@ -211,7 +212,7 @@ private:
                                                      points[corners[2]][axis] + points[corners[3]][axis]);
     }
   }
-  /// By how much two colours differ.
+  /// Returns the difference of two colours.
   CELLTRACE_ONE_COPY static float distance(const float* a, const float* b) {
     const float sum = magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
     if constexpr (kHasAlpha)
@@ -228,7 +229,7 @@ private:
     return false;
   }
 
-  /// Pixels take the place of the corners in the picture.
+  /// Writes finished pixels over the grid points in the picture.
   CELLTRACE_ONE_COPY void write_rows() {
     for (uint32_t y = 0; y < rows_; ++y) {
       encode_pixels_of(sums_.row[y], scratch().words);
@@ -245,9 +246,9 @@ private:
   }
 
   Sums& sums_;
-  uint32_t first_row_ = 0, rows_ = 0; ///< the rows that are being summed up
+  uint32_t first_row_ = 0, rows_ = 0; ///< rows that are being summed up
   uint32_t next_row_ = 0;
-  uint32_t waiting_ = 0; ///< squares in the store
+  uint32_t waiting_ = 0; ///< number of waiting squares in the store
 };
 
 } // namespace celltrace::kernel

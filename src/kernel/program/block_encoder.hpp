@@ -1,8 +1,8 @@
-// BC1: 4x4 pixels in 8 bytes, two colours and how far each pixel is on the way between them (BlockImage in
-// image.hpp has the format). Kernel dialect.
+// BC1 encoder: 4x4 pixels in 8 bytes, which are two colours and the position of each pixel between them
+// (BlockImage in image.hpp describes the format). Kernel dialect.
 //
-// The colours begin as those of the pixels at the ends of the block's principal axis; then they and the
-// pixels' shares of them take turns, least squares for the colours. All numbers are whole and below 2^24
+// The first colours are those of the pixels at the ends of the block's principal axis. Then the pixels'
+// positions and, by least squares, the colours are improved in turn. All numbers are whole, and below 2^24
 // where they are floats, so that nothing rounds: the same pixels become the same block on every machine.
 #pragma once
 
@@ -14,19 +14,19 @@ namespace celltrace::kernel {
 
 struct EncodedBlock {
   uint8_t bytes[8];
-  uint32_t error; ///< of the pixels that count: squared differences, summed over red, green and blue
+  uint32_t error; ///< squared differences of the pixels that count, summed over red, green and blue
 };
 
 namespace block {
 
-/// The end colours, each 5, 6 and 5 bits, and what becomes of the pixels.
+/// The end colours, of 5, 6 and 5 bits, and the positions of the pixels between them.
 template <class S> struct Fit {
   uint32_t ends[2];
-  typename S::F thirds; ///< of the way from the first end to the second one, 0 to 3, by pixel
+  typename S::F thirds; ///< by pixel: thirds of the way from the first end to the second one, 0 to 3
   uint32_t error;
 };
 
-/// Of sixteen whole numbers, whose sum is below 2^24.
+/// Returns the sum of sixteen whole numbers, which must be below 2^24.
 template <class S> CELLTRACE_ONE_COPY float sum_of(const typename S::F& numbers) {
   using F4 = typename S::F4;
   alignas(64) float lane[kSimdLanes];
@@ -40,7 +40,7 @@ inline float whole(float number) {
   return static_cast<float>(static_cast<int32_t>(number));
 }
 
-/// Halves or doubles numbers until the greatest is `below` / 2 to `below`, and drops what is no whole number.
+/// Halves or doubles numbers until the greatest is between `below` / 2 and `below`, and truncates them.
 inline void scale_to(float below, float greatest, float* numbers, uint32_t count) {
   float scale = 1.0f;
   for (; greatest * scale >= below; scale *= 0.5f) {
@@ -51,14 +51,14 @@ inline void scale_to(float below, float greatest, float* numbers, uint32_t count
     numbers[i] = whole(numbers[i] * scale);
 }
 
-/// The direction in which pixels differ most, by the power method; whole numbers below 1024. No length: they
-/// are all of one colour.
+/// Finds the direction in which pixels differ most, by the power method; components are whole numbers below
+/// 1024. The result is 0 if all pixels have one colour.
 template <class S> CELLTRACE_ONE_COPY void find_axis(const V3<S>& pixels, float (&axis)[3]) {
   using F = typename S::F;
   constexpr uint32_t kIterations = 8;
   const auto mean_of = [](const F& channel) { return F(whole(sum_of<S>(channel) * 0.0625f + 0.5f)); };
   const V3<S> d = {pixels.x - mean_of(pixels.x), pixels.y - mean_of(pixels.y), pixels.z - mean_of(pixels.z)};
-  // xx, xy, xz, yy, yz, zz
+  // elements xx, xy, xz, yy, yz, zz
   float spread[6] = {sum_of<S>(d.x * d.x), sum_of<S>(d.x * d.y), sum_of<S>(d.x * d.z),
                      sum_of<S>(d.y * d.y), sum_of<S>(d.y * d.z), sum_of<S>(d.z * d.z)};
   const float greatest = larger(spread[0], larger(spread[3], spread[5]));
@@ -86,7 +86,7 @@ template <class S> CELLTRACE_ONE_COPY void find_axis(const V3<S>& pixels, float 
   }
 }
 
-/// A channel of 8 bits, rounded to 5 or 6.
+/// Round a channel of 8 bits to 5 or 6 bits.
 inline uint32_t to_five(uint32_t channel) {
   return (channel * 249 + 1014) >> 11;
 }
@@ -96,7 +96,7 @@ inline uint32_t to_six(uint32_t channel) {
 inline uint32_t make_end(uint32_t red, uint32_t green, uint32_t blue) {
   return red << 11 | green << 5 | blue;
 }
-/// The channels of an end, of 8 bits.
+/// Returns the channels of an end as 8 bits.
 inline void channels_of(uint32_t end, uint32_t (&channel)[3]) {
   const uint32_t red = end >> 11, green = end >> 5 & 63, blue = end & 31;
   channel[0] = red << 3 | red >> 2;
@@ -104,12 +104,12 @@ inline void channels_of(uint32_t end, uint32_t (&channel)[3]) {
   channel[2] = blue << 3 | blue >> 2;
 }
 
-/// The best that pixels can become between two ends. Those in `lanes` count.
+/// Finds the best positions of the pixels between two ends. The pixels in `lanes` count.
 template <class S>
 CELLTRACE_ONE_COPY void fit(const V3<S>& pixels, uint32_t lanes, uint32_t end_a, uint32_t end_b,
                             Fit<S>& result) {
   using F = typename S::F;
-  // The greater one is the first: otherwise there would be three colours only.
+  // The greater end is the first: otherwise there would be three colours only.
   result.ends[0] = end_a > end_b ? end_a : end_b;
   result.ends[1] = end_a > end_b ? end_b : end_a;
   uint32_t first[3], second[3];
@@ -120,7 +120,7 @@ CELLTRACE_ONE_COPY void fit(const V3<S>& pixels, uint32_t lanes, uint32_t end_a,
   for (uint32_t thirds = 0; thirds <= 3; ++thirds) {
     const auto channel = [&](uint32_t i) {
       const uint32_t sum = first[i] * (3 - thirds) + second[i] * thirds;
-      return F(static_cast<float>((sum * 21846) >> 16)); // a third
+      return F(static_cast<float>((sum * 21846) >> 16)); // divided by three
     };
     const V3<S> off = {pixels.x - channel(0), pixels.y - channel(1), pixels.z - channel(2)};
     const F distance = dot<S>(off, off);
@@ -132,7 +132,8 @@ CELLTRACE_ONE_COPY void fit(const V3<S>& pixels, uint32_t lanes, uint32_t end_a,
       static_cast<int32_t>(sum_of<S>(S::select(S::M::from_bits(lanes), least, F(0.0f)))));
 }
 
-/// The nearest number of `most` steps to number / whole, which are at most 255; 0 where it is negative.
+/// Returns the nearest of `most` steps to number / whole, of which each is at most 255; 0 if the number is
+/// negative.
 inline uint32_t steps_of(int32_t number, int32_t whole, uint32_t most) {
   if (number <= 0) return 0;
   if (number >= 255 * whole) return most;
@@ -144,7 +145,8 @@ inline uint32_t steps_of(int32_t number, int32_t whole, uint32_t most) {
   return steps;
 }
 
-/// The ends that suit the pixels' thirds best, by least squares; false if these do not tell.
+/// Finds the ends that suit the pixels' positions best, by least squares; false: the positions do not
+/// determine them.
 template <class S>
 CELLTRACE_ONE_COPY bool improve_ends(const V3<S>& pixels, const typename S::F& thirds, uint32_t (&ends)[2]) {
   using F = typename S::F;
@@ -166,7 +168,7 @@ CELLTRACE_ONE_COPY bool improve_ends(const V3<S>& pixels, const typename S::F& t
   return true;
 }
 
-/// Channels of pixels whose bytes lie as R, G, B, A.
+/// Returns the channels of pixels with bytes R, G, B, A.
 template <class S> V3<S> channels_of_pixels(const uint32_t* pixels) {
   using I = typename S::I;
   const I all = I::load(reinterpret_cast<const int32_t*>(pixels));
@@ -182,8 +184,8 @@ template <class S> V3<S> channels_of_pixels(const uint32_t* pixels) {
 
 } // namespace block
 
-/// The block of a packet of pixels whose bytes lie as R, G, B, A. Those in `lanes` count, which are some; the
-/// others are to have colours of theirs.
+/// Encodes a packet of pixels with bytes R, G, B, A as a block. The pixels in `lanes`, at least one, count;
+/// the others must have colours of those pixels.
 template <class S>
 CELLTRACE_ONE_COPY void encode_block(const WordLanes& pixels, uint32_t lanes, EncodedBlock& encoded) {
   using F = typename S::F;
@@ -216,7 +218,7 @@ CELLTRACE_ONE_COPY void encode_block(const WordLanes& pixels, uint32_t lanes, En
 
   alignas(64) float thirds[kSimdLanes];
   best.thirds.store(thirds);
-  // How many thirds the codes 0 to 3 stand for: 0, 3, 1, 2.
+  // Codes 0 to 3 stand for 0, 3, 1 and 2 thirds.
   uint32_t codes = 0;
   for (uint32_t i = 0; i < kSimdLanes; ++i) {
     const auto third = static_cast<uint32_t>(static_cast<int32_t>(thirds[i]));
@@ -232,8 +234,8 @@ CELLTRACE_ONE_COPY void encode_block(const WordLanes& pixels, uint32_t lanes, En
   encoded.error = best.error;
 }
 
-/// Of a packet at (x, y) of a picture of `width` x `height` pixels: lanes beyond its edges get the pixels
-/// there. Returns the other ones.
+/// Copies border pixels to the lanes beyond the edges of a picture of `width` x `height` pixels, for the
+/// packet at (x, y). Returns the lanes in the picture.
 inline uint32_t extend_pixels(uint32_t x, uint32_t y, uint32_t width, uint32_t height, WordLanes& pixels) {
   uint32_t lanes = 0;
   for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {

@@ -1,5 +1,5 @@
-// What a bundle of packets sees: what its primary rays hit and what light comes there is searched for
-// together; from there on each packet's tree of rays is worked off by itself. Kernel dialect.
+// Tracing of bundles: searches for the hits of primary rays and for the light there are made for all packets
+// together; from there on each packet's ray tree is traced by itself. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -11,47 +11,47 @@
 
 namespace celltrace::kernel {
 
-/// Shadow rays of a packet's hit points, and the light that these send on if nothing is in the way.
+/// Shadow rays of a packet's hit points, and the light that these send on if nothing occludes it.
 struct LitPoints {
   ShadowRays to_light;
-  VectorLanes light[kLightsARound]; ///< that they send on, gathered in a round
+  VectorLanes light[kLightsARound]; ///< light gathered in a round
 };
-/// The rest of hits once they are shaded; the objects are where they were.
+/// Results of hits once they are shaded; the objects have the same place as in HitPacket.
 struct ShadedHits {
   WordLanes object;
-  VectorLanes seen; ///< where rays stay in their packets: all but the gathered light
+  VectorLanes seen; ///< if rays stay in their packets: colours without the gathered light
 };
-/// A packet of a bundle. `PrimaryRays`: where its rays are.
+/// A packet of a bundle. `PrimaryRays` determines where its rays are stored.
 template <class S, class PrimaryRays> struct BundleMember : LitPoints, PrimaryRays {
-  V3<S> point; ///< once they are shaded: where they have hit something
+  V3<S> point; ///< hit points, once these are shaded
   union {
-    HitPacket hits; ///< until they are shaded
+    HitPacket hits; ///< until the hits are shaded
     ShadedHits shaded;
   };
-  uint32_t number; ///< in its bundle
+  uint32_t number; ///< index in its bundle
   uint32_t column, row;
   uint32_t pixels;     ///< lanes in the picture
-  uint32_t lanes, hit; ///< of them, those that have a ray; of these, those that hit something
+  uint32_t lanes, hit; ///< `lanes`: pixels that have a ray; `hit`: lanes whose ray hits something
 };
 
-// A strategy's Trees say whether rays stay in the packets of their trees. They have
+// A strategy's Trees decide whether rays stay in the packets of their trees. Trees have
 //
-//   PrimaryRays                       the primary rays of a member are `of(member)`
-//   search(column, row, put, fill)    finds what primary rays hit; false: nothing, and all has been put
-//   begin_trees()
-//   hint(i)                           member i will be shaded soon
-//   shade_end(member)                 whether all that a member sees is known, as no rays go on
-//   begin_tree(member)
-//   take_hits()                       as RayTracer's
-//   knows_points(root)                whether the points that a node has hit are known; null: it is no root
-//   leave_ends(hit)                   hits that are left for later
-//   leave_light(number, lanes, colour)  whether light at the node is left for later
-//   keep_tree(member)                 what a member sees is complete, but for what has been left
-//   end_tree()
-//   finish(stopped)                   works off what has been left; false: it was stopped on the way
-//   drop()                            forgets it
-//   add_left_light(member)            adds what came of light that the root's first round gathered
-//   lanes_with_ray(member), light_of(member)    what its pixels see
+//   PrimaryRays                       type whose `of(member)` returns the primary rays of a member
+//   search(column, row, put, fill)    finds the hits of primary rays; false: none, and all pixels are put
+//   begin_trees()                     is called before the members are shaded
+//   hint(i)                           prefetches records for member i, which will be shaded soon
+//   shade_end(member)                 shades a member whose hits spawn no rays; false: it does spawn some
+//   begin_tree(member)                is called before the tree of a member is traced
+//   take_hits()                       does what RayTracer::take_hits() does
+//   knows_points(root)                true if the hit points of a node are known; `root`: null if no root
+//   leave_ends(hit)                   returns the hits of a node that are shaded later
+//   leave_light(number, lanes, colour)  true if light of a node is traced later
+//   keep_tree(member)                 stores the colours of a member, which lack what was left for later
+//   end_tree()                        is called after the tree of a member was traced
+//   finish(stopped)                   traces and shades what was left for later; false: it was stopped
+//   drop()                            forgets what was left for later
+//   add_left_light(member)            adds the unoccluded light that the root's first round gathered
+//   lanes_with_ray(member), light_of(member)    return the pixels with a ray, and their colours
 
 /// Traces bundles.
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
@@ -63,8 +63,9 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// `spill`: room for FrameBlock::ray_stack_nodes nodes. `samples` says where the rays of frames of samples
-  /// go through; null: there are no such frames. Inlined: it would take much of an SPE's stack by itself.
+  /// Allocates memory. `spill` has room for FrameBlock::ray_stack_nodes nodes. `samples` are the positions of
+  /// rays in frames of samples; null: there are no such frames. Inlined, as it would take much of an SPE's
+  /// stack by itself.
   [[gnu::always_inline]] BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill,
                                       SampleBundle<Spu>* samples)
       : Trees(spu, samples), frame_(frame), scene_(scene), samples_(samples),
@@ -72,11 +73,11 @@ public:
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, scratch_),
         store_(*spu.template allocate<Store>()), shadows_(spu, frame, scene, scratch_, tracer_.counters()) {}
 
-  /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
-  /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
-  /// is in the picture. In a frame of samples the bundle is theirs, and at (0, 0). Asks `stopped()` before
-  /// each further node of a ray tree, of which there may be as many as take minutes; once that is true the
-  /// rest of the bundle is left out.
+  /// Traces the bundle at (column, row), counted in bundles. Calls `put(column, row, colours)` for each
+  /// packet in the picture, counted in packets, or `fill(column, row, colour)` if the whole bundle is in the
+  /// picture and has one colour. In a frame of samples the bundle consists of the samples, and is at (0, 0).
+  /// Calls `stopped()` before each further node of a ray tree, as a tree may take minutes; if it returns
+  /// true, the rest of the bundle is left out.
   template <class Put, class Fill, class Stopped>
   void trace(uint32_t column, uint32_t row, Put put, Fill fill, Stopped stopped) {
     if (takes_samples()) column = row = 0;
@@ -97,7 +98,7 @@ public:
   const TraversalCounters& traversal_counters() const { return shadows_.traversal().counters(); }
   uint32_t spilled_nodes() const { return tracer_.spilled_nodes(); }
 
-  /// Local store that nothing is in between two calls of trace().
+  /// Returns local store that is unused between two calls of trace().
   uint8_t* scratch() { return reinterpret_cast<uint8_t*>(&store_); }
   static constexpr uint32_t scratch_bytes() { return static_cast<uint32_t>(sizeof(Store)); }
 
@@ -110,11 +111,11 @@ private:
 
   struct Store {
     Member members[kPackets];
-    // Of the node that is being shaded.
+    // For the node that is being shaded:
     HitPoints<S> points;
     union {
-      LitPoints lit;             ///< if it is no root
-      FirstHitRecord first_hits; ///< of a root, on their way to main memory
+      LitPoints lit;             ///< if the node is not a root
+      FirstHitRecord first_hits; ///< of a root, while they are put to main memory
     };
   };
 
@@ -139,7 +140,7 @@ private:
       member.lanes = member.pixels;
     }
   }
-  /// Those of a member; returns the lanes that have one.
+  /// Makes the rays of a member; returns the lanes that have one.
   uint32_t make_rays(uint32_t number) {
     Member& member = store_.members[number];
     F x = pixels_across<S>(frame_, member.column), y = pixels_down<S>(frame_, member.row);
@@ -149,8 +150,8 @@ private:
     }
     return make_rays_through(scene_.spu(), frame_.camera, x, y, PrimaryRays::of(member));
   }
-  /// `run` answers the queries of all packets; those of packets outside are for nothing. `sort` may give the
-  /// rays other places.
+  /// Finds the hits of primary rays. `run` answers the queries of all packets; results of packets outside the
+  /// picture are not used. `sort` may move rays to other packets.
   template <class Run, class Sort> void find_hits(Run run, Sort sort) {
     RayQuery queries[kPackets];
     for (uint32_t i = 0; i < kPackets; ++i) {
@@ -168,9 +169,9 @@ private:
 
   // --- surfaces ---
 
-  /// Works off the trees of all packets. What the first round gathers of the roots' light is asked for when
-  /// all roots have been shaded, for all of them together, and added last: so the sum does not depend on who
-  /// traces what when. False: it was stopped on the way.
+  /// Traces the trees of all packets. The light that the first round gathers at the roots is searched for
+  /// when all roots have been shaded, for all of them together, and added last, so that the sum does not
+  /// depend on the order of tracing. False: it was stopped.
   template <class Stopped> CELLTRACE_ONE_COPY bool trace_trees(Stopped stopped) {
     Trees::begin_trees();
     for (uint32_t i = 0; i < kPackets; ++i) {
@@ -196,7 +197,7 @@ private:
     return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::grid &&
            (frame_.light_ways & light_way::first_hits) != 0;
   }
-  /// Puts to main memory what the primary rays of a member hit.
+  /// Puts the first hits of a member's primary rays to main memory.
   CELLTRACE_ONE_COPY void put_first_hits(Member& member) {
     scene_.spu().run_in_module(modules::kFirstHits);
     const ea_t table = frame_.grid_points + frame_.packet_columns * frame_.surface_rows * kGridPacketBytes;
@@ -229,8 +230,8 @@ private:
     Strategy<Spu>::template begin_round<S>(round, lit);
     return round;
   }
-  /// Shades what the primary rays of a member hit. False: all that they see is known but for the light that
-  /// is asked for later. Otherwise the member's tree has begun.
+  /// Shades the hits of a member's primary rays. False: the member is complete except for light that is added
+  /// later. Otherwise its tree has begun.
   bool shade_root(Member& member) {
     if (Trees::shade_end(member)) return false;
     Trees::begin_tree(member);
@@ -239,10 +240,11 @@ private:
     shade_node(&member);
     return true;
   }
-  // Not inlined: one copy of each saves local store, and their vectors are not on the stack while others run.
+  // The functions are not inlined: one copy of each saves local store, and their vectors are not on the stack
+  // while others run.
 
-  /// Shades what the rays of the node have hit that is being traced. If it is a member's root, the light of
-  /// the first round is left where it is gathered.
+  /// Shades the hits of the current node. If it is the root of a member, the light of the first round is left
+  /// where it is gathered.
   CELLTRACE_ONE_COPY void shade_node(Member* root) {
     uint32_t hit = Trees::take_hits();
     if (hit == 0) return;
@@ -255,7 +257,7 @@ private:
     if (hit == 0) return;
     shade_points(root, hit);
   }
-  /// Shades what take_hits() told of, whose points are known.
+  /// Shades hits whose points are known.
   [[gnu::always_inline]] void shade_points(Member* root, uint32_t hit) {
     for (uint32_t first = 0;;) {
       const bool is_left = root != nullptr && first == 0;
@@ -271,7 +273,7 @@ private:
       if (first >= frame_.light_count) return;
     }
   }
-  /// Works off the nodes that are still to come. False: it was stopped on the way.
+  /// Traces the remaining nodes of a tree. False: it was stopped.
   template <class Stopped> bool trace_tree(Stopped stopped) {
     while (tracer_.advance()) {
       if (stopped()) return false;
@@ -287,8 +289,8 @@ private:
 
   // --- light ---
 
-  /// Finds out what comes of the light that has been gathered at what the primary rays hit. Not inlined:
-  /// records of lights are not on the stack while rays are shaded.
+  /// Traces shadow rays for the light that has been gathered at the hits of primary rays. Not inlined, so
+  /// that records of lights are not on the stack while hits are shaded.
   CELLTRACE_ONE_COPY void find_lights() {
     const LightRound lights = LightRound::from(frame_, 0, nullptr);
     shadows_.set_interiors(nullptr);
@@ -322,7 +324,7 @@ private:
     }
     if (asked != 0) shadows_.trace(light, queries, asked);
   }
-  /// The light of a round at the hits of the node that is being traced.
+  /// Traces shadow rays for the light of a round at the hits of the current node.
   CELLTRACE_ONE_COPY void light_packet(uint32_t hit, const LightRound& round) {
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
       if (!is_asked_for(light)) return;
@@ -337,7 +339,7 @@ private:
 
   // --- pixels ---
 
-  /// Makes pixels black that have no ray.
+  /// Makes pixels without a ray black.
   [[gnu::always_inline]] void blacken(const Member& member, uint32_t with_ray, V3<S>& seen) {
     if (with_ray == member.pixels) return;
     const F black(0.0f);
@@ -350,7 +352,7 @@ private:
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
   SampleBundle<Spu>* samples_;
-  RayNode& scratch_; ///< the tracer's while surfaces are shaded, else that of shadow rays that are walked
+  RayNode& scratch_; ///< node of the tracer while surfaces are shaded, else of walked shadow rays
   RayTracer<Spu> tracer_;
   Store& store_;
   ShadowTracer<Spu, kAccelerators> shadows_;

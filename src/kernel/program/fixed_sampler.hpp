@@ -1,9 +1,9 @@
 // Antialiasing by the fixed method: pixels that differ from a neighbour are sampled by a grid of rays. Kernel
 // dialect.
 //
-// Each comparison is with what a neighbour has become by then, pixel after pixel. All pixels that seem to
-// need samples get them at once; then the comparisons are made again with what is known, until no pixel is
-// missing.
+// As in POV-Ray, a pixel is compared with the current colour of its neighbour, which may have been sampled
+// before. All pixels that seem to need samples get them at once; then the comparisons are repeated with the
+// known colours, until no pixel is missing.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -24,9 +24,10 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
   using typename Base::Colour, typename Base::F, typename Base::Points, typename Base::R;
   using W = typename Base::S::F;
 
-  static constexpr uint32_t kMostSamples = kMaxSamplingDepth * kMaxSamplingDepth; ///< of a pixel
+  static constexpr uint32_t kMostSamples = kMaxSamplingDepth * kMaxSamplingDepth; ///< samples of a pixel
 
-  /// The means of a row of pixels as a row of points: that of a pixel is where its point would be.
+  /// The means of a row of pixels, laid out as a row of points: the mean of a pixel is at the place of its
+  /// point.
   struct MeanRow {
     alignas(64) float numbers[kChannels][kSimdLanes + kSampledEdge];
 
@@ -35,19 +36,19 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
   struct Place {
     uint32_t x, y;
   };
-  /// Where a pixel's samples are, from its upper left.
+  /// Positions of a pixel's samples, from its upper left corner.
   struct PixelGrid {
     float across[kMostSamples], down[kMostSamples];
   };
   struct Scratch : Base::Scratch {
     alignas(64) float encoding[3 * R::kLanes]; ///< of means
     Colour means_of[R::kLanes];
-    Place places[R::kLanes]; ///< of these
+    Place places[R::kLanes]; ///< positions of the means
     union {
       MeanRow means;  ///< while pixels are compared
       PixelGrid grid; ///< while samples are asked for
     };
-    alignas(64) float channels[3][kSampledEdge]; ///< of pixels to be written
+    alignas(64) float channels[3][kSampledEdge]; ///< channels of pixels to be written
     alignas(16) uint32_t leaving[kSampledEdge][4];
   };
 
@@ -56,13 +57,13 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
 public:
   static constexpr uint32_t kScratchBytes = sizeof(Scratch);
 
-  /// `scratch`: room for kScratchBytes that belongs to the sampler while advance() runs.
+  /// Allocates memory. `scratch` has room for kScratchBytes and belongs to the sampler while advance() runs.
   FixedSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, uint8_t* scratch)
       : Base(spu, frame, samples, *reinterpret_cast<Scratch*>(scratch)),
         masks_(*spu.template allocate<Masks>()) {}
 
-  /// Takes the colours of the bundle or block at (column, row); those of samples were asked for by the call
-  /// before. True: the block needs those that `samples` now has, too.
+  /// Takes the colours of the grid points of the bundle, or of the last call's samples in the block, at
+  /// (column, row). True: the block needs the samples that `samples` now has.
   CELLTRACE_ONE_COPY bool advance(uint32_t column, uint32_t row) {
     if (takes_points(column, row)) return false;
     if (under_way_)
@@ -74,14 +75,14 @@ public:
   }
 
 private:
-  /// Goes over the samples of pixels that are asked for, tile by tile of 8x4, so that rays that are traced
-  /// together are near each other.
+  /// A cursor over the samples of pixels, tile by tile of 8x4, so that rays that are traced together are near
+  /// each other.
   struct Cursor {
-    uint32_t tile = 0;   ///< of the block, by row
-    uint32_t pixels = 0; ///< bits of the tile that are still to come, the lowest first; by row
-    uint32_t sample = 0; ///< of the pixel, row by row
+    uint32_t tile = 0;   ///< index in the block, by row
+    uint32_t pixels = 0; ///< remaining pixels of the tile, by row; the lowest is next
+    uint32_t sample = 0; ///< index in the pixel, row by row
 
-    // Of the next pixel, in the block.
+    // Position of the next pixel in the block.
     uint32_t x() const { return tile % 4 * 8 + first() % 8; }
     uint32_t y() const { return tile / 4 * 4 + first() / 8; }
 
@@ -94,9 +95,9 @@ private:
     uint32_t row[kSampledEdge];
   };
   struct alignas(128) Masks {
-    BlockMask left, above; ///< differ from the pixel's left or upper neighbour, before any is sampled
-    BlockMask sampled;     ///< as far as is known, is sampled
-    BlockMask known;       ///< has a colour in the store
+    BlockMask left, above; ///< pixels that differ from the left or upper neighbour before any is sampled
+    BlockMask sampled;     ///< pixels that have to be sampled, as far as is known
+    BlockMask known;       ///< pixels whose colours are in the store
   };
 
   CELLTRACE_ONE_COPY void begin_block(uint32_t column, uint32_t row) {
@@ -105,7 +106,7 @@ private:
     compare_again();
   }
 
-  /// The neighbours that pixels differ from, before any of them is sampled.
+  /// Finds the neighbours that pixels differ from, before any of them is sampled.
   CELLTRACE_ONE_COPY void compare_pixels() {
     const F step = most_step();
     const SampleLanes* packets = nullptr;
@@ -132,16 +133,16 @@ private:
       arrive();
     }
   }
-  /// What two points may differ by in each channel if they are not to be told apart: |a^g - b^g| is at most
-  /// |a - b|^g for g up to 1. Less than 0: that is not known.
+  /// Returns the largest difference in each channel between two points that count as equal: |a^g - b^g| is at
+  /// most |a - b|^g for g up to 1. Negative: it is not known.
   F most_step() const {
-    constexpr float kLeastThreshold = 0.05f; // below, errors of encode() would count
+    constexpr float kLeastThreshold = 0.05f; // for smaller thresholds errors of encode() would matter
     const SamplingRecord& sampling = frame_.sampling;
     if (Base::kHasAlpha || sampling.inverse_gamma > 1.0f || sampling.threshold < kLeastThreshold)
       return F(-1.0f);
     return coarse_pow<R>(F(0.3f * sampling.threshold), F(1.0f / sampling.inverse_gamma));
   }
-  /// Whether no point of a row can differ from the one to its left or above it.
+  /// Returns true if no point of a row can differ from the one to its left or above it.
   CELLTRACE_ONE_COPY bool is_smooth(const Points& own, const Points& over, const F& step) const {
     F most(0.0f);
     for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes)
@@ -152,7 +153,7 @@ private:
       }
     return ((most <= step).bits() | ~0u << R::kLanes) == ~0u;
   }
-  /// Stores what the points of a row are compared by, which take_points() has taken.
+  /// Encodes and stores the points of a row, which take_points() has taken, for comparison.
   CELLTRACE_ONE_COPY void encode_row(uint32_t line) {
     Points& encoded = scratch().encoded[line % 2];
     encode_points(scratch().points[line % 2], encoded);
@@ -160,19 +161,19 @@ private:
     if (line != 0) encoded_ |= 1u << (line - 1);
   }
 
-  /// Compares all pixels in POV-Ray's order, each with what the ones before it have become: rows from above,
-  /// and in a row from the left. Of pixels that are to be sampled and are not yet, the colour counts that
-  /// they have.
+  /// Compares all pixels in POV-Ray's order, each with the current colours of those before it: rows from
+  /// above, and each row from the left. A pixel that has to be sampled and is not yet counts with its present
+  /// colour.
   CELLTRACE_ONE_COPY void compare_again() {
-    uint32_t over = 0, known_over = 0; // of the row above
+    uint32_t over = 0, known_over = 0; // bits of the row above
     for (uint32_t y = 0; y < height_; ++y) {
       const uint32_t left = masks_.left.row[y], above = masks_.above.row[y];
       const uint32_t known = masks_.known.row[y];
-      // The same where a neighbour is sampled and its colour known.
+      // The comparisons are repeated where a neighbour is sampled and its colour known.
       uint32_t left_known = 0, above_known = 0;
       if ((known | known_over) != 0) compare_with_means(y, left_known, above_known);
       const uint32_t differs_above = chosen(over & known_over, above_known, above);
-      // A pixel whose left neighbour differs is compared with what that has become.
+      // A pixel whose left neighbour is sampled is compared with the neighbour's new colour.
       const uint32_t differs =
           known == 0 ? left | differs_above
                      : in_a_row(left | differs_above, chosen(known << 1, left_known, left) | differs_above);
@@ -186,11 +187,11 @@ private:
     taken_ = cursor_;
   }
 
-  /// The bits of `a` where `which` has one, otherwise those of `b`.
+  /// Returns the bits of `a` where `which` is set, otherwise those of `b`.
   static uint32_t chosen(uint32_t which, uint32_t a, uint32_t b) { return (a & which) | (b & ~which); }
-  /// The bits of a row, of which each depends on the one before: it is that of `after_0` or of `after_1`; the
-  /// lowest one comes after 0. A prefix computation: each step composes what as many bits as before make of
-  /// the one in front of them.
+  /// Returns the bits of a row each of which depends on the previous one: it is the bit of `after_0` or
+  /// `after_1`, and the lowest bit follows a 0. A prefix computation: each step doubles the number of bits
+  /// over which the dependence is composed.
   static uint32_t in_a_row(uint32_t after_0, uint32_t after_1) {
     for (uint32_t bits = 1; bits < kSampledEdge; bits *= 2) {
       const uint32_t composed = chosen(after_0 << bits, after_1, after_0);
@@ -200,7 +201,8 @@ private:
     return after_0;
   }
 
-  /// Which pixels of a row differ from the means of their left and upper neighbours, of those that are known.
+  /// Finds the pixels of a row that differ from the means of their left and upper neighbours, if these are
+  /// known.
   CELLTRACE_ONE_COPY void compare_with_means(uint32_t y, uint32_t& left, uint32_t& above) {
     if ((encoded_ >> y & 1) == 0) {
       take_points(packets_of_row(y + 1), y + 1, scratch().points[(y + 1) % 2]);
@@ -208,7 +210,7 @@ private:
       arrive();
     }
     const Points& own = *found_at(encoded_row(y + 1), &scratch().encoded[0]);
-    MeanRow& means = scratch().means; // those of the row above, if they were read for it
+    MeanRow& means = scratch().means; // may be the means of the row above, if these were read for it
     if (y != 0 && masks_.known.row[y - 1] != 0) above = differing(own, 1, means, 1);
     if (masks_.known.row[y] == 0) return;
     read_means(y, means);
@@ -223,24 +225,25 @@ private:
         channels[axis].store(means.numbers[axis] + kSimdLanes + x);
     }
   }
-  /// The channels of sixteen neighbours in the store.
+  /// Loads the channels of sixteen neighbours from the store.
   static void load_colours(const Colour* colours, W (&channels)[4]) {
     for (uint32_t i = 0; i < 4; ++i)
       channels[i] = W::load(colours[4 * i].channel);
     Base::S::transpose_quads(channels[0], channels[1], channels[2], channels[3]);
   }
 
-  // The store: colours of pixels, what they are compared by, and what points are compared by.
+  // The store has colours of pixels, followed by encoded colours of pixels and encoded points.
   ea_t stored_colour(uint32_t x, uint32_t y) const {
     return store_ + (y * kSampledEdge + place_in_row(x)) * kColourBytes;
   }
-  /// Of four neighbours the colours lie in four vectors, which load_colours() transposes.
+  /// Returns the place of a pixel's colour in its row. The colours of four neighbours lie in four vectors,
+  /// which load_colours() transposes.
   static uint32_t place_in_row(uint32_t x) { return (x & ~15u) | (x & 3) << 2 | (x >> 2 & 3); }
   ea_t encoded_colour(uint32_t x, uint32_t y) const { return stored_colour(x, kSampledEdge + y); }
   ea_t encoded_row(uint32_t y) const {
     return stored_colour(0, 2 * kSampledEdge) + y * static_cast<uint32_t>(sizeof(Points));
   }
-  /// The colour of a point, x and y from the block's first one on.
+  /// Fetches the colour of a point; x and y count from the block's first point.
   CELLTRACE_ONE_COPY void fetch_point(uint32_t x, uint32_t y, Colour& colour) {
     const uint32_t column = column_ * kSampledEdge + x;
     const uint32_t line = row_ * kSampledEdge + y;
@@ -251,7 +254,7 @@ private:
       colour.channel[axis] = points[axis].lane[lane];
   }
 
-  /// The pixels of a row that still need samples.
+  /// Returns the pixels of a row that still need samples.
   uint32_t wanted(uint32_t y) const { return masks_.sampled.row[y] & ~masks_.known.row[y]; }
   CELLTRACE_ONE_COPY uint32_t wanted_of_tile(uint32_t tile) const {
     uint32_t pixels = 0;
@@ -266,7 +269,7 @@ private:
     cursor.pixels = wanted_of_tile(0);
     return cursor;
   }
-  /// Goes to the next pixel that needs samples if it is at none. False: there is no other.
+  /// Moves the cursor to the next pixel that needs samples unless it is at one. False: there is none.
   bool find_pixel(Cursor& cursor) const {
     while (cursor.pixels == 0) {
       if (cursor.tile == kTiles - 1) return false;
@@ -285,7 +288,7 @@ private:
         grid.down[i] = (static_cast<float>(down) + 0.5f) * step;
       }
   }
-  /// Makes as many samples as there is room for. False: the block is done.
+  /// Makes as many samples as there is room for. False: the block is complete.
   CELLTRACE_ONE_COPY bool ask_for_pixels() {
     for (;;) {
       const uint32_t count = ask_for_wanted();
@@ -305,7 +308,7 @@ private:
     write_sampled();
     return false;
   }
-  /// Samples of pixels, one after the other. Returns how many there are.
+  /// Makes samples of pixels, one pixel after another. Returns the number of samples.
   CELLTRACE_ONE_COPY uint32_t ask_for_wanted() {
     PixelGrid& grid = scratch().grid;
     find_samples_of_pixel(grid);
@@ -325,7 +328,7 @@ private:
     }
     return count;
   }
-  /// Passes samples of the cursor's pixel. True: the last one of them, too.
+  /// Advances past samples of the cursor's pixel. True: the last one was among them.
   bool go_on(Cursor& cursor, uint32_t samples) const {
     cursor.sample += samples;
     if (cursor.sample != samples_of_pixel()) return false;
@@ -342,7 +345,7 @@ private:
     for (uint32_t i = 0; i < asked_;) {
       find_pixel(taken_);
       const uint32_t x = taken_.x(), y = taken_.y();
-      // The middle of the pixel counts as one sample more.
+      // The middle of the pixel counts as one more sample.
       if (taken_.sample == 0) fetch_point(x + 1, y + 1, sum_);
       const uint32_t some = smaller_of(samples - taken_.sample, asked_ - i);
       Colour sum = sum_;
@@ -361,7 +364,7 @@ private:
     }
     if (means != 0) encode_means(means);
   }
-  /// A pixel is known.
+  /// Stores the mean of a pixel.
   void store_mean(uint32_t number, uint32_t x, uint32_t y, const Colour& mean) {
     scratch().means_of[number] = mean;
     scratch().places[number] = {x, y};
@@ -369,7 +372,7 @@ private:
       scratch().encoding[3 * number + axis] = mean.channel[axis];
     send_object(scratch().means_of[number], stored_colour(x, y));
   }
-  /// What so many means are compared by.
+  /// Encodes `count` means for comparison.
   CELLTRACE_ONE_COPY void encode_means(uint32_t count) {
     arrive();
     for (uint32_t i = 3 * count; i < 3 * R::kLanes; ++i)
@@ -385,7 +388,7 @@ private:
     arrive();
   }
 
-  /// Pixels that are sampled replace those of the grid in the picture.
+  /// Writes sampled pixels over the grid points in the picture.
   CELLTRACE_ONE_COPY void write_sampled() {
     for (uint32_t y = 0; y < height_; ++y) {
       const uint32_t sampled = masks_.sampled.row[y];
@@ -395,7 +398,7 @@ private:
       for (uint32_t x = 0; x < kSampledEdge; x += kSimdLanes) {
         W channels[4];
         load_colours(colours + x, channels);
-        // Of other pixels there is no colour.
+        // The other pixels have no colour.
         const auto take = Base::S::M::from_bits(sampled >> x & 0xFFFF);
         for (uint32_t axis = 0; axis < 3; ++axis)
           Base::S::select(take, channels[axis], W(0.0f)).store(scratch().channels[axis] + x);
@@ -404,7 +407,7 @@ private:
       const ea_t row = frame_.surface + (first_line() + y + 1) * frame_.surface_pitch +
                        (column_ * kSampledEdge + 1) * static_cast<uint32_t>(sizeof(uint32_t));
       for_each_lane(sampled, [&](uint32_t x) {
-        // A word has the same place in its quadword on both sides of a transfer.
+        // A transfer needs the word at the same place in its quadword on both sides.
         uint32_t& word = scratch().leaving[x][(x + 1) % 4];
         word = scratch().words[x];
         send_object(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)));
@@ -415,9 +418,9 @@ private:
   }
 
   Masks& masks_;
-  Cursor cursor_, taken_; ///< the next sample to be asked for, and to be taken
-  Colour sum_ = {};       ///< of the samples of a pixel that are there
-  uint32_t encoded_ = 0;  ///< rows of pixels of which the store has what they are compared by
+  Cursor cursor_, taken_; ///< next sample to make, and to take
+  Colour sum_ = {};       ///< sum of the samples of a pixel so far
+  uint32_t encoded_ = 0;  ///< rows of pixels whose encoded points are in the store
 };
 
 } // namespace celltrace::kernel

@@ -1,4 +1,4 @@
-// The sampler that frames ask for: by either method, with or without alpha. Kernel dialect.
+// The sampler for frames: by either method, with or without alpha. Kernel dialect.
 #pragma once
 
 #include "kernel/program/adaptive_sampler.hpp"
@@ -9,7 +9,7 @@
 
 namespace celltrace::kernel {
 
-/// One of them as long as it lives.
+/// One of the four samplers, which stays the same for its lifetime.
 template <class Spu> class FrameSampler {
 public:
   FrameSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, uint8_t* scratch)
@@ -20,14 +20,14 @@ public:
     });
   }
 
-  /// Whether it is the one that these frames ask for.
+  /// Returns true if it is the sampler for these frames.
   bool serves(const FrameBlock& frame) const { return kind_ == kind_of(frame); }
 
-  /// As the samplers'.
+  /// Begins a frame; see PixelSampler.
   [[gnu::always_inline]] void begin_frame() {
     visit([](auto& sampler) { sampler.begin_frame(); });
   }
-  /// As the samplers'.
+  /// Takes colours and makes samples; see FixedSampler::advance().
   bool advance(uint32_t column, uint32_t row) {
     bool more = false;
     visit([&](auto& sampler) {
@@ -37,7 +37,7 @@ public:
     return more;
   }
 
-  /// Of the samplers with alpha, which need most.
+  /// Scratch memory of the samplers with alpha, which need most.
   static constexpr uint32_t kScratchBytes =
       FixedSampler<Spu, 4>::kScratchBytes > AdaptiveSampler<Spu, 4>::kScratchBytes
           ? FixedSampler<Spu, 4>::kScratchBytes

@@ -1,5 +1,5 @@
-// Antialiasing by POV-Ray's methods: pixels that differ from their neighbours, or whose corners differ, are
-// sampled by more rays. Here is what both methods share. Kernel dialect.
+// Common parts of POV-Ray's antialiasing methods: pixels that differ from their neighbours, or whose corners
+// differ, are sampled by more rays. Kernel dialect.
 //
 // A picture takes two frames. In the first the points of a grid are traced as pixels are, and their colours
 // kept in main memory. In the second a unit of work is a run of blocks of kSampledEdge x kSampledEdge pixels.
@@ -14,10 +14,10 @@
 
 namespace celltrace::kernel {
 
-/// A packet of samples. x and y: where they are, in pixels from the middle of the picture; then their
-/// colours.
+/// A packet of samples: x and y are first positions in pixels from the middle of the picture; then x, y and z
+/// are colours.
 struct SampleLanes : VectorLanes {
-  FloatLanes clear; ///< with light_way::alpha; 0 while a packet is not being traced
+  FloatLanes clear; ///< transparency, with light_way::alpha; 0 while the packet is not being traced
 
   const FloatLanes& operator[](uint32_t axis) const {
     return axis == 3 ? clear : VectorLanes::operator[](axis);
@@ -27,38 +27,38 @@ struct SampleLanes : VectorLanes {
 /// The samples of a bundle.
 template <class Spu> struct SampleBundle {
   SampleLanes at[kBundlePackets<Spu>];
-  uint32_t lanes[kBundlePackets<Spu>]; ///< that are some
+  uint32_t lanes[kBundlePackets<Spu>]; ///< lanes with a sample
 };
 
-/// A square of a pixel, of which the colours at the corners are known: upper left, upper right, lower left,
+/// A square of a pixel whose corners have known colours, in the order upper left, upper right, lower left,
 /// lower right.
 template <uint32_t kChannels> struct alignas(16) SampleSquare {
   float corner[4][kChannels];
-  float x, y;     ///< upper left, in points of the grid
-  uint32_t pixel; ///< number among those whose colours are being summed up
+  float x, y;     ///< upper left corner, in points of the grid
+  uint32_t pixel; ///< number of the pixel among those that are being summed up
   uint32_t level; ///< 0: the whole pixel
 };
 static_assert(sizeof(SampleSquare<3>) == 64 && sizeof(SampleSquare<4>) == 80, "whole quadwords");
 
 constexpr uint32_t kSamplesOfSquare = 5;
 
-/// Squares that are divided together. The more packets a bundle has, of `edge` x `edge`, the more room there
-/// is.
+/// Returns the number of squares that are divided together, which grows with the number of packets in a
+/// bundle, `edge` * `edge`.
 constexpr uint32_t squares_at_once(uint32_t edge) {
   return edge * edge * kSimdLanes / kSamplesOfSquare;
 }
-/// Rows of pixels of a block that are worked off together by the adaptive method.
+/// Returns the number of rows of a block that the adaptive method processes together.
 constexpr uint32_t sampled_rows(uint32_t edge) {
   return edge > tuning::kBundleEdgeInLocalStore ? kSampledEdge : 1;
 }
-/// Squares that wait to be divided: those of the first level, and of each other one less than what a bundle
-/// leaves and what it adds.
+/// Returns the largest number of waiting squares: those of the first level, and for each further level one
+/// less than a bundle leaves and adds.
 constexpr uint32_t max_squares(uint32_t edge) {
   return sampled_rows(edge) * kSampledEdge + 5 * squares_at_once(edge) * kMaxSamplingDepth;
 }
 
-/// The channels of a row of points of a block, one more than it has pixels, of which the first is that at its
-/// left edge. Those that are encoded are one behind the other, in whole vectors.
+/// The channels of a row of points of a block, one point more than it has pixels; the first one is at the
+/// block's left edge. The three channels that are encoded follow each other, in whole vectors.
 template <uint32_t kChannels> struct alignas(64) PointRow {
   static constexpr uint32_t kPackets = kSampledEdge / kPacketEdge + 1, kPoints = kPackets * kPacketEdge;
   static constexpr uint32_t kEncoded = (3 * kPoints + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
@@ -68,8 +68,8 @@ template <uint32_t kChannels> struct alignas(64) PointRow {
   float* channel(uint32_t axis) { return numbers + first_of(axis); }
   const float* channel(uint32_t axis) const { return numbers + first_of(axis); }
 };
-/// What an SPE needs in main memory: squares; or of the pixels of a block their colours and what these are
-/// compared by, and of its points the latter.
+/// Returns the bytes that an SPE needs in main memory: for squares, or for the colours and encoded colours of
+/// a block's pixels and its encoded points.
 constexpr uint32_t sample_store_bytes(uint32_t edge, bool alpha) {
   constexpr uint32_t kPixels = kSampledEdge * kSampledEdge;
   const size_t row = alpha ? sizeof(PointRow<4>) : sizeof(PointRow<3>);
@@ -79,24 +79,24 @@ constexpr uint32_t sample_store_bytes(uint32_t edge, bool alpha) {
   return static_cast<uint32_t>(((squares > colours ? squares : colours) + 127) / 128 * 128);
 }
 
-/// Whether frames have how clear pixels are.
+/// Returns true if the transparency of pixels is wanted.
 constexpr bool wants_alpha(const FrameBlock& frame) {
   return (frame.light_ways & light_way::alpha) != 0;
 }
 
-/// What samplers do for a block: the points of the grid in, what they are compared by, samples asked for, and
-/// pixels out. A sampler is all but tracing, by one method: code of a module, which works on lanes part by
-/// part. Colours have three channels or, with light_way::alpha, four: the last one is how clear they are,
-/// which is compared as it is.
+/// Services of samplers for a block: takes the points of the grid, encodes colours for comparison, makes
+/// samples, and writes pixels. A sampler does everything but tracing, by one method; it is code of a module,
+/// which processes lanes part by part. Colours have three channels or, with light_way::alpha, four: the last
+/// one is the transparency, which is compared without encoding.
 template <class Spu, SamplingMethod kMethod, uint32_t kChannels>
 class PixelSampler : public Strategy<Spu>::template Transfers<Spu, PixelSampler<Spu, kMethod, kChannels>> {
   /// Moves data between main memory and local store:
   ///
   ///   fetch(ls, ea, bytes)
-  ///   send(ls, ea, bytes)               what is sent may be changed after arrive()
+  ///   send(ls, ea, bytes)         the source may be changed after arrive()
   ///   send_object(object, ea)
-  ///   found_at(ea, room, bytes)         an object in main memory, there or in `room`
-  ///   arrive()                          waits for what has been sent
+  ///   found_at(ea, room, bytes)   returns an object in main memory, in place or as a copy in `room`
+  ///   arrive()                    waits until everything has been sent
   using Transfers = typename Strategy<Spu>::template Transfers<Spu, PixelSampler>;
 
 public:
@@ -111,7 +111,7 @@ public:
       return kHasAlpha ? modules::kAlphaSquares : modules::kSquares;
   }
 
-  /// Is none of the module's code.
+  /// Begins a frame. Its code is not part of the module.
   [[gnu::always_inline]] void begin_frame() {
     under_way_ = false;
     store_ = frame_.sample_store + spu_.id() * sample_store_bytes(kBundleEdge<Spu>, kHasAlpha);
@@ -134,14 +134,14 @@ protected:
   struct Places {
     float x[kSamples], y[kSamples];
   };
-  /// What is not kept from call to call. Samples are numbered through all packets.
+  /// Memory that is not kept from call to call. Samples are numbered through all packets.
   struct Scratch {
     union {
-      alignas(64) Places asked;                       ///< where samples are asked for
-      alignas(64) float sampled[kChannels][kSamples]; ///< what came of those of the call before
+      alignas(64) Places asked;                       ///< positions of samples
+      alignas(64) float sampled[kChannels][kSamples]; ///< colours of the last call's samples
     };
     SampleLanes packets[Points::kPackets];
-    Points points[2], encoded[2];             ///< of two rows, by turns
+    Points points[2], encoded[2];             ///< two rows, in turn
     alignas(64) uint32_t words[kSampledEdge]; ///< pixels to be written
     alignas(64) Colour colours[kSampledEdge];
   };
@@ -149,7 +149,7 @@ protected:
   PixelSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, Scratch& scratch)
       : Transfers(spu), spu_(spu), frame_(frame), samples_(samples), scratch_(scratch) {}
 
-  /// Whether a frame traces the grid, whose points at the bundle's (column, row) are stored then.
+  /// Returns true if the frame traces the grid; stores its points at the bundle's (column, row).
   [[gnu::always_inline]] bool takes_points(uint32_t column, uint32_t row) {
     spu_.run_in_module(module());
     if (static_cast<FramePurpose>(frame_.purpose) != FramePurpose::grid) return false;
@@ -163,10 +163,10 @@ protected:
     width_ = smaller_of(frame_.width - 1 - column * kSampledEdge, kSampledEdge);
     height_ = smaller_of(frame_.height - 1 - row * kSampledEdge, kSampledEdge);
   }
-  /// Bits of the pixels of a row that are in the picture.
+  /// Returns the bits of the pixels in a row that are in the picture.
   uint32_t row_mask() const { return width_ == kSampledEdge ? ~0u : (1u << width_) - 1; }
 
-  /// Returns the block's first line, counted from that of the surface.
+  /// Returns the block's first line, counted from the first line of the surface.
   uint32_t first_line() const { return row_ * kSampledEdge - frame_.surface_row * kPacketEdge; }
 
   // --- the grid ---
@@ -189,18 +189,18 @@ protected:
         packet.clear = FloatLanes();
   }
 
-  /// The packets with a row of the grid's points at the block, of which the first is that to its upper left.
-  /// Where memory is not direct they stay until others are fetched.
+  /// Returns the packets with a row of the grid's points at the block, beginning with the one to the block's
+  /// upper left. Without direct memory they stay until others are fetched.
   CELLTRACE_ONE_COPY const SampleLanes* packets_of_row(uint32_t row) {
     const ea_t first =
         packet_of_points(column_ * kSampledEdge / kPacketEdge, (row_ * kSampledEdge + row) / kPacketEdge);
     return found_at(first, scratch_.packets, packets_of_block() * kGridPacketBytes);
   }
-  /// Across the block, as far as there are any.
+  /// Returns the number of packets across the block.
   uint32_t packets_of_block() const {
     return smaller_of(frame_.packet_columns - column_ * kSampledEdge / kPacketEdge, Points::kPackets);
   }
-  /// The points of a row, out of its packets.
+  /// Extracts the points of a row from its packets.
   CELLTRACE_ONE_COPY void take_points(const SampleLanes* from, uint32_t row, Points& points) const {
     const uint32_t packets = packets_of_block();
     const uint32_t first = row % kPacketEdge * kPacketEdge;
@@ -215,8 +215,8 @@ protected:
       points.numbers[i] = 0.0f;
   }
 
-  /// What numbers are compared by; whole vectors of sixteen. Not exactly: few pixels are that close to the
-  /// threshold.
+  /// Encodes numbers for comparison, in whole vectors of sixteen. The encoding is approximate: few pixels are
+  /// that close to the threshold.
   CELLTRACE_ONE_COPY void encode(const float* numbers, uint32_t count, float* encoded) const {
     for (uint32_t i = 0; i < count; i += R::kLanes)
       coarse_pow<R>(F::load(numbers + i), F(frame_.sampling.inverse_gamma)).store(encoded + i);
@@ -226,14 +226,15 @@ protected:
     if constexpr (kHasAlpha)
       __builtin_memcpy(encoded.channel(3), points.channel(3), Points::kPoints * sizeof(float));
   }
-  /// Points of a row, from any one on.
+  /// Returns points of a row, beginning at any point.
   template <class Row> static V3<R> points_from(const Row& row, uint32_t first) {
     return {channel_from(row, 0, first), channel_from(row, 1, first), channel_from(row, 2, first)};
   }
   template <class Row> static F channel_from(const Row& row, uint32_t axis, uint32_t first) {
     return F::load_unaligned(row.channel(axis) + first);
   }
-  /// Where the points of a block's row differ from those of another, each counted from any one on.
+  /// Returns the points of a block's row that differ from those of another row, each row beginning at any
+  /// point.
   template <class Row>
   CELLTRACE_ONE_COPY uint32_t differing(const Points& a, uint32_t first_a, const Row& b,
                                         uint32_t first_b) const {
@@ -251,7 +252,7 @@ protected:
   }
   static uint32_t smaller_of(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-  /// Where a sample is moved to, in pixels: of a hash of its place, so that it is the same in every run.
+  /// Moves a sample, in pixels, by a hash of its position, so that it is the same in every run. The hash is
   /// Wellons' lowbias32.
   static uint32_t hash(uint32_t x) {
     x = (x ^ x >> 16) * 0x7FEB352Du;
@@ -267,12 +268,12 @@ protected:
     x += (static_cast<float>(static_cast<int32_t>(random & 0xFFFF)) * kUnit - 0.5f) * amount;
     y += (static_cast<float>(static_cast<int32_t>(random >> 16)) * kUnit - 0.5f) * amount;
   }
-  /// Asks for a sample, in points of the grid.
+  /// Makes a sample, at a position in points of the grid.
   void ask(uint32_t number, float x, float y) {
     scratch_.asked.x[number] = x;
     scratch_.asked.y[number] = y;
   }
-  /// Puts samples into lanes. Lanes that are none get the place of the last one.
+  /// Puts samples into lanes. Unused lanes get the position of the last sample.
   CELLTRACE_ONE_COPY void end_asking(uint32_t count) {
     const uint32_t whole = (count + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
     for (uint32_t i = count; i < whole; ++i)
@@ -285,7 +286,8 @@ protected:
       if (lanes != 0) place_samples(first, samples_.at[packet]);
     }
   }
-  /// Jittered, and from the middle of the picture. All lanes alike, so that compilers take them together.
+  /// Stores jittered positions, relative to the middle of the picture. All lanes are treated alike, so that
+  /// compilers vectorise the loop.
   CELLTRACE_ONE_COPY void place_samples(uint32_t first, SampleLanes& packet) const {
     const float amount = frame_.sampling.jitter;
     const float middle_x = frame_.camera.middle_x, middle_y = frame_.camera.middle_y;
@@ -296,7 +298,7 @@ protected:
       packet.y.lane[lane] = y - middle_y;
     }
   }
-  /// Takes so many samples out of their lanes.
+  /// Takes `count` samples out of their lanes.
   CELLTRACE_ONE_COPY void take_channels(uint32_t count) {
     using W = typename S::F;
     for (uint32_t first = 0; first < count; first += kSimdLanes)
@@ -304,7 +306,7 @@ protected:
         W::load(samples_.at[first / kSimdLanes][axis].lane).store(scratch_.sampled[axis] + first);
   }
 
-  /// Pixels of colours, as many as two packets.
+  /// Encodes a row of colours as pixels.
   CELLTRACE_ONE_COPY void encode_pixels_of(const float (*colours)[kSampledEdge], uint32_t* words) const {
     using W = typename S::F;
     for (uint32_t i = 0; i < kSampledEdge; i += kSimdLanes)
@@ -312,14 +314,14 @@ protected:
           .store(reinterpret_cast<int32_t*>(words + i));
   }
 
-  /// Of channels that lie `stride` numbers apart.
+  /// Gathers colours from channels that lie `stride` numbers apart.
   CELLTRACE_ONE_COPY void gather_colours(const float* channels, uint32_t stride, uint32_t count) {
     for (uint32_t x = 0; x < count; ++x)
       for (uint32_t axis = 0; axis < kChannels; ++axis)
         scratch_.colours[x].channel[axis] = channels[axis * stride + x];
   }
   bool wants_colours() const { return frame_.sampling.colours_pitch != 0; }
-  /// Puts some of the colours where they are wanted: x and y count from the block's first point on.
+  /// Puts colours where the host takes them; x and y count from the block's first point.
   CELLTRACE_ONE_COPY void put_colours(const Colour* colours, uint32_t count, uint32_t x, uint32_t y) {
     const ea_t to = frame_.surface + frame_.surface_rows * kPacketEdge * frame_.surface_pitch +
                     (first_line() + y) * frame_.sampling.colours_pitch +
@@ -331,11 +333,11 @@ protected:
   const FrameBlock& frame_;
   SampleBundle<Spu>& samples_;
   Scratch& scratch_;
-  ea_t store_ = 0; ///< of the SPE's own, in main memory
+  ea_t store_ = 0; ///< the SPE's own store in main memory
   bool under_way_ = false;
-  uint32_t column_ = 0, row_ = 0;   ///< of the block
-  uint32_t width_ = 0, height_ = 0; ///< pixels of it that are in the picture
-  uint32_t asked_ = 0;              ///< samples, or squares
+  uint32_t column_ = 0, row_ = 0;   ///< position of the block
+  uint32_t width_ = 0, height_ = 0; ///< size of the block's part in the picture, in pixels
+  uint32_t asked_ = 0;              ///< number of samples, or of squares
 };
 
 } // namespace celltrace::kernel

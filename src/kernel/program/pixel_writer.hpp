@@ -1,5 +1,5 @@
-// The SPE's graphical subsystem: colours become pixels and leave through double-buffered DMA.
-// Kernel dialect.
+// The SPE's graphical subsystem: encodes colours as pixels, which leave by double-buffered DMA. Kernel
+// dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -12,8 +12,9 @@
 
 namespace celltrace::kernel {
 
-/// sRGB encoding (IEC 61966-2-1) of linear values in [0, 1]; absolute error below 1e-6. The power 1 / 2.4 is
-/// 5 / 3 of the fourth root's, which a polynomial follows closely (interpolated at Chebyshev's points).
+/// Returns the sRGB encoding (IEC 61966-2-1) of linear values in [0, 1]; absolute error below 1e-6. The power
+/// 1 / 2.4 is the fourth root to the power 5 / 3, which a polynomial approximates (interpolated at
+/// Chebyshev's points).
 template <class S> typename S::F encode_srgb(const typename S::F& linear) {
   using F = typename S::F;
   const F root = S::sqrt(S::sqrt(linear));
@@ -30,7 +31,7 @@ template <class S> typename S::F encode_srgb(const typename S::F& linear) {
 
 namespace detail {
 
-/// Normalises to 0..255 without branches.
+/// Quantises a channel to 0..255 without branches.
 template <class S>
 [[gnu::always_inline]] inline typename S::I quantise(const FrameBlock& frame, const typename S::F& value) {
   using F = typename S::F;
@@ -40,7 +41,7 @@ template <class S>
   const F linear = frame.assumed_gamma == 1.0f ? clipped : pow<S>(clipped, F(frame.assumed_gamma));
   return round_up(encode_srgb<S>(linear));
 }
-/// Bytes R, G, B, A in the order of memory.
+/// Packs channels as bytes R, G, B, A in the order of memory.
 template <class S>
 typename S::I pack(const typename S::I& r, const typename S::I& g, const typename S::I& b) {
   using I = typename S::I;
@@ -55,7 +56,7 @@ typename S::I pack(const typename S::I& r, const typename S::I& g, const typenam
 
 } // namespace detail
 
-/// The pixels of sixteen colours.
+/// Returns the pixels of sixteen colours.
 template <class Spu>
 [[gnu::always_inline]] inline typename Spu::simd::I encode_pixels(const FrameBlock& frame,
                                                                   const V3<typename Spu::simd>& colour) {
@@ -66,8 +67,8 @@ template <class Spu>
   return detail::pack<S>(channel(colour.x), channel(colour.y), channel(colour.z));
 }
 
-/// Writes `kRows` rows of packets at once, as pixels or as blocks of BC1. Whoever puts one packet puts all of
-/// its block of kRows x kRows that are in the picture before one of another block, and before flush().
+/// Writes `kRows` rows of packets at once, as pixels or as blocks of BC1. All packets of a block of kRows x
+/// kRows that are in the picture have to be put before one of another block, and before flush().
 template <class Spu, uint32_t kRows = 1> class PixelWriter {
 public:
   using S = typename Spu::simd;
@@ -77,10 +78,10 @@ public:
   PixelWriter(Spu& spu, const FrameBlock& frame)
       : spu_(spu), frame_(frame), runs_(spu.template allocate<Run>(2)) {}
 
-  /// Encodes sixteen colours. They leave with those of the next packets of the row. `column` and `row` count
-  /// packets.
+  /// Encodes sixteen colours, which leave together with those of the next packets in the row. `column` and
+  /// `row` count packets.
   void put(uint32_t column, uint32_t row, const V3<S>& colour) {
-    const uint32_t below = row % kRows; // the first row of its block
+    const uint32_t below = row % kRows; // row in its block
     Run& run = run_for(column, row - below);
     const uint32_t x = column - column_;
     WordLanes pixels;
@@ -90,7 +91,7 @@ public:
     if (x == columns_) ++columns_;
   }
 
-  /// Puts all packets of the block whose first one is at (column, row), all of one colour.
+  /// Puts one colour for all packets of the block whose first packet is at (column, row).
   void fill(uint32_t column, uint32_t row, const V3<S>& colour) {
     static_assert(kRows * kPacketEdge == kSimdLanes, "a row of the block is one vector");
     Run& run = run_for(column, row);
@@ -101,7 +102,7 @@ public:
     columns_ = x + kRows;
   }
 
-  /// Forgets the block at (column, row) if it is the last one of which a packet was put.
+  /// Drops the block at (column, row) if packets were put to it last.
   void drop(uint32_t column, uint32_t row) {
     if (row == row_ && column - column_ < columns_) columns_ = column - column_;
   }
@@ -110,11 +111,11 @@ public:
     bytes_ = 0;
     error_ = 0;
   }
-  /// That left since then; and of blocks the sum of their errors.
+  /// Return the number of bytes sent since reset_counters(), and the sum of the blocks' errors.
   uint32_t bytes() const { return bytes_; }
   uint64_t error() const { return error_; }
 
-  /// Waits until all pixels have arrived.
+  /// Waits until all pixels are in main memory.
   void flush() {
     send();
     spu_.wait_all(3u << kFirstTag);
@@ -126,16 +127,16 @@ private:
   static constexpr uint32_t kFirstTag = 2;
   static constexpr uint32_t kPacketRowBytes = kPacketEdge * 4;
   static constexpr uint32_t kBlockBytes = sizeof(EncodedBlock::bytes);
-  /// Packets whose rows fill a line of main memory, which a transfer moves at once.
+  /// Number of packets whose rows fill a line of main memory, which is transferred at once.
   static constexpr uint32_t kRunPackets = kLineBytes / kPacketRowBytes;
 
-  /// Neighbours in a row of packets.
+  /// Neighbouring packets of a row.
   struct alignas(128) Run {
     uint32_t pixels[kRows * kPacketEdge][kRunPackets * kPacketEdge];
     ListElement list[kRows * kPacketEdge];
   };
 
-  /// Where a packet goes that is in the column, in the block from `row` on.
+  /// Returns the run for a packet in a column, in the block that begins at `row`.
   Run& run_for(uint32_t column, uint32_t row) {
     if (columns_ != 0 &&
         (row != row_ || column < column_ || column > column_ + columns_ || column - column_ >= kRunPackets))
@@ -155,7 +156,7 @@ private:
            column_ * kPacketRowBytes;
   }
 
-  // One copy: local store is short.
+  // Sends the current run. Not inlined, as local store is short.
   CELLTRACE_ONE_COPY void send() {
     if (columns_ == 0) return;
     if (has_blocks()) {
@@ -167,7 +168,7 @@ private:
     columns_ = 0;
     current_ ^= 1;
   }
-  /// Rows of packets that a run has.
+  /// Returns the number of rows of packets in a run.
   uint32_t rows_of_run() const {
     const uint32_t left = frame_.packet_rows - row_;
     return left < kRows ? left : kRows;
@@ -182,7 +183,7 @@ private:
     if (columns_ == kRunPackets) {
       spu_.putl(run.pixels[0], corner, run.list, rows, kFirstTag + current_);
     } else {
-      // The elements of a list lie one behind the other, those of an unfinished run do not.
+      // Elements of a list follow each other in local store; those of an unfinished run do not.
       for (uint32_t y = 0; y < rows; ++y)
         spu_.put(run.pixels[y], corner + y * frame_.surface_pitch, bytes, kFirstTag + current_);
     }
@@ -191,12 +192,12 @@ private:
 
   bool has_blocks() const { return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::blocks; }
 
-  /// Blocks take the places of pixels that have been encoded.
+  /// Sends blocks, which overwrite pixels that have been encoded.
   CELLTRACE_ONE_COPY void send_blocks() {
     spu_.run_in_module(modules::kEncoding);
     Run& run = runs_[current_];
     const uint32_t rows = rows_of_run();
-    // Whole quadwords: a row of packets may end with half of one.
+    // The size is in whole quadwords: a row of packets may end with half of one.
     const uint32_t bytes = (columns_ + 1) / 2 * 2 * kBlockBytes;
     for (uint32_t y = 0; y < rows; ++y) {
       auto* const out = reinterpret_cast<uint8_t*>(run.pixels[y * kPacketEdge]);
@@ -223,9 +224,9 @@ private:
   Spu& spu_;
   const FrameBlock& frame_;
   Run* runs_;
-  uint32_t current_ = 0;          ///< of the runs, the one being filled
-  uint32_t columns_ = 0;          ///< of packets in it
-  uint32_t column_ = 0, row_ = 0; ///< of the first of them
+  uint32_t current_ = 0;          ///< index of the run that is being filled
+  uint32_t columns_ = 0;          ///< number of columns of packets in the current run
+  uint32_t column_ = 0, row_ = 0; ///< position of the first packet of the run
   uint32_t bytes_ = 0;
   uint64_t error_ = 0;
 };

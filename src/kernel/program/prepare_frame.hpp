@@ -1,4 +1,4 @@
-// Prepare frame: builds the accelerator that the frame asks for. Kernel dialect.
+// PREPARE FRAME: builds the accelerator of a frame. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/build_grid.hpp"
@@ -6,7 +6,7 @@
 
 namespace celltrace::kernel {
 
-/// The grid is built by one SPE; by whom a BVH is built, strategies differ in.
+/// Builds the accelerator. One SPE builds a grid; a BVH is built as the strategy does.
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 PrepareResult prepare_frame(Spu& spu, const FrameBlock& frame) {
   const bool is_bvh =

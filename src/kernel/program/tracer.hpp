@@ -15,14 +15,15 @@ namespace celltrace::kernel {
 
 template <class Spu, uint32_t kAccelerators> class Tracer {
 public:
-  /// `frame_block`: ea of the FrameBlock, which stays there as long as the program runs.
+  /// Allocates memory. `frame_block` is the effective address of the FrameBlock, which stays there while the
+  /// program runs.
   Tracer(Spu& spu, ea_t frame_block)
       : spu_(spu), frame_block_(frame_block), frame_(*spu.template allocate<FrameBlock>()),
         report_(*spu.template allocate<ReportRecord>()), strip_(*spu.template allocate<StripRecord>()),
         exchange_(spu), units_(spu), free_(spu.mark()) {}
 
   void run() {
-    // From here on it is a clock; what it does when it has run down, no event tells.
+    // The decrementer runs freely as a clock from here on; its event stays masked.
     spu_.write_decrementer(~0u);
     spu_.write_event_mask(kDomain);
     for (;;) {
@@ -50,7 +51,7 @@ private:
     return purpose == FramePurpose::picture || purpose == FramePurpose::blocks;
   }
 
-  /// What rendering needs in local store; kept from frame to frame, so that the cache stays warm.
+  /// The objects for rendering, which are kept from frame to frame, so that the software cache stays warm.
   struct Phase {
     using Sampler = FrameSampler<Spu>;
 
@@ -69,7 +70,7 @@ private:
             Sampler(spu, frame, *samples, bundles.scratch());
     }
 
-    /// What frames need more or less of local store for.
+    /// Returns the features of frames that change the use of local store.
     static uint32_t needs_of(const FrameBlock& frame) {
       return has_areas(frame) + 2u * walks_shadows(frame) + 4u * has_surface_lanes(frame);
     }
@@ -115,7 +116,8 @@ private:
     spu_.write_out_mailbox(make_report(result.built ? ReportKind::prepared : ReportKind::needs_memory, 0));
   }
 
-  /// Data has changed in main memory, or a frame was broken off: no word of it is valid any more.
+  /// Synchronises after data has changed in main memory or a frame was broken off: no received word is valid
+  /// any more.
   CELLTRACE_ONE_COPY void synchronize() {
     spu_.run_in_module(modules::kStart);
     while (spu_.in_mailbox_count() != 0)
@@ -127,7 +129,7 @@ private:
     spu_.write_out_mailbox(make_report(ReportKind::synchronised, 0));
   }
 
-  /// Those that are out of date are fetched again at their next reference.
+  /// Marks the cache lines that the PPE has changed; each is fetched again when it is next used.
   void mark_lines() {
     auto& cache = phase_->scene.cache();
     if (frame_.work_entries == kAllLines) return cache.synchronize_all();
@@ -173,7 +175,8 @@ private:
     packets_ = 0;
     units_.begin_frame(frame_);
   }
-  /// `start`: the decrementer when the frame began. `idle`: ticks without work since then.
+  /// Ends a frame. `start`: the decrementer at the beginning of the frame. `idle`: ticks without work since
+  /// then.
   CELLTRACE_ONE_COPY void end_frame(uint32_t start, uint32_t idle) {
     spu_.run_in_module(modules::kStart);
     phase_->pixels.flush();
@@ -193,7 +196,7 @@ private:
     spu_.release(free_);
   }
 
-  /// The colours of the packet at (x, y).
+  /// Stores the colours of the packet at (x, y).
   void put(uint32_t x, uint32_t y, const Colours& colours) {
     if (!is_picture(frame_)) {
       constexpr uint32_t kEdge = kBundleEdge<Spu>;
@@ -202,13 +205,13 @@ private:
     }
     phase_->pixels.put(x, y, colours);
   }
-  /// What was traced becomes part of what a picture is sampled by. True: there are samples to trace. One
-  /// copy: local store is short.
+  /// Hands traced colours to the sampler. True: there are samples to trace. Not inlined, as local store is
+  /// short.
   CELLTRACE_ONE_COPY bool sample(uint32_t column, uint32_t row) {
     return phase_->sampler->advance(column, row);
   }
 
-  /// Breaks off if the frame is declared over on the way.
+  /// Renders a unit; breaks off if the frame is declared over meanwhile.
   void render_unit(uint32_t unit) {
     const uint32_t start = spu_.read_decrementer();
     const UnitRecord run = units_.at(unit);
@@ -245,8 +248,8 @@ private:
     if (frame_.units_per_word == kEachUnit) phase_->pixels.flush();
     exchange_.complete_unit(unit);
   }
-  /// Waits for work or for the end of the frame, and returns how many ticks. An SPE that says it is idle has
-  /// all that it did in main memory.
+  /// Waits for work or for the end of the frame; returns the waiting time in ticks. Flushes first, as an SPE
+  /// must not report that it is idle before its results are in main memory.
   uint32_t wait() {
     phase_->pixels.flush();
     units_.flush();
@@ -294,9 +297,9 @@ private:
   StripRecord& strip_;
   WorkExchange<Spu> exchange_;
   WorkUnits<Spu> units_;
-  uint32_t packets_ = 0; ///< of the units completed in this frame
+  uint32_t packets_ = 0; ///< packets of the units completed in this frame
   Phase* phase_ = nullptr;
-  uint8_t* free_; ///< local store from here on belongs to PREPARE FRAME or to the rendering phase
+  uint8_t* free_; ///< beginning of the local store for PREPARE FRAME or the rendering phase
 };
 
 } // namespace celltrace::kernel

@@ -1,4 +1,4 @@
-// The balancer's transport on an SPE: words by mailbox, doorbells by signal 2, inside the frame's event
+// Transport of the balancer on an SPE: words by mailbox, doorbells by signal 2, inside the frame's event
 // domain. Kernel dialect.
 #pragma once
 
@@ -15,14 +15,15 @@ template <class Spu> class WorkExchange {
 public:
   explicit WorkExchange(Spu& spu) : spu_(spu), node_(spu.id(), spu.count()) {}
 
-  /// Enters the frame's event domain: only signal 2 and the mailbox.
+  /// Enters the frame's event domain, which consists of signal 2 and the mailbox.
   void begin_frame(const FrameBlock& frame, UnitRange units) {
     spu_.enter_module(modules::kExchange);
     enter_domain(frame, units);
   }
   void end_frame() { node_.end_frame(); }
 
-  /// With the last one a node is dry and asks for more, so that answers come while it is at work.
+  /// Takes a unit. After the last one the node is dry and asks for more, so that answers arrive while it
+  /// works.
   bool take_unit(uint32_t& unit) {
     if (!node_.take_unit(unit)) return false;
     if (node_.remaining().empty()) {
@@ -43,22 +44,21 @@ public:
     spu_.write_out_mailbox(word);
   }
 
-  /// Handles what has arrived, without stalling. Cheap when nothing has. True if that was the end of the
-  /// frame.
+  /// Handles received words and doorbells without stalling; cheap if there are none. True: the frame is over.
   bool poll() {
     if (spu_.event_count() == 0) return false;
     spu_.enter_module(modules::kExchange);
     return handle();
   }
-  /// Does what a dry node has to do, then stalls until something arrives.
+  /// Performs the actions of a dry node, then stalls until something arrives.
   void wait() {
     spu_.enter_module(modules::kExchange);
     wait_for_work();
   }
-  /// The PPE has declared the frame finished.
+  /// Returns true once the PPE has declared the frame finished.
   bool over() const { return over_; }
 
-  /// Exchanges that brought this node units in this frame, and how many.
+  /// Return the exchanges that brought this node units in this frame, and the number of units.
   uint32_t exchanges() const { return exchanges_; }
   uint32_t units_received() const { return received_; }
 
@@ -72,7 +72,7 @@ private:
     exchanges_ = 0;
     received_ = 0;
     until_report_ = units_per_report_ = frame.units_per_word;
-    // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
+    // Words from an earlier frame are removed; those of a neighbour that is a frame ahead are kept.
     drain_mailbox();
     node_.begin_frame(frame.epoch, units, frame.exchange_parameter);
     spu_.write_event_mask(kDomain);
@@ -84,8 +84,8 @@ private:
     if (node_.remaining().empty() && !over_) handle();
   }
 
-  /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds
-  /// nothing to drain.
+  /// Handles events in the safe order: mask, read, acknowledge, drain, unmask. A phantom event finds nothing
+  /// to drain.
   CELLTRACE_ONE_COPY bool handle() {
     spu_.run_in_module(modules::kExchange);
     const uint32_t events = spu_.read_event_status();
@@ -100,7 +100,7 @@ private:
   CELLTRACE_ONE_COPY void drain_mailbox() {
     while (spu_.in_mailbox_count() != 0) {
       const uint32_t word = spu_.read_in_mailbox();
-      // A doorbell that was delivered before the word has to be seen before it.
+      // A doorbell that was delivered before the word has to be seen first.
       drain_doorbell();
       on_word(word);
     }

@@ -1,4 +1,4 @@
-// The units of a frame as an SPE sees them: which packets they are, and what they cost. Kernel dialect.
+// The units of a frame on an SPE: their packets and their costs. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -6,8 +6,8 @@
 
 namespace celltrace::kernel {
 
-/// Reads the frame's units by lines and writes their costs one by one, so that SPEs may share a line of
-/// either.
+/// Reads the frame's units by cache lines and writes their costs one by one, so that SPEs may share lines of
+/// both.
 template <class Spu> class WorkUnits {
 public:
   explicit WorkUnits(Spu& spu) : spu_(spu), buffers_(*spu.template allocate<Buffers>()) {}
@@ -30,13 +30,13 @@ public:
 
   void write_cost(uint32_t unit, uint32_t ticks) {
     spu_.wait_all(1u << (kCostTag + current_));
-    // A word has the same place in its quadword on both sides of a transfer.
+    // A transfer needs the word at the same place in its quadword on both sides.
     uint32_t* const word = &buffers_.costs[current_][unit % 4];
     *word = ticks;
     spu_.put(word, costs_ + unit * sizeof(uint32_t), sizeof(uint32_t), kCostTag + current_);
     current_ ^= 1;
   }
-  /// Waits until all costs have arrived.
+  /// Waits until all costs are in main memory.
   void flush() { spu_.wait_all(3u << kCostTag); }
 
 private:

@@ -1,4 +1,4 @@
-// What rays pass through on their way from surface to surface: fog, and rainbows behind it. Kernel dialect.
+// Effects on light between surfaces: fog, and rainbows behind it. Kernel dialect.
 #pragma once
 
 #include "kernel/angles.hpp"
@@ -15,25 +15,26 @@
 
 namespace celltrace::kernel {
 
-/// Whether a frame's rays go through fog, or rainbows may be seen; or something else behind the scene.
+/// Returns true if a frame has fogs or rainbows, or if the transparency of pixels is wanted.
 constexpr bool has_atmosphere(const FrameBlock& frame) {
   return (frame.light_ways & (light_way::atmosphere | light_way::alpha)) != 0;
 }
 
-/// What comes through: `add` + `pass` times what is behind.
+/// Effect of a medium on light: `pass` times the light from behind, plus `add`.
 template <class S> struct Passage { V3<S> pass, add; };
 
 namespace detail {
 
-/// atan(x) of x >= 0, over x.
+/// Returns atan(x) / x for x >= 0.
 template <class S> typename S::F arc_share(const typename S::F& x) {
   using F = typename S::F;
   const F far = S::max(x, F(1e-6f));
   return F(6.28318531f) * turns_of<S>(far, F(1.0f)) / far;
 }
 
-/// The mean density of ground fog on a way between two heights, in units of where it thins out: 1 below 0 and
-/// 1/(1 + y^2) above. With atan(b) - atan(a) = atan((b - a)/(1 + ab)) nothing cancels.
+/// Returns the mean density of ground fog along a segment between two heights, in units of the height where
+/// it thins out: the density is 1 below 0 and 1/(1 + y^2) above. As atan(b) - atan(a) = atan((b - a)/(1 +
+/// ab)), nothing cancels.
 template <class S> typename S::F ground_density(const typename S::F& start, const typename S::F& end) {
   using F = typename S::F;
   const F zero(0.0f), one(1.0f);
@@ -42,7 +43,7 @@ template <class S> typename S::F ground_density(const typename S::F& start, cons
   const F length = high - low, above = b - a;
   const F slope = one / (one + a * b);
   const F mean_above = slope * arc_share<S>(above * slope);
-  // Not one share from the other: on long ways the one that counts is tiny.
+  // Both shares are computed directly: on long segments the one that counts is tiny.
   const F below = S::min(high, zero) - S::min(low, zero);
   const F inverse = one / S::max(length, F(1e-6f));
   const auto is_level = length < F(1e-6f);
@@ -51,7 +52,7 @@ template <class S> typename S::F ground_density(const typename S::F& start, cons
   return share_below + share_above * mean_above;
 }
 
-/// Of rays of `length` through one fog.
+/// Returns the effect of one fog on rays of a length.
 template <class Spu>
 Passage<typename Spu::rare_simd>
 through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& origin,
@@ -69,7 +70,8 @@ through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& o
     density = ground_density<S>(start, start + dot<S>(direction, up) * length);
   }
   if ((fog.flags & fog_flag::turbulent) != 0) {
-    // As in POV-Ray, noise is asked halfway, and counts the less the farther the ray goes.
+    // As in POV-Ray, noise is evaluated at the middle of the ray, and has less effect the farther the ray
+    // goes.
     const V3<S> halfway = origin + direction * (length * F(0.5f));
     const V3<S> middle = halfway * splat3<S>(fog.turbulence.amount) + splat3<S>(fog.turbulence_offset);
     spu.enter_module(modules::kNoise);
@@ -82,13 +84,13 @@ through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& o
   return {splat3<S>(fog.tint) * pass, splat3<S>(fog.colour) * (one - pass)};
 }
 
-/// A colour of a rainbow.
+/// A colour of a rainbow's map.
 template <class S> struct BowColour {
   V3<S> rgb;
   typename S::F filter, transmit;
 };
 
-/// The colours that a map has for `value`, as other maps of colours have them.
+/// Finds the colour of a rainbow's map at `value`, in the same way as other colour maps.
 template <class Spu>
 void bow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow, const typename Spu::rare_simd::F& value,
                 BowColour<typename Spu::rare_simd>& colour) {
@@ -115,8 +117,8 @@ void bow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow, const typenam
   }
 }
 
-/// Of rays of `length` that look at a rainbow: what it adds and lets through, and how clear it is. `seen`
-/// says in which lanes it is seen. The formulas are POV-Ray's.
+/// Finds the effect of a rainbow on rays of a length, and its transparency. `seen` receives the lanes that
+/// see it. The formulas are POV-Ray's.
 template <class Spu>
 [[gnu::noinline]] void see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
                                    const V3<typename Spu::rare_simd>& direction,
@@ -154,7 +156,7 @@ template <class Spu>
   clear = pass * colour.transmit;
 }
 
-/// Those of `lanes` that are in no object without fog in it.
+/// Returns the lanes of `lanes` that are not inside an object without fog.
 template <class Spu> uint32_t lanes_in_the_open(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lanes) {
   uint32_t open = lanes;
   for_each_lane(lanes, [&](uint32_t lane) {
@@ -168,20 +170,21 @@ template <class Spu> uint32_t lanes_in_the_open(SceneAccess<Spu>& scene, const R
 
 namespace detail {
 
-/// The lanes of a part in which an object is none.
+/// Returns the lanes of a part without an object.
 template <class S> typename S::M are_none(const WordLanes& objects, uint32_t first) {
   using I = typename S::I;
   const I object = I::load(reinterpret_cast<const int32_t*>(objects.lane + first));
   return object == I::splat(static_cast<int32_t>(kNoOffset));
 }
 
-/// How far rays go to what they have hit. POV-Ray's distance to where there is nothing is 1e10.
+/// Returns the distance of rays to their hits. As in POV-Ray, the distance is 1e10 if a ray hits nothing.
 template <class S> typename S::F length_of(const HitPacket& hits, uint32_t first) {
   return S::select(are_none<S>(hits.object, first), typename S::F(1e10f),
                    S::F::load(hits.distance.lane + first));
 }
 
-/// How far those of a node's rays that start before the scene, and at no surface, have come from the camera.
+/// Returns the distance from the camera to the start of a node's rays, for rays that start just before the
+/// scene; 0 for rays that start on a surface.
 template <class S> typename S::F way_before(const FrameBlock& frame, const RayNode& ray, uint32_t first) {
   const typename S::F none(0.0f);
   if (frame.camera.ahead == 0.0f) return none;
@@ -189,7 +192,7 @@ template <class S> typename S::F way_before(const FrameBlock& frame, const RayNo
   return S::select(are_none<S>(ray.rays.start_object, first), way_to_start<S>(frame.camera, direction), none);
 }
 
-/// Multiplies how clear the way of rays is, in those lanes of a part.
+/// Multiplies the transparency along rays in some lanes of a part.
 template <class S>
 [[gnu::noinline]] void dim_clear(const typename S::M& lanes, const typename S::F& pass, RayNode& ray,
                                  uint32_t first) {
@@ -197,8 +200,7 @@ template <class S>
   S::select(lanes, clear * pass, clear).store(ray.power.lane + first);
 }
 
-/// The rainbows, whose light fog dims. Of those that a ray sees all count the same: what it sees is their
-/// mean.
+/// Applies the rainbows, whose light fog dims. If a ray sees several, the result is their mean.
 template <class Spu>
 [[gnu::noinline]] void cross_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
                                       uint32_t lanes, RayNode& ray, VectorLanes& light) {
@@ -238,8 +240,8 @@ template <class Spu>
 
 } // namespace detail
 
-/// Rays of a node that hit nothing and came by no mirror: adds to `clear` what comes through the background,
-/// and the sky before it. After light_along().
+/// Adds to `clear` the transparency of the background, and of the sky in front of it, for rays that hit
+/// nothing and did not come by a mirror. To be called after light_along().
 template <class Spu>
 [[gnu::noinline]] void see_through(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
                                    RayNode& ray, FloatLanes& clear) {
@@ -252,7 +254,7 @@ template <class Spu>
   const bool is_hidden = (frame.light_ways & light_way::no_backdrop) != 0;
   const bool dims = (frame.light_ways & (light_way::no_backdrop | light_way::mirrored_background)) != 0;
   const bool has_sky = !is_hidden && frame.sky != kNoOffset;
-  V3<W> seen[2]; // of the sky over black, and over white
+  V3<W> seen[2]; // the sky over black, and over white
   for (uint32_t i = 0; i < 2 && has_sky; ++i) {
     const typename W::F behind(static_cast<float>(i));
     seen[i] = {behind, behind, behind};

@@ -1,4 +1,4 @@
-// What the insides of objects take of the light that goes through them. Kernel dialect.
+// Absorption of light inside objects. Kernel dialect.
 #pragma once
 
 #include "kernel/modules.hpp"
@@ -8,10 +8,10 @@
 
 namespace celltrace::kernel {
 
-/// What is left of the light of `lanes` that goes on from what it hits, after `distance` before. As in
-/// POV-Ray only rays fade that hit the surface of an interior that they are in, whatever else they are in,
-/// and shadow rays only where the power is not 0. The interior's refraction counts on both sides of its
-/// surface, where light is totally reflected as well, but not for shadow rays.
+/// Multiplies light by the share that is left after `distance` inside an interior, in `lanes`. As in POV-Ray
+/// a ray fades only if it is inside the interior whose surface it hits, whatever other interiors it is inside
+/// of, and a shadow ray only if the power is not 0. The interior's refraction factor counts on both sides of
+/// its surface, also if light is totally reflected, but not for shadow rays.
 template <class Spu>
 [[gnu::noinline]] void fade(SceneAccess<Spu>& scene, const RayNode& ray, const WordLanes& interior,
                             const FloatLanes& distance, uint32_t lanes, VectorLanes& light, bool is_shadow) {

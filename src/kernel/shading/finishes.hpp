@@ -1,4 +1,4 @@
-// What few finishes do with light: crand and irid. Kernel dialect.
+// Rare features of finishes: crand and irid. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -15,8 +15,8 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// Numbers in [0, 1) that look random, each of a point and of `salt` alone: the same however work is shared.
-/// The last bits of points do not count, in which backends may differ.
+/// Returns pseudo-random numbers in [0, 1) that depend on a point and on `salt` alone, so that they are the
+/// same however work is shared. The last bits of points are ignored, as backends may differ in them.
 template <class S> CELLTRACE_ONE_COPY typename S::F random_at(const V3<S>& point, uint32_t salt) {
   constexpr uint32_t kCertain = ~0x1Fu;
   alignas(64) float lane[3][S::kLanes];
@@ -37,14 +37,15 @@ template <class S> CELLTRACE_ONE_COPY typename S::F random_at(const V3<S>& point
   return S::F::load(lane[0]);
 }
 
-/// The cosine of an angle in turns.
+/// Returns the cosine of an angle in turns.
 template <class S> typename S::F cosine_of_turns(const typename S::F& turns) {
   const typename S::F shifted = turns + typename S::F(0.25f);
   return sine_of_turns<S>(shifted - S::floor(shifted));
 }
 
-/// The factors that a thin film gives light, as POV-Ray's irid: by how much the way through the film differs
-/// from a whole number of each wavelength. `cosines`: that of the light's angle plus that of the ray's.
+/// Returns the factors of light on a thin film, as for POV-Ray's irid: they depend on the difference between
+/// the path through the film and a whole number of each wavelength. `cosines`: the cosine of the light's
+/// angle plus that of the ray's angle.
 template <class Spu>
 V3<typename Spu::rare_simd> film_factors(Spu& spu, const FinishRecord& f,
                                          const V3<typename Spu::rare_simd>& point,
@@ -66,7 +67,7 @@ V3<typename Spu::rare_simd> film_factors(Spu& spu, const FinishRecord& f,
 
 } // namespace detail
 
-/// Changes what surfaces send on of the light with this number, in the lanes of `m.special`.
+/// Changes the light that surfaces send on of the light `number`, in the lanes of `m.special`.
 template <class Spu>
 CELLTRACE_ONE_COPY void change_special_light(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
                                              const MaterialLanes<typename Spu::simd>& m,
@@ -98,8 +99,9 @@ CELLTRACE_ONE_COPY void change_special_light(SceneAccess<Spu>& scene, const Surf
   });
 }
 
-/// Changes what surfaces mirror and reflect inside, in the lanes of `m.special`: films are passed as light
-/// from there would pass them. `smooth`: the surfaces' normals before they were disturbed.
+/// Changes the factors of mirrored and of totally reflected light in the lanes of `m.special`: that light
+/// passes films as the light of a source in the same direction does. `smooth`: the surfaces' normals before
+/// they were disturbed.
 template <class Spu>
 CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
                                               const V3<typename Spu::simd>& smooth,
@@ -126,7 +128,7 @@ CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Sur
           };
           pass(onward.reflected_inside, factors);
           if (!onward.bends_reflection) return pass(onward.mirror, factors);
-          // The mirrored light is raised to a power when it arrives: what it passed by then is, too.
+          // Mirrored light is raised to a power when it arrives, and so is the film's factor.
           const F power = part_of<Spu>(onward.reflection_power, first);
           const auto raised = [&](const F& factor) { return pow<R>(R::max(factor, F(0.0f)), power); };
           pass(onward.mirror, {raised(factors.x), raised(factors.y), raised(factors.z)});

@@ -1,4 +1,4 @@
-// Where rays hit, and the surface there. Kernel dialect.
+// Hit points of rays, and the surface there. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -10,22 +10,22 @@
 
 namespace celltrace::kernel {
 
-/// Points, unit normals flipped toward the viewer, and the records' words of sixteen hits.
+/// Sixteen hits: points, unit normals flipped toward the viewer, and words of the records.
 template <class S> struct HitPoints {
   V3<S> point, normal;
   WordLanes material; ///< offset of a MaterialRecord, or of a BlendRecord in lanes of `blended`
   WordLanes interior;
   uint32_t blended = 0;
-  uint32_t spawning = 0;  ///< lanes from which rays may go on, as material_word's
-  uint32_t textured = 0;  ///< lanes some of whose materials are not the constants of their records alone
-  uint32_t disturbed = 0; ///< of them, those some of whose materials disturb normals
-  uint32_t lit_behind = 0, lit_through = 0; ///< as material_word's and object_flag's
+  uint32_t spawning = 0;  ///< lanes from which secondary rays may go on (material_word::spawns)
+  uint32_t textured = 0;  ///< lanes with materials that are more than the constants of their records
+  uint32_t disturbed = 0; ///< lanes with materials that disturb normals; also in `textured`
+  uint32_t lit_behind = 0, lit_through = 0; ///< material_word::lit_behind, object_flag::lit_through
 
   uint32_t plain(uint32_t lanes) const { return lanes & ~(blended | textured); }
-  /// Whether each of `lanes` has one material, and no rays go on from there.
+  /// Returns true if each of `lanes` has one material, and no secondary rays go on from there.
   bool ends(uint32_t lanes) const { return (lanes & (spawning | blended)) == 0; }
 
-  /// As rays along `direction` see them that hit `objects`.
+  /// Returns the surfaces as seen by rays along `direction` that hit `objects`.
   Surfaces<S> surfaces(const V3<S>& direction, const WordLanes& objects) const {
     return {point, normal, direction, &objects, lit_behind, lit_through};
   }
@@ -86,7 +86,7 @@ template <class Spu>
     add(others | heavy, p, n);
   }
   if (planes != 0) {
-    // On the plane to the precision of the point: a pattern may have a step there.
+    // The point is moved onto the plane to its own precision, as a pattern may have a step there.
     const V3<S> n_of_plane = {o.geometry[2].z, o.geometry[3].x, o.geometry[3].y};
     const typename S::F off = dot<S>(n_of_plane, along_ray) + o.geometry[3].z;
     add(planes, along_ray - n_of_plane * off, n_of_plane);
@@ -97,7 +97,8 @@ template <class Spu>
   }
 }
 
-/// Of surfaces that are seen from inside; of several materials that one has, the first says what that is.
+/// Replaces the materials of surfaces that are seen from inside. If a surface has several materials, the
+/// first one determines the material inside.
 template <class Spu>
 CELLTRACE_ONE_COPY void take_inside_materials(SceneAccess<Spu>& scene, uint32_t lanes,
                                               HitPoints<typename Spu::simd>& points) {
@@ -113,14 +114,14 @@ CELLTRACE_ONE_COPY void take_inside_materials(SceneAccess<Spu>& scene, uint32_t 
 
 } // namespace detail
 
-/// Those of `lanes` that hit something.
+/// Returns the lanes of `lanes` that hit something.
 template <class S> uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
   using I = typename S::I;
   const I objects = load_words<S>(hits.object);
   return lanes & ~(objects == I::splat(static_cast<int32_t>(kNoOffset))).bits();
 }
 
-/// Says that find_hit_points() will want the normals of the hits of `lanes`.
+/// Prefetches records with the normals that find_hit_points() will read for the hits of `lanes`.
 template <class Spu> void hint_extras(SceneAccess<Spu>& scene, const HitPacket& hits, uint32_t lanes) {
   for_each_lane(lanes, [&](uint32_t lane) {
     if (is_instanced(hits.object.lane[lane])) return;
@@ -131,15 +132,15 @@ template <class Spu> void hint_extras(SceneAccess<Spu>& scene, const HitPacket& 
 
 namespace detail {
 
-/// The objects that rays hit, and what their records say besides.
+/// The objects that rays hit, and further words of their records.
 template <class S> struct HitObjects {
   using I = typename S::I;
   ObjectLanes<S> objects;
   I material = I::splat(0), interior = I::splat(0);
-  uint32_t open = 0, two_sided = 0, inverse = 0; ///< as object_flag's
+  uint32_t open = 0, two_sided = 0, inverse = 0; ///< lanes with the object_flag of the same name
 };
 
-/// Puts them in their lanes one by one. Lanes without a hit hold what the first object has.
+/// Puts the objects that rays hit in their lanes, object by object. Lanes without a hit get the first object.
 template <class Spu>
 [[gnu::always_inline]] inline void gather_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                                   uint32_t lanes, HitObjects<typename Spu::simd>& o,
@@ -220,7 +221,7 @@ template <class Spu>
 
 } // namespace detail
 
-/// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the
+/// Finds the points of `lanes`, which must all have a hit. Points are computed from the object, not along the
 /// ray: they lie on the surface to its own precision, however far away the ray began.
 template <class Spu>
 CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPacket& hits,

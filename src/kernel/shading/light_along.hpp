@@ -1,22 +1,22 @@
-// What light meets along rays, between where they start and what they hit. Kernel dialect.
+// Effects on light along rays, between their origins and their hits. Kernel dialect.
 //
-// All that dims light on its way or adds to it goes through light_along(): fogs, and rainbows behind them.
-// Interiors are not on the way: as in POV-Ray they dim the light that goes on from the surface at its end,
-// not the light that is mirrored there (fading.hpp).
+// All media that dim light along a ray or add to it go through light_along(): fogs, and rainbows behind them.
+// Interiors do not: as in POV-Ray they dim the light that goes on from the surface at the ray's end, not the
+// light that is mirrored there (fading.hpp).
 #pragma once
 
 #include "kernel/shading/atmosphere.hpp"
 
 namespace celltrace::kernel {
 
-/// A part of a packet's rays, as far as light is asked for.
+/// The segments of a part of a packet's rays along which light is followed.
 template <class S> struct RaySegments {
   V3<S> origin, direction;
   typename S::F length;
 };
 
-/// Light that the rays of a node see: what is on the way adds to `light`, and leaves the node with the
-/// throughput that is left for what it hits.
+/// Light that the rays of a node see: media along the rays add to `light`, and multiply the node's throughput
+/// for the hits.
 template <class Spu> class SeenLight {
 public:
   using S = typename Spu::rare_simd;
@@ -32,7 +32,7 @@ public:
   void pass(uint32_t first, const typename S::M& take, const Passage<S>& passage) {
     const V3<S> throughput = ray.throughput.template load_from<S>(first);
     const V3<S> before = light.template load_from<S>(first);
-    // As in POV-Ray, nothing dims what something else adds.
+    // As in POV-Ray, light that one fog adds is not dimmed by another.
     light.template store_from<S>(
         first, select<S>(take, before + undimmed_.template load_from<S>(first) * passage.add, before));
     ray.throughput.template store_from<S>(first, select<S>(take, throughput * passage.pass, throughput));
@@ -52,8 +52,8 @@ private:
   VectorLanes undimmed_;
 };
 
-/// Light that shadow rays bring: `arriving` is multiplied by what passes, as far as they go to what they hit
-/// or to the light, `left` away.
+/// Light that arrives along shadow rays: `arriving` is multiplied by the share that passes between the rays'
+/// origins and their hits, or the light, which is `left` away.
 template <class Spu> class ArrivingLight {
 public:
   using S = typename Spu::rare_simd;
@@ -68,7 +68,7 @@ public:
     const V3<S> before = light.template load_from<S>(first);
     light.template store_from<S>(first, select<S>(take, before * passage.pass, before));
   }
-  void see_rainbows(SceneAccess<Spu>&, uint32_t) {} // they light nothing
+  void see_rainbows(SceneAccess<Spu>&, uint32_t) {} // rainbows send no light to surfaces
 
   const RayNode& ray;
   VectorLanes& light;
@@ -78,7 +78,7 @@ private:
   const FloatLanes& left_;
 };
 
-/// Takes light along rays: a SeenLight, or an ArrivingLight.
+/// Follows light along rays; `light` is a SeenLight or an ArrivingLight.
 template <class Spu, class Light>
 [[gnu::noinline]] void light_along(SceneAccess<Spu>& scene, const FrameBlock& frame, Light light) {
   using S = typename Spu::rare_simd;

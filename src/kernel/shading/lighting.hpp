@@ -1,5 +1,5 @@
-// Shade pixel: the light that a surface sends toward the viewer by itself. The terms are those of Hall's
-// model that POV-Ray uses: ambient, diffuse with brilliance, Phong and Blinn highlights. Kernel dialect.
+// Light that a surface sends toward the viewer, without secondary rays. The terms are those of Hall's model
+// that POV-Ray uses: ambient, diffuse with brilliance, Phong and Blinn highlights. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -12,8 +12,8 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// A cosine to the power n is at most exp(-n (1 - cosine)). Where n (1 - cosine) is more than this, it is
-/// less than 1e-9, and there is no highlight.
+/// Bound beyond which there is no highlight: a cosine to the power n is at most exp(-n (1 - cosine)), which
+/// is less than 1e-9 if n (1 - cosine) is more than this.
 constexpr float kLeastHighlight = 20.7f;
 
 template <class S>
@@ -21,9 +21,9 @@ typename S::F phong_term(const Surfaces<S>& s, const MaterialLanes<S>& m, const 
   using F = typename S::F;
   const V3<S> mirrored = s.direction - s.normal * (F(2.0f) * dot<S>(s.direction, s.normal));
   const F cosine = dot<S>(mirrored, light.direction);
-  // POV-Ray cuts wide angles off where the exponent makes them invisible.
+  // POV-Ray drops wide angles if the exponent makes their highlights invisible.
   const auto seen = (cosine > F(0.0f)) & ((m.phong_size < F(60.0f)) | (cosine > F(0.0008f)));
-  if constexpr (S::kLanes == kSimdLanes) { // where there is room for code
+  if constexpr (S::kLanes == kSimdLanes) { // only where there is room for code
     const auto shines =
         seen & !(m.phong == F(0.0f)) & (m.phong_size * (F(1.0f) - cosine) < F(kLeastHighlight));
     if ((shines.bits() & light.facing) == 0) return F(0.0f);
@@ -36,7 +36,7 @@ typename S::F specular_term(const Surfaces<S>& s, const MaterialLanes<S>& m, con
   using F = typename S::F;
   const V3<S> between = light.direction - s.direction;
   if constexpr (S::kLanes == kSimdLanes) {
-    // Of the cosine's square, without a root or a division.
+    // The test is on the cosine's square, without a root or a division.
     const F along = dot<S>(between, s.normal), square = dot<S>(between, between);
     const F least = m.inverse_roughness - F(kLeastHighlight), scaled = along * m.inverse_roughness;
     const auto shines = (along > F(0.0f)) & !(m.specular == F(0.0f)) &
@@ -55,14 +55,14 @@ V3<S> highlight(const Surfaces<S>& s, const MaterialLanes<S>& m, const IncidentL
   F strength(0.0f);
   if (m.has(material_flag::phong)) strength = strength + phong_term<S>(s, m, light);
   if (m.has(material_flag::specular)) strength = strength + specular_term<S>(s, m, light);
-  if constexpr (S::kLanes == kSimdLanes) // most surfaces are beside their highlights: no tint for these
+  if constexpr (S::kLanes == kSimdLanes) // most surfaces are beside their highlights and need no tint
     if ((strength > F(0.0f)).bits() == 0) return {F(0.0f), F(0.0f), F(0.0f)};
   const V3<S> white = light.colour * strength;
   return m.has(material_flag::metallic) ? white * metallic_tint<S>(m.metallic, light.cosine, m.pigment)
                                         : white;
 }
 
-/// The cosine of light to the power of the materials' brilliance.
+/// Returns the cosine of light to the power of the materials' brilliance.
 template <class Spu>
 [[gnu::always_inline]] inline typename Spu::simd::F
 bent_cosine(const MaterialLanes<typename Spu::simd>& m, const IncidentLight<typename Spu::simd>& light) {
@@ -79,7 +79,8 @@ bent_cosine(const MaterialLanes<typename Spu::simd>& m, const IncidentLight<type
   return bent;
 }
 
-/// What surfaces reflect. What few materials have is done by parts, as its code takes much local store.
+/// Returns the light that surfaces reflect. Rare features of materials are computed by parts, as their code
+/// takes much local store.
 template <class Spu>
 V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
                                        const MaterialLanes<typename Spu::simd>& m,
@@ -96,8 +97,9 @@ V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
   return sum;
 }
 
-/// The same of surfaces some of which light reaches from behind, too: there it has a share of its own and no
-/// highlights, or counts as if it came from before. Leaves no light where none counts.
+/// Finds the light that surfaces reflect if light reaches some of them from behind, too: it has a share of
+/// its own and no highlights, or counts as if it came from the front. Sets the light to 0 where it does not
+/// count.
 template <class Spu>
 CELLTRACE_ONE_COPY void light_of_both_sides(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
                                             const MaterialLanes<typename Spu::simd>& m, bool highlights,
@@ -123,26 +125,26 @@ CELLTRACE_ONE_COPY void light_of_both_sides(SceneAccess<Spu>& scene, const Surfa
 
 } // namespace detail
 
-/// Lights that surfaces are lit by at a time: what comes to them is known for so many.
+/// Number of lights that are processed at a time: the light that surfaces send on is kept for each of them.
 constexpr uint32_t kLightsARound = 4;
 
-/// Lights [first, first + count) of a frame, and what surfaces would send on of each of them if nothing were
-/// in the way. Only where that counts is it asked what comes of it. The first round adds what surfaces send
-/// without light.
+/// Lights [first, first + count) of a frame, and the light that surfaces would send on of each of them if it
+/// were not occluded. Shadow rays are traced only where that light counts. The first round also adds the
+/// light that surfaces send without lights.
 struct LightRound {
   uint32_t first, count;
-  VectorLanes* gathered;          ///< by light of the round; nothing of lights that are not asked for
-  bool only_gathers = false;      ///< nothing else comes of it: surfaces are shaded for another time
-  bool is_fresh = false;          ///< nothing has been gathered, and `gathered` is undefined
-  ShadowRays* to_first = nullptr; ///< if not null: becomes the rays toward the first light
+  VectorLanes* gathered;          ///< index: light in the round; 0 for lights without shadow rays
+  bool only_gathers = false;      ///< nothing is added besides: surfaces are shaded again
+  bool is_fresh = false;          ///< nothing has been gathered yet, and `gathered` is undefined
+  ShadowRays* to_first = nullptr; ///< if not null: receives the rays toward the first light
 
-  /// The round of a frame that begins with a light.
+  /// Returns the round of a frame that begins with light `first`.
   static LightRound from(const FrameBlock& frame, uint32_t first, VectorLanes* gathered) {
     const uint32_t left = frame.light_count - first;
     return {first, left < kLightsARound ? left : kLightsARound, gathered};
   }
   bool is_first() const { return first == 0 && !only_gathers; }
-  /// The light that the next round begins with; none is left if there are no more.
+  /// Returns the first light of the next round, which is the number of lights if there is no further round.
   uint32_t next() const { return first + count; }
 
   template <class S> void clear() const {
@@ -157,7 +159,7 @@ struct LightRound {
       sum = sum + gathered[i].template load<S>();
     return sum;
   }
-  /// Adds the light of all lights. Not inlined: one copy saves local store.
+  /// Adds the sum of the gathered light. Not inlined, as one copy saves local store.
   template <class S> CELLTRACE_ONE_COPY void add_to(VectorLanes& light, uint32_t lanes) const {
     const V3<S> sum = this->sum<S>();
     const V3<S> before = light.template load<S>();
@@ -168,7 +170,7 @@ struct LightRound {
 /// Light counts if one of its channels is above this: less does not change a pixel.
 constexpr float kLeastLight = 1e-6f;
 
-/// Those of `lanes` in which light is above `least`.
+/// Returns the lanes of `lanes` with light above `least`.
 template <class S>
 CELLTRACE_ONE_COPY uint32_t lanes_above(const VectorLanes& light, uint32_t lanes, float least) {
   const V3<S> l = light.template load<S>();
@@ -176,9 +178,9 @@ CELLTRACE_ONE_COPY uint32_t lanes_above(const VectorLanes& light, uint32_t lanes
   return (most > typename S::F(least)).bits() & lanes;
 }
 
-/// Gathers what the surfaces of `lanes` send on of the lights of a round that are asked for, times `weight`.
-/// Returns the rest, without it: ambient light and that of other lights. The round is fresh no
-/// more, unless no surface sends on any.
+/// Gathers the light that the surfaces of `lanes` send on of the round's lights with shadow rays, times
+/// `weight`. Returns the other light without the weight: ambient light, and that of lights without shadow
+/// rays. Afterwards the round is fresh only if no surface sends on any light.
 template <class Spu>
 V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& frame, LightRound& round,
                                    const Surfaces<typename Spu::simd>& s,

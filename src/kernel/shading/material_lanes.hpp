@@ -1,4 +1,4 @@
-// The materials of sixteen hits side by side. Kernel dialect.
+// The materials of sixteen hits, one in each lane. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -16,16 +16,16 @@ template <class S> struct MaterialLanes {
   V3<S> pigment, ambient, reflection_min, reflection_max;
   F filter, transmit, opacity, diffuse, brilliance, phong, phong_size, specular, inverse_roughness, metallic;
   F reflection_falloff, reflection_metallic, inverse_reflection_exponent;
-  uint32_t fresnel = 0, conserve_energy = 0;          ///< lanes
-  uint32_t patterned = 0, disturbed = 0, layered = 0; ///< likewise, as MaterialRecord::flags
-  uint32_t special = 0;                               ///< likewise, with a FinishRecord
-  const WordLanes* offsets;                           ///< of the records, of the whole packet
-  uint32_t flags = 0; ///< of all materials. Fields that none of them asks for are not set
+  uint32_t fresnel = 0, conserve_energy = 0;          ///< lanes with the material_flag of the same name
+  uint32_t patterned = 0, disturbed = 0, layered = 0; ///< lanes with the material_flag of the same name
+  uint32_t special = 0;                               ///< lanes with a FinishRecord
+  const WordLanes* offsets;                           ///< offsets of the records, of the whole packet
+  uint32_t flags = 0; ///< flags of all materials; members that no flag asks for are not set
 
   bool has(uint32_t some_flags) const { return (flags & some_flags) != 0; }
 };
 
-/// The materials of a part of a packet's lanes.
+/// Returns a part of a packet's lanes.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const MaterialLanes<typename Spu::simd>& m,
                                                      uint32_t first) {
@@ -63,8 +63,8 @@ template <class Spu>
 
 namespace detail {
 
-/// Gives `taken` lanes a material, which may be said to be `kAll`; `lanes` are those of them that have it.
-/// Sets what `wanted`, a material's flags, ask for.
+/// Gives `taken` lanes a material; with `kAll` these are all lanes. `lanes` are the lanes that really have
+/// it. Sets the members that the flags `wanted` ask for.
 template <class Spu, bool kAll = false>
 CELLTRACE_ONE_COPY void gather_material(const MaterialRecord& r, uint32_t taken, uint32_t lanes,
                                         uint32_t wanted, MaterialLanes<typename Spu::simd>& m) {
@@ -116,7 +116,7 @@ CELLTRACE_ONE_COPY void gather_material(const MaterialRecord& r, uint32_t taken,
 
 } // namespace detail
 
-/// The materials at `offsets` of the lanes in `lanes`; other lanes get that of one of them.
+/// Returns the materials at `offsets` in `lanes`; other lanes get one of these materials.
 template <class Spu>
 MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                                    uint32_t lanes) {
@@ -126,7 +126,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
   for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kMaterial);
     const MaterialRecord& r = *scene.material(offset);
-    // Where all lanes have one material, what it does not ask for need not be set.
+    // If all lanes have one material, members that it does not ask for need not be set.
     const uint32_t wanted = same == lanes ? r.flags : ~0u;
     Strategy<Spu>::template gather_material<Spu>(r, first, same, wanted, m);
     first = false;
@@ -134,7 +134,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
   return m;
 }
 
-/// The pigments of patterned materials at points, which gather_materials() leaves open.
+/// Sets the pigments of patterned materials at points, which gather_materials() leaves out.
 template <class Spu>
 CELLTRACE_ONE_COPY void add_pigments(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                      const PatternPoints<typename Spu::simd>& points,
@@ -169,8 +169,8 @@ CELLTRACE_ONE_COPY void add_pigments(SceneAccess<Spu>& scene, const WordLanes& o
   });
 }
 
-/// Of the materials of a packet, whose number is `packet`: adds the points of fractals that can be iterated
-/// together. For what add_pigments() will ask.
+/// Adds points of fractals that can be iterated together, for the materials of the packet with number
+/// `packet`. add_pigments() will ask for their values.
 template <class Spu, class Fractals>
 void add_fractals(SceneAccess<Spu>& scene, uint32_t packet, const WordLanes& offsets,
                   const V3<typename Spu::simd>& points, uint32_t lanes, Fractals& fractals) {
@@ -185,8 +185,9 @@ void add_fractals(SceneAccess<Spu>& scene, uint32_t packet, const WordLanes& off
   });
 }
 
-/// Disturbs the normals of surfaces in the lanes of `m.disturbed`. `lanes`: what else patterns ask for, or
-/// null; from then on the disturbed normals, also in layers below that have none of their own.
+/// Disturbs the normals of surfaces in the lanes of `m.disturbed`. `lanes` is further input of patterns, or
+/// null; it receives the disturbed normals, which also count for layers below that have no normals of their
+/// own.
 template <class Spu>
 CELLTRACE_ONE_COPY void disturb_normals(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                         const MaterialLanes<typename Spu::simd>& m, SurfaceLanes* lanes,
@@ -202,8 +203,8 @@ CELLTRACE_ONE_COPY void disturb_normals(SceneAccess<Spu>& scene, const WordLanes
       select<S>(S::M::from_bits(m.disturbed), surfaces.normal, lanes->normal.template load<S>()));
 }
 
-/// POV-Ray's tint of metallic highlights and reflections: 1 + m (1 - F(x)) (pigment - 1), where x is the
-/// angle over a right angle.
+/// Returns POV-Ray's tint of metallic highlights and reflections: 1 + m (1 - F(x)) (pigment - 1), where x is
+/// the angle over a right angle.
 template <class S>
 V3<S> metallic_tint(const typename S::F& metallic, const typename S::F& cosine, const V3<S>& pigment) {
   using F = typename S::F;

@@ -1,4 +1,4 @@
-// Raytrace: what packets of primary rays see. Kernel dialect.
+// Ray tracing of packets of primary rays. Kernel dialect.
 #pragma once
 
 #include "kernel/shading/light_along.hpp"
@@ -7,8 +7,9 @@
 
 namespace celltrace::kernel {
 
-/// The tree of one packet at a time, in steps between which its rays are traced: begin(), then for each
-/// node() take_hits() and, if any, shade_hits() for each round of lights, until advance() finds no more.
+/// Traces the tree of one packet at a time, in steps between which its rays are traced: begin(), then for
+/// each node() take_hits() and, if there are hits, shade_hits() for each round of lights, until advance()
+/// finds no more.
 template <class Spu, uint32_t kResident = kResidentNodes>
 class RayTracer : public SurfaceShading<Spu, kResident> {
   using Shading = SurfaceShading<Spu, kResident>;
@@ -29,13 +30,13 @@ public:
   using typename Shading::S;
   using M = typename S::M;
 
-  /// `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
+  /// Allocates memory. `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
             RayNode& scratch)
       : Shading(spu, frame, scene, spill, spill_nodes, scratch) {}
 
-  /// The colours of primary rays whose hits are known, if all of them end there; false: they do not, or there
-  /// are more lights than in one round. Without the light that the round gathers.
+  /// Finds the colours of primary rays whose hits are known, without the light that the round gathers, if all
+  /// rays end there; false: some do not, or there are more lights than in one round.
   bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
                     LightRound& round, VectorLanes& colours) {
     if (round.next() != frame_.light_count || has_atmosphere(frame_)) return false;
@@ -51,22 +52,23 @@ public:
     return true;
   }
 
-  /// The colours of primary rays that hit nothing.
+  /// Returns the colours of primary rays without a hit.
   V3<S> background(const RayPacket& rays, uint32_t lanes) {
     counters_.primary += count(lanes);
     return behind(rays.direction, lanes);
   }
-  /// Likewise of so many rays where there is no sky.
+  /// Returns the colour of `rays` primary rays without a hit in a frame without a sky.
   V3<S> background(uint32_t rays) {
     counters_.primary += rays;
     return splat3<S>(frame_.background);
   }
 
-  /// The lanes of node() that hit something; the others see the background.
+  /// Returns the lanes of node() with a hit; the others see the background.
   uint32_t take_hits() {
     return take_hits([](uint32_t) { return false; });
   }
-  /// The same, but whoever asks adds what some lanes see that hit nothing: if `waits(lanes)`.
+  /// Returns the lanes of node() with a hit. If `waits(lanes)` is true, the caller adds the background of
+  /// those lanes.
   template <class Waits> [[gnu::always_inline]] uint32_t take_hits(const Waits& waits) {
     scene_.spu().compute(scalar_work::kNode);
     if (has_atmosphere(frame_)) {
@@ -83,7 +85,7 @@ public:
     return hit;
   }
 
-  /// What rays of `lanes` see that hit nothing.
+  /// Returns the colours that rays of `lanes` see if they hit nothing.
   V3<S> behind(const VectorLanes& direction, uint32_t lanes) {
     V3<S> colour = splat3<S>(frame_.background);
     if (frame_.sky != kNoOffset) {

@@ -1,6 +1,6 @@
-// The tree of rays behind one packet of primary rays: the node that is being traced, the stack of nodes that
-// wait, the light that comes together, and the rays that go on from a surface. It is cut by level and by
-// contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
+// The ray tree of a packet of primary rays: the node that is being traced, the stack of waiting nodes, the
+// accumulated light, and the secondary rays of surfaces. The tree is cut by level and by contribution
+// (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -15,11 +15,11 @@ namespace celltrace::kernel {
 
 struct RayCounters {
   uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
-  uint64_t dropped = 0; ///< beyond what the stacks hold
+  uint64_t dropped = 0; ///< rays beyond the capacity of the stacks
 };
 
-/// What a RayTracer knows of the tree. Its parts are base classes: pointers from one to the other would cost
-/// an SPE code that it has no room for.
+/// The part of a RayTracer that manages the tree. The parts are base classes: pointers from one part to
+/// another would cost an SPE code that it has no room for.
 template <class Spu, uint32_t kResident> class RayTree {
 public:
   using S = typename Spu::simd;
@@ -33,10 +33,10 @@ public:
     scene_.spu().compute(scalar_work::kPrimaryPacket);
     clear(0);
     accumulators_in_use_ = 1;
-    stack_.clear(); // the tree before may have been broken off
+    stack_.clear(); // the previous tree may have been broken off
     start(rays, lanes);
   }
-  /// Starts with rays of a pool, each of which goes on in its own tree.
+  /// Starts with rays of a pool, each of which continues its own tree.
   template <class PooledPacket> void begin(const PooledPacket& packet) {
     clear(0);
     accumulators_in_use_ = 1;
@@ -44,15 +44,15 @@ public:
     node_ = packet.node;
     pooling_.pixels = packet.pixels;
   }
-  /// The rays whose closest hits are wanted next, and where to put them.
+  /// Return the rays whose closest hits are wanted next, and the place for the hits.
   const RayNode& node() const { return node_; }
   HitPacket& hits() { return hits_; }
-  /// The lanes in which gathered light counts. That of a bent reflection is raised to a power: all of it
-  /// does.
+  /// Returns the lanes in which gathered light counts. Light of a reflection that is raised to a power always
+  /// counts.
   uint32_t lanes_that_count(const VectorLanes& gathered, uint32_t lanes) const {
     return lanes_above<S>(gathered, lanes, node_.target == 0 ? kLeastLight : 0.0f);
   }
-  /// Goes on to the next node() of the tree. False: there is none, light() is complete.
+  /// Advances to the next node() of the tree. False: there is none, and light() is complete.
   bool advance() {
     while (!stack_.empty()) {
       stack_.pop(node_);
@@ -64,10 +64,10 @@ public:
   }
   const VectorLanes& light() const { return light_[0]; }
 
-  /// Where trees that begin from now on add how clear their pixels are. Wanted with light_way::alpha.
+  /// Sets where later trees add the transparency of their pixels. Necessary with light_way::alpha.
   void add_clear_to(FloatLanes& clear) { clear_ = &clear; }
 
-  /// Which rays go to a pool, and which pixels those are of that are traced.
+  /// Returns the state of pooling: the rays that go to a pool, and the pixels of the rays that are traced.
   auto& pooling() { return pooling_; }
 
   void reset_counters() {
@@ -75,7 +75,7 @@ public:
     stack_.reset_counters();
   }
   const RayCounters& counters() const { return counters_; }
-  /// For those who trace rays in its place.
+  /// Returns the counters for code that traces rays in place of the tree.
   RayCounters& counters() { return counters_; }
   uint32_t spilled_nodes() const { return stack_.spilled(); }
 
@@ -91,7 +91,7 @@ protected:
     store_words<S>(lanes, S::I::splat(static_cast<int32_t>(value)));
   }
 
-  /// Makes light() zero, for what is added without rays that are traced.
+  /// Sets light() to zero, for light that is added without traced rays.
   void begin_light() {
     const F one(1.0f);
     node_.target = 0;
@@ -100,7 +100,7 @@ protected:
   }
   void clear(uint32_t accumulator) { light_[accumulator].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }
 
-  /// Adds light that comes along the rays of node_, or from where they end with a weight of their own.
+  /// Adds light that comes along the rays of node_, or from their ends with a weight of its own.
   void add(uint32_t lanes, const V3<S>& light) {
     add_weighted(lanes, light, node_.throughput.template load<S>());
   }
@@ -110,7 +110,7 @@ protected:
     target.template store<S>(select<S>(M::from_bits(lanes), sum + light * weight, sum));
   }
 
-  /// Pushes the rays that go on; `smooth` is the normal before it was disturbed.
+  /// Pushes the secondary rays; `smooth` is the normal before it was disturbed.
   CELLTRACE_ONE_COPY void spawn(const Surfaces<S>& surfaces, const V3<S>& smooth, const WordLanes& interior,
                                 const SecondaryRays<S>& onward) {
     if ((onward.mirrors | onward.clear) == 0 || !round_.is_first()) return;
@@ -129,14 +129,14 @@ protected:
   }
 
 private:
-  /// What few frames need lies where nodes would.
+  /// Returns the number of resident nodes; rare features of frames take the local store of the others.
   static uint32_t resident_nodes(const FrameBlock& frame) {
     static_assert(sizeof(SurfaceLanes) <= sizeof(RayNode));
     if (has_areas(frame) || walks_shadows(frame)) return 0;
     return has_surface_lanes(frame) ? kResident - 1 : kResident;
   }
 
-  /// The root of the tree: the rays as they leave the camera.
+  /// Starts the root of the tree: the rays as they leave the camera.
   void start(const RayPacket& rays, uint32_t lanes) {
     copy_packet<Spu>(rays, node_.rays);
     node_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
@@ -153,7 +153,7 @@ private:
     counters_.primary += count(lanes);
   }
 
-  /// Lets the child that has been made wait for its turn, in the stack or in a pool. False: there is no room.
+  /// Puts the child in the stack or in a pool. False: there is no room.
   bool push() {
     const RayNode& child = stack_.next();
     if ((child.target | child.gathers) == 0 && pooling_.takes(child)) return true;
@@ -162,7 +162,7 @@ private:
     return room;
   }
 
-  /// The light of a reflection is complete.
+  /// Adds the light of a reflection that is complete.
   CELLTRACE_ONE_COPY void gather() {
     scene_.spu().run_in_module(modules::kFading);
     const V3<S> sum = light_[node_.gathers].template load<S>();
@@ -178,12 +178,12 @@ private:
     add(node_.lanes, raised);
   }
 
-  /// Fills the child with rays from the surfaces whose weight and level allow them; false if there are none.
+  /// Fills the child with rays from the surfaces whose weight and level allow them; false: there are none.
   bool prepare_child(const Surfaces<S>& surfaces, const V3<S>& direction, const V3<S>& throughput,
                      const F& weight, uint32_t one_level_deeper, uint32_t lanes) {
     RayNode& child = stack_.next();
     scene_.spu().compute(scalar_work::kChild);
-    // A ray that goes straight on takes no level, but as in POV-Ray there has to be one left.
+    // A ray that goes straight on takes no level, but as in POV-Ray one level must be left.
     const I level = load_words<S>(node_.level);
     const auto is_left = level < I::splat(static_cast<int32_t>(frame_.max_trace_level) - 1);
     const uint32_t go = lanes & ((weight >= F(frame_.adc_bailout)) & is_left).bits();
@@ -201,8 +201,9 @@ private:
     return true;
   }
 
-  /// What is left of the light that `lanes` of the child bring out of an interior, and how clear their way
-  /// is. POV-Ray takes the grey of what comes through each surface.
+  /// Multiplies the throughput and the transparency of the child's `lanes` by the share of light that comes
+  /// out of an interior. As in POV-Ray, the transparency takes the grey of the light that passes each
+  /// surface.
   CELLTRACE_ONE_COPY void fade_child(const WordLanes& interior, const V3<S>& through, uint32_t lanes) {
     RayNode& child = stack_.next();
     scene_.spu().run_in_module(modules::kFading);
@@ -243,7 +244,7 @@ private:
   }
 
   /// Sends the light of the child to an accumulator of its own, from which a node pushed below it gathers it.
-  /// Not in the module of what calls it, which has no room.
+  /// Not in the module of its callers, which has no room.
   CELLTRACE_ONE_COPY void redirect(const F& power) {
     scene_.spu().run_in_module(modules::kFading);
     RayNode& gathering = stack_.next();
@@ -257,7 +258,7 @@ private:
     clear(child.target);
   }
 
-  /// Pushes the transmitted rays; returns the lanes that were totally reflected.
+  /// Pushes the transmitted rays; returns the lanes with total reflection.
   uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const SecondaryRays<S>& onward,
                     const F& cosine, const V3<S>& mirrored) {
     scene_.spu().compute(scalar_work::kTransmit);
@@ -280,13 +281,13 @@ private:
     const M total_mask = M::from_bits(total);
     V3<S> direction = select<S>(M::from_bits(refraction.straight), surfaces.direction, bent);
     direction = select<S>(total_mask, mirrored, direction);
-    // A totally reflected ray stays inside. As in POV-Ray nothing changes it but a film.
+    // A totally reflected ray stays inside. As in POV-Ray, only a film changes its light.
     for_each_lane(total, [&](uint32_t lane) {
       child.interior_depth.lane[lane] = node_.interior_depth.lane[lane];
       for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
         child.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
     });
-    // POV-Ray's weight is that of a transmitted ray even where all light is reflected.
+    // POV-Ray's weight is that of a transmitted ray even if all light is reflected.
     if (prepare_child(surfaces, direction, select<S>(total_mask, onward.reflected_inside, onward.through),
                       F::load(node_.weight.lane) * onward.through_weight, onward.clear & ~refraction.straight,
                       onward.clear)) {
@@ -306,14 +307,14 @@ protected:
   SceneAccess<Spu>& scene_;
   RayStack<Spu, kResident> stack_;
   [[no_unique_address]] typename Strategy<Spu>::template RayPooling<Spu> pooling_;
-  RayNode& node_; ///< being traced
+  RayNode& node_; ///< the node that is being traced
   HitPacket hits_;
-  /// Deeper nesting of bent reflections than this leaves the innermost ones unbent.
+  /// Number of accumulators. Reflections with exponents that are nested deeper stay without their exponents.
   static constexpr uint32_t kAccumulators = 8;
-  VectorLanes light_[kAccumulators]; ///< by the nodes' targets
-  FloatLanes* clear_ = nullptr;      ///< of the packet, with light_way::alpha
+  VectorLanes light_[kAccumulators]; ///< index: RayNode::target
+  FloatLanes* clear_ = nullptr;      ///< of the packet; with light_way::alpha
   uint32_t accumulators_in_use_ = 1;
-  LightRound round_ = {}; ///< in which surfaces at hits_ are shaded; rays go on with the first
+  LightRound round_ = {}; ///< current round of shading; secondary rays are spawned in the first
   RayCounters counters_;
 };
 

@@ -1,5 +1,5 @@
-// Where light goes on from a surface: mirror reflection, transmission with refraction, total internal
-// reflection. Kernel dialect.
+// Secondary rays from a surface: mirror reflection, transmission with refraction, total internal reflection.
+// Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -9,16 +9,16 @@
 
 namespace celltrace::kernel {
 
-/// The media on both sides of a surface that a ray crosses. `position` is where the surface's interior stands
-/// among those the ray is inside of, or their number if it enters.
+/// The media on both sides of a surface that a ray crosses. `position` is the index of the surface's interior
+/// among those that the ray is inside of, or their number if the ray enters it.
 struct SolidCrossing {
   uint32_t position;
   bool leaves;
-  float from, to; ///< indices of refraction; equal where the ray does not bend
+  float from, to; ///< indices of refraction; equal if the ray does not bend
 };
 
-/// What the ray of `lane` does at a surface of `interior`. Leaving an interior that is not the innermost one
-/// does not bend.
+/// Returns the media at a surface of `interior` for the ray of `lane`. A ray that leaves an interior other
+/// than the innermost one does not bend.
 template <class Spu>
 SolidCrossing solid_crossing(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lane, uint32_t interior) {
   scene.spu().compute(scalar_work::kCrossing);
@@ -33,19 +33,19 @@ SolidCrossing solid_crossing(SceneAccess<Spu>& scene, const RayNode& ray, uint32
   return {position, true, ior_of(interior), depth > 1 ? ior_of(at(depth - 2)) : 1.0f};
 }
 
-/// Rays go on as they came where indices of refraction differ by less, relative to one of them.
+/// Relative difference of the indices of refraction below which rays go straight on.
 constexpr float kLeastBend = 1e-6f;
 
-/// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose ray goes on as
-/// it came.
+/// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose rays do not
+/// bend.
 struct Refraction {
   FloatLanes ratio;
   uint32_t straight = 0;
 };
 
 /// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `ray` is
-/// inside of and says how it bends. Counts rays that are inside more interiors than a node holds; these lose
-/// the outermost.
+/// inside of, and returns its refraction. Counts rays that are inside more interiors than a node holds; these
+/// lose the outermost.
 template <class Spu>
 Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes, RayNode& ray,
                           uint64_t& overflows) {
@@ -77,9 +77,10 @@ Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, ui
   return result;
 }
 
-/// The ratio that POV-Ray's Fresnel mirrors take where `interior` begins or ends, as measured from its
-/// pictures: that of refraction where a ray enters an object or leaves the only one it is in; otherwise that
-/// of entering the innermost object from this one, hence 1, and no mirror at all, out of the innermost one.
+/// Returns the ratio that POV-Ray's Fresnel mirrors use where `interior` begins or ends, as measured from its
+/// pictures: the ratio of refraction if a ray enters an object or leaves the only one it is in; otherwise the
+/// ratio for entering the innermost object from this one, which is 1, and so no mirror at all, on leaving the
+/// innermost one.
 template <class Spu>
 float fresnel_ratio(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lane, uint32_t interior) {
   const SolidCrossing change = solid_crossing(scene, ray, lane, interior);
@@ -101,8 +102,9 @@ FloatLanes fresnel_ratios(SceneAccess<Spu>& scene, const WordLanes& interior, ui
   return ratios;
 }
 
-/// Snell's law in vector form. `cosine` = -direction.normal. As in POV-Ray, a disturbed normal that is turned
-/// away from the ray is as if it were turned around. Lanes beyond the critical angle go to `total`.
+/// Refracts a direction by Snell's law in vector form. `cosine` = -direction.normal. As in POV-Ray, a
+/// disturbed normal that points away from the ray counts as if it were reversed. `total` receives the lanes
+/// beyond the critical angle.
 template <class S>
 V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine,
               const typename S::F& ratio, typename S::M& total) {
@@ -114,8 +116,9 @@ V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& 
   return normalise<S>(direction * ratio + normal * along_normal);
 }
 
-/// Of a surface whose disturbed normal is `normal`. As in POV-Ray, a normal that is turned away from the ray
-/// is as if it were smooth, and what would go below the smooth surface is mirrored there again.
+/// Mirrors a direction at a surface whose disturbed normal is `normal`. As in POV-Ray, a normal that points
+/// away from the ray is replaced by the smooth one, and a direction below the smooth surface is mirrored
+/// there again.
 template <class S>
 [[gnu::always_inline]] inline V3<S> mirror_inline(const V3<S>& direction, const V3<S>& normal,
                                                   const V3<S>& smooth) {
@@ -132,12 +135,12 @@ template <class S> V3<S> mirror(const V3<S>& direction, const V3<S>& normal, con
   return mirror_inline<S>(direction, normal, smooth);
 }
 
-/// Fresnel reflectance of unpolarised light, going from index `from` to `to` at `cosine` to the normal; 1
-/// beyond the critical angle.
+/// Returns the Fresnel reflectance of unpolarised light for the relative index `ratio` (from over to) at
+/// `cosine` to the normal; 1 beyond the critical angle.
 template <class S>
 typename S::F fresnel_reflectance(const typename S::F& ratio, const typename S::F& cosine) {
   using F = typename S::F;
-  // With n = to/from: g^2 = n^2 + c^2 - 1.
+  // Let n = to/from; then g^2 = n^2 + c^2 - 1.
   const F n = F(1.0f) / ratio;
   const F square = n * n + cosine * cosine - F(1.0f);
   const F g = S::sqrt(S::max(square, F(0.0f)));
@@ -148,8 +151,8 @@ typename S::F fresnel_reflectance(const typename S::F& ratio, const typename S::
   return S::select(square > F(0.0f), S::min(reflectance, F(1.0f)), F(1.0f));
 }
 
-/// The fraction of each colour that a surface mirrors. `fresnel_ratio` is read in lanes of the material's
-/// fresnel.
+/// Returns the fraction of each colour that a surface mirrors. `fresnel_ratio` is read in the lanes of
+/// `m.fresnel`.
 template <class S>
 V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine,
                    const typename S::F& fresnel_ratio) {
@@ -168,15 +171,15 @@ V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine,
   return result;
 }
 
-/// What surfaces pass on of the light that comes from beyond them: factors of mirrored and of transmitted
-/// light, with the weights that adaptive depth control gives those rays.
+/// Factors of mirrored and of transmitted light at surfaces, with the weights that adaptive depth control
+/// gives those rays.
 template <class S> struct SecondaryRays {
   using F = typename S::F;
   V3<S> mirror, through;
   F mirror_weight, through_weight;
   V3<S> reflected_inside;          ///< factor of totally reflected light, in lanes of `clear`
-  F reflection_power;              ///< that mirrored light is raised to, if bends_reflection
-  uint32_t mirrors = 0, clear = 0; ///< lanes with any mirrored, any transmitted light
+  F reflection_power;              ///< exponent of mirrored light, if bends_reflection
+  uint32_t mirrors = 0, clear = 0; ///< lanes with mirrored light, and with transmitted light
   bool bends_reflection = false;
 
   static SecondaryRays nothing() {
@@ -192,7 +195,7 @@ template <class S> struct SecondaryRays {
     mirrors = clear = 0;
     bends_reflection = false;
   }
-  /// Of lanes that have none yet.
+  /// Sets the values of lanes that have none yet.
   template <class Spu> void set_part(uint32_t first, const SecondaryRays<typename Spu::rare_simd>& part) {
     kernel::set_part<Spu>(mirror, first, part.mirror);
     kernel::set_part<Spu>(through, first, part.through);
@@ -204,7 +207,8 @@ template <class S> struct SecondaryRays {
     bends_reflection = part.bends_reflection;
   }
   bool is_nothing() const { return (mirrors | clear) == 0; }
-  /// True if adaptive depth control would treat the rays of both alike, and neither bends reflections.
+  /// Returns true if adaptive depth control would treat the rays of both alike, and neither bends
+  /// reflections.
   template <class Spu> bool weighs_like(const SecondaryRays& other) const {
     using R = typename Spu::rare_simd;
     uint32_t unlike = (mirrors ^ other.mirrors) | (clear ^ other.clear);
@@ -216,7 +220,7 @@ template <class S> struct SecondaryRays {
     });
     return unlike == 0 && !bends_reflection && !other.bends_reflection;
   }
-  /// Light of the same directions from another material of the same surfaces that weighs the same.
+  /// Adds the light of another material of the same surfaces, with the same directions and weights.
   template <class Spu> void add(const SecondaryRays& other) {
     using R = typename Spu::rare_simd;
     for_each_part<Spu>([&](uint32_t first) {
@@ -239,7 +243,7 @@ template <class S> struct SecondaryRays {
 
 namespace detail {
 
-/// All but what is reflected inside. `onward` is nothing() before.
+/// Finds the factors except that of total reflection. `onward` must be nothing().
 template <class S>
 [[gnu::always_inline]] inline void
 secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio,
@@ -250,7 +254,7 @@ secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const 
   if (m.has(material_flag::reflects)) {
     mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
     const F strength = max_component<S>(mirrored);
-    // POV-Ray weighs a reflection that is not Fresnel's by the most that it may be.
+    // POV-Ray weighs a reflection without Fresnel by its greatest possible value.
     const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
     onward.mirrors = (strength > F(0.0f)).bits() & lanes;
     const auto mirrors = S::M::from_bits(onward.mirrors);
@@ -273,8 +277,8 @@ secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const 
 
 } // namespace detail
 
-/// For surfaces of the materials `m` in `lanes`, `share` of which counts: all but what is reflected inside.
-/// `all` is nothing() before.
+/// Finds the factors, except that of total reflection, for surfaces of the materials `m` in `lanes`, times
+/// `share`. `all` must be nothing().
 template <class Spu>
 CELLTRACE_ONE_COPY void
 find_secondary_rays(const MaterialLanes<typename Spu::simd>& m, const typename Spu::simd::F& cosine,

@@ -1,5 +1,5 @@
-// What comes of light to points: shadow rays are traced, or walked from surface to surface, and lights that
-// have an area are asked place by place. Kernel dialect.
+// Light that reaches points: shadow rays are traced, or walked from surface to surface, and area lights are
+// sampled place by place. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -14,13 +14,14 @@ namespace celltrace::kernel {
 
 /// Traces rays to lights. A strategy's ShadowSearch has:
 ///
-///   is_at_pinhole(light)                whether a light is known to be where primary rays begin, so that
-///   nothing
-///                                       is between it and what they have hit
-///   walks(light)                        whether rays toward a light are walked, in scenes where some have to
-///   be trace_crossings(light, queries, count)   whether a bundle has been taken through what it crosses
-///   trace_crossings(light, rays, lanes, distance, colour)   the same of a packet that is not walked
-///   sample_area(light, lanes, colour)   whether what comes of an area is known
+///   is_at_pinhole(light)                true if a light is known to be where primary rays begin: nothing
+///                                       occludes it from their hits
+///   walks(light)                        true if rays toward a light are walked, in scenes where some must be
+///   trace_crossings(light, queries, count)   takes a bundle through the surfaces that it crosses; false: it
+///                                       did not
+///   trace_crossings(light, rays, lanes, distance, colour)   takes a packet that is not walked through the
+///                                       surfaces that it crosses
+///   sample_area(light, lanes, colour)   finds the light of an area light; false: it did not
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 class ShadowTracer : public Strategy<Spu>::template ShadowSearch<ShadowTracer<Spu, kAccelerators>, Spu> {
   using Search = typename Strategy<Spu>::template ShadowSearch<ShadowTracer, Spu>;
@@ -30,7 +31,7 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// `scratch` may be shared with a RayTracer, whose `counters` count shadow rays.
+  /// Allocates memory. `scratch` may be shared with a RayTracer, whose `counters` count shadow rays.
   [[gnu::always_inline]] ShadowTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene,
                                       RayNode& scratch, RayCounters& counters)
       : frame_(frame), scene_(scene), traversal_(scene, frame), counters_(counters),
@@ -39,30 +40,31 @@ public:
     static_assert(sizeof(AreaShadow<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
   }
 
-  /// What answers the queries, and may answer others.
+  /// Returns the Traversal, which may answer other queries, too.
   Traversal<Spu, kAccelerators>& traversal() { return traversal_; }
   const Traversal<Spu, kAccelerators>& traversal() const { return traversal_; }
 
-  /// The interiors of the rays whose hits are asked about from now on; null: those of the camera.
+  /// Sets the interiors of the rays whose hits are processed next; null: those of the camera.
   void set_interiors(const RayInteriors* interiors) { interiors_ = interiors; }
-  /// Whether set_interiors() matters.
+  /// Returns true if set_interiors() matters.
   bool asks_interiors() const { return walk_ != nullptr; }
 
-  /// Whether the rays of a bundle to a light are not traced together.
+  /// Returns true if the rays of a bundle to a light are not traced together.
   bool asks_by_packet(const LightRecord& light) const {
     return (light.kind_and_flags & (light_flag::area | light_flag::projected)) != 0 || walks_all(light);
   }
 
   using Search::is_at_pinhole;
-  /// Leaves in `colour`, which has been gathered, what comes of a light to which nothing is in the way.
+  /// Sets the light of other lanes in `colour`, which has been gathered, to 0, if nothing occludes the light
+  /// source.
   void take_unoccluded(uint32_t lanes, VectorLanes& colour) {
     counters_.shadow += static_cast<uint32_t>(__builtin_popcount(lanes));
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     colour.template store<S>(select<S>(S::M::from_bits(lanes), colour.template load<S>(), dark));
   }
 
-  /// Leaves in `colour`, which has been gathered, what comes of it to points on objects; in `lanes` it
-  /// counts.
+  /// Multiplies `colour`, the gathered light of points on objects, by the share that reaches them; it counts
+  /// in `lanes` only.
   CELLTRACE_ONE_COPY void trace(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
                                 const WordLanes& objects, bool is_aimed, uint32_t lanes,
                                 VectorLanes& colour) {
@@ -72,14 +74,14 @@ public:
     trace_shadows(light, to_light.rays, lanes, to_light.distance, colour);
   }
 
-  /// Makes shadow rays, unless shading has, or starts the sampling of a light that has an area.
+  /// Makes shadow rays, unless shading has made them, or starts the sampling of an area light.
   void aim(const LightRecord& light, ShadowRays& to_light, const V3<S>& point, const WordLanes& objects,
            bool is_aimed, uint32_t lanes) {
     if (!has_area(light)) counters_.shadow += static_cast<uint32_t>(__builtin_popcount(lanes));
     if (is_aimed && !has_area(light)) return;
     make_rays_to(light, to_light, point, objects, lanes);
   }
-  /// Answers the queries of a bundle toward a light, of which asks_by_packet() is false. May change their
+  /// Answers the queries of a bundle toward a light for which asks_by_packet() is false. May change their
   /// order.
   void trace(const LightRecord& light, RayQuery* queries, uint32_t count) {
     if (walk_ == nullptr || !Search::trace_crossings(light, queries, count))
@@ -87,7 +89,7 @@ public:
   }
 
 private:
-  /// Not inlined: its surfaces are not on the stack while rays are traced.
+  /// Not inlined, so that its surfaces are not on the stack while rays are traced.
   CELLTRACE_ONE_COPY void make_rays_to(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
                                        const WordLanes& objects, uint32_t lanes) {
     IncidentLight<S> incident(light.colour);
@@ -96,7 +98,7 @@ private:
       make_shadow_rays(point, objects, incident, to_light.rays, to_light.distance);
       return;
     }
-    // It is known in which lanes the light counts: nothing is asked of the surfaces but where they are.
+    // The lanes in which the light counts are known: only the positions of the surfaces are used.
     Surfaces<S> surfaces;
     surfaces.point = point;
     surfaces.objects = &objects;
@@ -108,7 +110,8 @@ private:
     begin_sampling(scene_.spu(), light, surfaces, incident, to_light, *area_);
   }
 
-  /// As Traversal's transmittance(), of a light. Not inlined: once in local store is enough.
+  /// Multiplies `colour` by the transmittance toward a light; see Traversal::transmittance(). Not inlined, as
+  /// one copy in local store suffices.
   CELLTRACE_ONE_COPY void trace_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                         FloatLanes& distance, VectorLanes& colour) {
     if (is_projected(light)) {
@@ -119,9 +122,9 @@ private:
     if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
     Search::trace_crossings(light, rays, lanes, distance, colour);
   }
-  /// Whether all shadow rays toward a light are walked; otherwise those are that have to be, or none.
+  /// Returns true if all shadow rays toward a light are walked; otherwise only those that must be, or none.
   bool walks_all(const LightRecord& light) const { return walk_ != nullptr && Search::walks(light); }
-  /// Walks `lanes` of shadow rays. The light of the others becomes 0.
+  /// Walks `lanes` of shadow rays. The light of other lanes becomes 0.
   CELLTRACE_ONE_COPY void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                        const FloatLanes& distance, VectorLanes& colour) {
     ShadowWalk<S>& walk = *walk_;
@@ -143,7 +146,7 @@ private:
     }
   }
 
-  /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
+  /// Samples an area light packet by packet. Not inlined, as few scenes have such lights.
   CELLTRACE_ONE_COPY void look_at_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
     if (Search::sample_area(light, lanes, colour)) return;
@@ -164,7 +167,7 @@ private:
   Traversal<Spu, kAccelerators> traversal_;
   RayCounters& counters_;
   AreaShadow<S>* area_; ///< null if no light has an area
-  ShadowWalk<S>* walk_; ///< null if shadow rays need none
+  ShadowWalk<S>* walk_; ///< null if no shadow rays are walked
   const RayInteriors* interiors_ = nullptr;
 };
 

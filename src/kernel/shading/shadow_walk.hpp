@@ -1,5 +1,6 @@
-// Shadow rays that go from surface to surface, as POV-Ray's do: where interiors fade, throw caustics, or look
-// different from inside, what a surface lets through depends on where the ray comes from. Kernel dialect.
+// Shadow rays that go from surface to surface, as POV-Ray's do: if interiors fade, throw caustics, or look
+// different from inside, the light that a surface lets through depends on where the ray comes from. Kernel
+// dialect.
 #pragma once
 
 #include "kernel/accel/object_tests.hpp"
@@ -10,18 +11,18 @@
 
 namespace celltrace::kernel {
 
-/// The rays of a packet on their way to a light.
+/// A walk: the rays of a packet on their way to a light.
 template <class S> struct alignas(128) ShadowWalk {
-  RayNode* ray;    ///< from the last surface on; those that are still on the way
-  FloatLanes left; ///< to the light
+  RayNode* ray;    ///< rays that are still on the way, from the last surface on
+  FloatLanes left; ///< distance to the light
   VectorLanes* light;
   HitPacket hits;
   HitPoints<S> points;
-  SurfaceLanes surface; ///< at the points, if has_surface_lanes()
+  SurfaceLanes surface; ///< surface coordinates and normals at the points, if has_surface_lanes()
   bool has_surface;
 };
 
-/// Local store for them, in a frame that has such. `scratch` is theirs while they are on their way.
+/// Allocates local store for walks, if the frame has any. `scratch` belongs to a walk while it is under way.
 template <class Spu>
 ShadowWalk<typename Spu::simd>* allocate_shadow_walk(Spu& spu, const FrameBlock& frame, RayNode& scratch) {
   if (!walks_shadows(frame)) return nullptr;
@@ -30,7 +31,7 @@ ShadowWalk<typename Spu::simd>* allocate_shadow_walk(Spu& spu, const FrameBlock&
   return walk;
 }
 
-/// Starts `lanes` of shadow rays, from what the rays of `from` hit, or those of the camera if it is null.
+/// Starts `lanes` of shadow rays inside the interiors `from`, or those of the camera if it is null.
 template <class Spu>
 [[gnu::noinline]] void begin_shadow_walk(Spu& spu, const FrameBlock& frame, const RayInteriors* from,
                                          const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
@@ -60,7 +61,7 @@ template <class Spu>
 
 namespace detail {
 
-/// Multiplies the light of a walk by what surfaces of one material, or three that are blended, let through.
+/// Multiplies the light of a walk by the transmittance of surfaces with one material, or three blended ones.
 template <class Spu>
 void filter_light(SceneAccess<Spu>& scene, uint32_t material, bool blended, uint32_t lanes,
                   ShadowWalk<typename Spu::simd>& walk) {
@@ -78,7 +79,8 @@ void filter_light(SceneAccess<Spu>& scene, uint32_t material, bool blended, uint
   });
 }
 
-/// More light where rays go through a surface straight, in place of what refraction would gather.
+/// Increases light where rays go straight through a surface, in place of the light that refraction would
+/// focus.
 template <class Spu>
 void add_caustics(SceneAccess<Spu>& scene, uint32_t lanes, ShadowWalk<typename Spu::simd>& walk) {
   using S = typename Spu::rare_simd;
@@ -108,15 +110,15 @@ void add_caustics(SceneAccess<Spu>& scene, uint32_t lanes, ShadowWalk<typename S
 
 } // namespace detail
 
-/// Those of the rays that hit something.
+/// Returns the rays of a walk with a hit.
 template <class Spu>
 [[gnu::noinline]] uint32_t hits_of_walk(Spu& spu, const ShadowWalk<typename Spu::simd>& walk) {
   spu.run_in_module(modules::kShadowWalk);
   return hit_lanes<typename Spu::simd>(walk.hits, walk.ray->lanes);
 }
 
-/// Takes the rays through the surfaces that they have hit. Those that reach the light, or end, leave the
-/// walk.
+/// Takes the rays through the surfaces that they have hit. Rays that reach the light or are occluded leave
+/// the walk.
 template <class Spu>
 [[gnu::noinline]] void step_shadow_walk(SceneAccess<Spu>& scene, ShadowWalk<typename Spu::simd>& walk,
                                         uint64_t& overflows) {

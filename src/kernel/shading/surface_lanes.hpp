@@ -1,4 +1,4 @@
-// What patterns may ask of surfaces besides points: their coordinates and normals. Kernel dialect.
+// Further input of patterns besides points: surface coordinates and normals. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -9,18 +9,19 @@
 
 namespace celltrace::kernel {
 
-/// Whether some objects of a frame are object_flag::by_surface.
+/// Returns true if some objects of a frame have object_flag::by_surface.
 constexpr bool has_surface_lanes(const FrameBlock& frame) {
   return (frame.light_ways & light_way::by_surface) != 0;
 }
-/// Local store for them, in a frame that has such.
+/// Allocates local store for surface coordinates and normals, if a frame needs them.
 template <class Spu> SurfaceLanes* allocate_surface_lanes(Spu& spu, const FrameBlock& frame) {
   return has_surface_lanes(frame) ? spu.template allocate<SurfaceLanes>() : nullptr;
 }
 
 namespace detail {
 
-/// The surface coordinates of points of one object; `hit_u` and `hit_v` are those of the hits.
+/// Finds the surface coordinates of points on one object; `hit_u` and `hit_v` are the barycentric coordinates
+/// of the hits.
 template <class Spu>
 void surface_coordinates_of(SceneAccess<Spu>& scene, const ObjectRecord& object,
                             const V3<typename Spu::rare_simd>& point, const typename Spu::rare_simd::F& hit_u,
@@ -41,7 +42,8 @@ void surface_coordinates_of(SceneAccess<Spu>& scene, const ObjectRecord& object,
 
 } // namespace detail
 
-/// Of those hits of `lanes` that are on objects with object_flag::by_surface, before normals are disturbed.
+/// Sets the surface coordinates and normals of the hits of `lanes` on objects with object_flag::by_surface,
+/// before normals are disturbed.
 template <class Spu>
 CELLTRACE_ONE_COPY void find_surface_lanes(SceneAccess<Spu>& scene,
                                            const HitPoints<typename Spu::simd>& points, const HitPacket& hits,

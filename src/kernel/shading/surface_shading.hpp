@@ -1,12 +1,12 @@
-// The shading of surfaces that rays of a tree have hit: their materials, textures and layers in the light of
-// a round, and which rays go on. Kernel dialect.
+// Shading of the surfaces that rays of a tree have hit: their materials, textures and layers in the light of
+// a round, and their secondary rays. Kernel dialect.
 #pragma once
 
 #include "kernel/shading/ray_tree.hpp"
 
 namespace celltrace::kernel {
 
-/// What a RayTracer knows of surfaces.
+/// The part of a RayTracer that shades surfaces.
 template <class Spu, uint32_t kResident> class SurfaceShading : public RayTree<Spu, kResident> {
 protected:
   using Tree = RayTree<Spu, kResident>;
@@ -25,8 +25,8 @@ public:
   using typename Tree::R;
   using typename Tree::S;
 
-  /// Shades the surfaces that take_hits() told of, in the light of a round. With the first round rays go on
-  /// from there.
+  /// Shades the surfaces of the hits from take_hits() in the light of a round. The first round also spawns
+  /// their secondary rays.
   [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
     round_ = round;
     if (Strategy<Spu>::kShadesEndsApart && ends(points, hit)) return shade_last(points, hit);
@@ -36,9 +36,9 @@ public:
     scene_.spu().enter_module(modules::kComposed);
     shade_composed(points, hit & ~plain);
   }
-  /// Whether the round has gathered anything.
+  /// Returns true if the round has gathered light.
   bool has_gathered() const { return !Strategy<Spu>::is_fresh(round_); }
-  /// Adds what has come of the light that a round has gathered.
+  /// Adds the light of a round after its shadow rays have been traced.
   void add_gathered(const LightRound& round, uint32_t lanes) { round.add_to<S>(light_[node_.target], lanes); }
 
 protected:
@@ -46,12 +46,12 @@ protected:
                  RayNode& scratch)
       : Tree(spu, frame, scene, spill, spill_nodes, scratch), surface_(allocate_surface_lanes(spu, frame)) {}
 
-  /// Whether trees end there. Textures that weigh less than the bailout are dropped, which all do if that is
-  /// above 1.
+  /// Returns true if trees end at these surfaces. Textures with less weight than the bailout are dropped, and
+  /// a bailout above 1 drops them all.
   bool ends(const HitPoints<S>& points, uint32_t lanes) const {
     return points.ends(lanes) && (frame_.adc_bailout <= 1.0f || (points.textured & lanes) == 0);
   }
-  /// What primary rays see of surfaces for which ends() holds, without a tree.
+  /// Returns the light that primary rays see of surfaces for which ends() is true, without a tree.
   [[gnu::always_inline]] V3<S> light_of_ends(const RayPacket& rays, const HitPacket& hits,
                                              const HitPoints<S>& points, uint32_t lanes, LightRound& round) {
     Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
@@ -63,14 +63,15 @@ protected:
   }
 
 private:
-  /// Surfaces of one material without textures. What it needs is not on the stack while others are shaded.
+  /// Shades surfaces of one material without textures. Its variables are not on the stack while others are
+  /// shaded.
   CELLTRACE_ONE_COPY void shade_plain(const HitPoints<S>& points, uint32_t lanes) {
     Surfaces<S> surfaces;
     find_surfaces(points, surfaces);
     spawn(surfaces, surfaces.normal, points.interior,
           shade(surfaces, points.interior, points.material, lanes, F(1.0f)));
   }
-  /// Surfaces from which no rays go on.
+  /// Shades surfaces without secondary rays.
   void shade_last(const HitPoints<S>& points, uint32_t lanes) {
     Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
     const F one(1.0f);
@@ -80,7 +81,7 @@ private:
     else
       add_light(surfaces, materials_of(points, lanes, surfaces), lanes, {one, one, one});
   }
-  /// As light_of_ends(), of surfaces with layers.
+  /// Returns the light of surfaces with layers; see light_of_ends().
   V3<S> light_of_layers(const HitPoints<S>& points, uint32_t lanes, LightRound& round,
                         Surfaces<S>& surfaces) {
     const F one(1.0f);
@@ -90,12 +91,12 @@ private:
     round.is_fresh = round_.is_fresh;
     return Tree::light().template load<S>();
   }
-  /// Before any of the following is asked of surfaces where trees end.
+  /// Prepares the textures of surfaces where trees end, for the functions below.
   void prepare_ends(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes) {
     if (const uint32_t textured = points.textured & lanes; textured != 0)
       prepare_textures(points, hits, textured);
   }
-  /// Whether some of them have layers.
+  /// Returns true if some of the surfaces have layers.
   bool has_layers(const HitPoints<S>& points, uint32_t lanes) {
     bool any = false;
     if (const uint32_t textured = points.textured & lanes; textured != 0)
@@ -104,13 +105,14 @@ private:
       });
     return any;
   }
-  /// Their materials if none has layers, and their normals: with their textures.
+  /// Returns the materials of surfaces without layers, with their textures, and disturbs the surfaces'
+  /// normals.
   MaterialLanes<S> materials_of(const HitPoints<S>& points, uint32_t lanes, Surfaces<S>& surfaces) {
     MaterialLanes<S> m = gather_materials(scene_, points.material, lanes);
     if ((points.textured & lanes) != 0) add_textures(points.material, m, surfaces);
     return m;
   }
-  /// Field by field: no copy of it is on the stack.
+  /// Sets the surfaces member by member, so that no copy is on the stack.
   CELLTRACE_ONE_COPY void find_surfaces(const HitPoints<S>& points, Surfaces<S>& surfaces) const {
     surfaces.point = points.point;
     surfaces.normal = points.normal;
@@ -120,21 +122,22 @@ private:
     surfaces.lit_through = points.lit_through;
   }
 
-  /// Finds out what patterns ask for besides points.
+  /// Finds the further input of patterns besides points.
   void prepare_textures(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes) {
     if (surface_ == nullptr) return;
     scene_.spu().enter_module(modules::kSurfaces);
     find_surface_lanes(scene_, points, hits, lanes, *surface_);
   }
-  /// What materials leave to their patterns.
+  /// Adds the properties of materials that patterns determine.
   void add_textures(const WordLanes& materials, MaterialLanes<S>& m, Surfaces<S>& surfaces) {
     if (m.disturbed != 0) disturb_normals(scene_, materials, m, surface_, surfaces);
     if (m.patterned != 0) add_pigments<Spu>(scene_, materials, {surfaces.point, surface_}, m);
   }
 
-  /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
-  /// What goes on goes the same ways for all of them: as one ray each where it weighs the same, or every such
-  /// surface would multiply the rays behind it.
+  /// Shades surfaces with several materials: each material is shaded as a whole, and the results are blended
+  /// by their weights. The secondary rays of all materials have the same directions: they are merged to one
+  /// ray each where their weights are equal, as otherwise every such surface would multiply the rays behind
+  /// it.
   CELLTRACE_ONE_COPY void shade_composed(const HitPoints<S>& points, uint32_t lanes) {
     scene_.spu().run_in_module(modules::kComposed);
     Surfaces<S> surfaces;
@@ -154,7 +157,7 @@ private:
       shade_share(surfaces, points, points.material, textured, F(1.0f), all);
     spawn(surfaces, surfaces.normal, points.interior, all);
   }
-  /// The share of materials that may be texture maps.
+  /// Shades the share of materials that may be texture maps.
   CELLTRACE_ONE_COPY void shade_share(Surfaces<S>& surfaces, const HitPoints<S>& points,
                                       const WordLanes& materials, uint32_t lanes, const F& weight,
                                       SecondaryRays<S>& all) {
@@ -179,7 +182,8 @@ private:
     });
     if (plain != 0) shade_whole(surfaces, points, materials, plain, weight, all);
   }
-  /// Adaptive depth control drops a material by its weight alone, as POV-Ray does.
+  /// Shades materials that are not texture maps. Adaptive depth control drops a material by its weight alone,
+  /// as in POV-Ray.
   CELLTRACE_ONE_COPY void shade_whole(Surfaces<S>& surfaces, const HitPoints<S>& points,
                                       const WordLanes& materials, uint32_t lanes, const F& weight,
                                       SecondaryRays<S>& all) {
@@ -197,7 +201,7 @@ private:
       spawn(surfaces, surfaces.normal, interior, one);
   }
 
-  /// Adds the surface's own light, times `share`; returns what goes on. Not inlined, as spawn() is not:
+  /// Adds the surface's own light, times `share`; returns the secondary rays. Not inlined, like spawn():
   /// local store has no room for a copy at each call.
   CELLTRACE_ONE_COPY SecondaryRays<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior,
                                             const WordLanes& materials, uint32_t lanes, const F& share) {
@@ -207,15 +211,15 @@ private:
     return round_.is_first() ? onward_rays(surfaces, surfaces.normal, interior, m, lanes, share)
                              : SecondaryRays<S>::nothing();
   }
-  /// Adds what surfaces send by themselves, times `share`. One copy, whose vectors are not on the stack while
-  /// rays go on.
+  /// Adds the light of surfaces without secondary rays, times `share`. Not inlined, so that its vectors are
+  /// not on the stack while secondary rays are made.
   CELLTRACE_ONE_COPY void add_light(const Surfaces<S>& surfaces, const MaterialLanes<S>& m, uint32_t lanes,
                                     const V3<S>& share) {
     const V3<S> weight = share * node_.throughput.template load<S>();
     const V3<S> rest = local_light(scene_, frame_, round_, surfaces, m, lanes, weight);
     if (!round_.only_gathers) add_weighted(lanes, rest, weight);
   }
-  /// `smooth`: the surfaces' normals before they were disturbed.
+  /// Returns the secondary rays. `smooth`: the surfaces' normals before they were disturbed.
   CELLTRACE_ONE_COPY SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const V3<S>& smooth,
                                                   const WordLanes& interior, const MaterialLanes<S>& m,
                                                   uint32_t lanes, const F& share) {
@@ -237,19 +241,19 @@ private:
     return onward;
   }
 
-  /// As shade(), of textures with patterns, normals or layers. The light of a layer comes through those
-  /// above, but not what it reflects: that is POV-Ray's model. Where normals are disturbed, rays go on by
-  /// themselves. The surfaces have their layers' normals meanwhile.
+  /// Shades textures with patterns, normals or layers; see shade(). As in POV-Ray's model, the layers above
+  /// dim the light of a layer, but not its reflections. If normals are disturbed, the secondary rays are
+  /// spawned separately. The surfaces have the normals of the layers meanwhile.
   CELLTRACE_ONE_COPY SecondaryRays<S> shade_layers(Surfaces<S>& surfaces, const HitPoints<S>& points,
                                                    const WordLanes& top, uint32_t all_lanes, const F& share) {
     const WordLanes& interior = points.interior;
     const V3<S>& smooth = points.normal;
     const F one(1.0f);
-    V3<S> above = {one, one, one}; // what comes through the layers above
+    V3<S> above = {one, one, one}; // transmittance of the layers above
     WordLanes materials = top;
     uint32_t lanes = all_lanes;
     SecondaryRays<S> onward = SecondaryRays<S>::nothing();
-    V3<S> outermost = smooth; // of the uppermost layer
+    V3<S> outermost = smooth; // normal of the uppermost layer
     bool is_disturbed = false;
     for (bool is_top = true; lanes != 0; is_top = false) {
       MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
@@ -260,7 +264,7 @@ private:
       if (rays.is_nothing()) break;
       const uint32_t clear = rays.clear;
       rays.clear = 0;
-      // POV-Ray does not ask what the layers above leave of what is mirrored, but it weighs it by that.
+      // As in POV-Ray, mirrored light is not dimmed by the layers above, but its weight is.
       uint32_t bright = 0;
       for_each_part<Spu>([&](uint32_t first) {
         const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
@@ -279,7 +283,7 @@ private:
       } else if (rays.mirrors != 0) {
         spawn(surfaces, smooth, interior, rays);
       }
-      // Transmitted through all layers, by those that were the last.
+      // Light is transmitted through all layers in the lanes whose last layer this is.
       onward.clear |= bright & ~m.layered;
       lanes = bright & m.layered;
       for_each_value<S>(materials, lanes, [&](uint32_t offset, uint32_t same) {
@@ -306,7 +310,7 @@ private:
     return onward;
   }
 
-  SurfaceLanes* surface_; ///< at the hits; null: no pattern of the scene asks for it
+  SurfaceLanes* surface_; ///< at the hits; null: no pattern of the scene needs it
 };
 
 } // namespace celltrace::kernel

@@ -1,4 +1,4 @@
-// Bands that noise bends. Kernel dialect.
+// The agate pattern: bands that noise bends. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/noise.hpp"
@@ -9,7 +9,7 @@ namespace celltrace::kernel {
 struct AgatePattern : NoisePattern {
   static constexpr const char* kName = "agate";
 
-  /// Its parameter: by how much.
+  /// The parameter is the strength of the turbulence.
   template <class S, class Source>
   [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r,
                                                     const Source& source) {

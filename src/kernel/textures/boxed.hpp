@@ -1,4 +1,4 @@
-// From 1 at the origin to 0 at the sides of a cube. Kernel dialect.
+// The boxed pattern: from 1 at the origin to 0 at the sides of a cube. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"

@@ -1,4 +1,4 @@
-// Smooth noise. Kernel dialect.
+// The bozo pattern: smooth noise. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/noise.hpp"

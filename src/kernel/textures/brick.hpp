@@ -1,4 +1,4 @@
-// Courses of bricks, number 1, and the mortar between them, number 0. Kernel dialect.
+// The brick pattern: courses of bricks, number 1, and the mortar between them, number 0. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/lattice.hpp"
@@ -10,14 +10,14 @@ namespace celltrace::kernel {
 struct BrickPattern : ListPattern {
   static constexpr const char* kName = "brick";
 
-  /// Its parameters: the inverse of the size, and how thick the mortar is.
+  /// The parameters are the inverse of the size, and the thickness of the mortar.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     using F = typename S::F;
     const V3<S> q = p * splat3<S>(r.parameter);
     const F y = snap<S>(q.y), course = S::floor(y);
-    const F shift = remainder<S>(course, 2.0f) * F(0.5f); // of x in odd courses, of z in even ones
+    const F shift = remainder<S>(course, 2.0f) * F(0.5f); // added to x in odd courses, to z in even ones
     const F x = snap<S>(q.x - shift), z = snap<S>(q.z + shift - F(0.5f));
-    // Mortar begins where it does in double precision, as far as rounding lets see.
+    // Mortar begins where it does in double precision, to within rounding.
     const auto is_brick = [&](const F& at, const F& from, uint32_t axis) {
       return at - from < F(1.0f - r.parameter[3] * r.parameter[axis]) - lattice_epsilon<S>(at);
     };

@@ -1,4 +1,4 @@
-// Unit cubes of a random number each. Kernel dialect.
+// The cells pattern: unit cubes with a random number each. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/features.hpp"

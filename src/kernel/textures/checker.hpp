@@ -1,4 +1,4 @@
-// Unit cubes by turns. Kernel dialect.
+// The checker pattern: unit cubes of two kinds, in turn. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/lattice.hpp"

@@ -1,5 +1,5 @@
-// By the distances to the nearest of random points, of which there is one in each unit cell: cracks between
-// stones (Worley 1996). Kernel dialect.
+// The crackle pattern: distances to the nearest feature points, of which there is one at random in each unit
+// cell; they show as cracks between stones (Worley 1996). Kernel dialect.
 #pragma once
 
 #include "kernel/packet.hpp"
@@ -9,8 +9,8 @@
 
 namespace celltrace::kernel {
 
-/// Its parameters: the factors of the three shortest distances; the metric's number; and what the offset adds
-/// to what distances are a root of.
+/// The parameters are the factors of the three shortest distances, the metric's exponent, and the offset,
+/// which is added to distance^metric.
 struct CracklePattern : RarePattern {
   static constexpr const char* kName = "crackle";
 
@@ -29,10 +29,10 @@ struct CracklePattern : RarePattern {
   }
 
   template <class S> struct Nearest {
-    typename S::F power[3]; ///< of the three shortest distances, ascending
-    V3<S> point;            ///< the nearest one
+    typename S::F power[3]; ///< distance^metric of the three nearest points, ascending
+    V3<S> point;            ///< the nearest point
   };
-  /// What is asked of the nearest points: the distances up to number `last`, and perhaps the nearest one.
+  /// Requested results: the distances up to index `last`, and the nearest point if `point`.
   struct Wanted {
     uint32_t last;
     bool point;
@@ -52,7 +52,7 @@ struct CracklePattern : RarePattern {
     for_each_cell_of<S>(p, [&](uint32_t lanes, const uint32_t(&cell)[3], const V3<S>& from) {
       const auto here = S::M::from_bits(lanes);
       if (InnerCells::suffice_in(cell, features, from, p, lanes, metric, wanted, nearest)) return;
-      // The least that a cell's points are away along an axis.
+      // Returns the least distance^metric of a cell's points along one axis.
       const auto across = [metric](const F& coordinate, int32_t steps) {
         return InnerCells::least_along(gap<S>(coordinate, steps), metric);
       };
@@ -84,17 +84,17 @@ struct CracklePattern : RarePattern {
     return nearest;
   }
 
-  /// What a distance is a root of where no point is known.
+  /// Initial distance^metric, before any feature point is known.
   static constexpr float kFar = 1e30f;
 
-  /// What a distance along one axis adds to what the distance is a root of.
+  /// Returns the part of distance^metric that a distance along one axis contributes.
   template <class S>
   [[gnu::always_inline]] static typename S::F along(const typename S::F& distance, float metric) {
     using F = typename S::F;
     if (metric == 2.0f) return distance * distance;
     return metric == 1.0f ? distance : pow<S>(distance, F(metric));
   }
-  /// What the distance is a root of.
+  /// Returns distance^metric.
   template <class S> [[gnu::always_inline]] static typename S::F power(const V3<S>& d, float metric) {
     using F = typename S::F;
     if (metric == 2.0f) return dot<S>(d, d);
@@ -117,7 +117,7 @@ struct CracklePattern : RarePattern {
   }
 
 private:
-  /// How far a coordinate in a cell is from those of the cell that is `steps` further.
+  /// Returns the distance along an axis from a coordinate in a cell to the cell that is `steps` further.
   template <class S>
   [[gnu::always_inline]] static typename S::F gap(const typename S::F& from, int32_t steps) {
     using F = typename S::F;

@@ -1,4 +1,4 @@
-// By the side of a cube that a point is seen through from the origin. Kernel dialect.
+// The cubic pattern: the side of a cube through which a point is seen from the origin. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"

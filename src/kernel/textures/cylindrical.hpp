@@ -1,4 +1,4 @@
-// From 1 on the y axis to 0 on the unit cylinder around it. Kernel dialect.
+// The cylindrical pattern: from 1 on the y axis to 0 on the unit cylinder around it. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"

@@ -1,4 +1,4 @@
-// The cube of smooth noise. Kernel dialect.
+// The dents pattern: the cube of smooth noise. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/noise.hpp"

@@ -1,4 +1,4 @@
-// The random points of space, of which there is one in each unit cell. Kernel dialect.
+// Feature points: random points of space, one in each unit cell. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -7,8 +7,8 @@
 
 namespace celltrace::kernel {
 
-/// The coordinates modulo 2^32 of the unit cell that the point of `lane` is in, and the lanes whose points
-/// are in the same. `whole`: the coordinates of all lanes' cells, `of_lane`: the same, stored.
+/// Finds the unit cell with the point of `lane`, as coordinates modulo 2^32, and returns the lanes whose
+/// points are in the same cell. `whole`: the coordinates of all lanes' cells; `of_lane`: the same, stored.
 template <class S>
 [[gnu::always_inline]] inline uint32_t find_cell(uint32_t lane, const typename S::I (&whole)[3],
                                                  const int32_t (&of_lane)[3][S::kLanes],
@@ -21,9 +21,8 @@ template <class S>
   return same.bits() | 1u << lane;
 }
 
-/// Calls `visit(lanes, cell, from)` for each of the unit cells that points are in: the lanes that have their
-/// point in it, its coordinates modulo 2^32, and where in the cell the points of all lanes are (of other
-/// lanes: in theirs).
+/// Calls `visit(lanes, cell, from)` for each unit cell that contains points: the lanes of the points in it,
+/// its coordinates modulo 2^32, and the position of each lane's point in that point's own cell.
 template <class S, class Visit>
 [[gnu::always_inline]] inline void for_each_cell_of(const V3<S>& p, Visit visit) {
   typename S::I whole[3];
@@ -40,19 +39,19 @@ template <class S, class Visit>
   }
 }
 
-/// The offset of the FeatureRecords that a pattern reads.
+/// Returns the offset of the FeatureRecords that a pattern reads.
 inline uint32_t features_of(const PatternRecord& r) {
   constexpr uint32_t kBytes = kFeatures * static_cast<uint32_t>(sizeof(FeatureRecord));
   return (r.kind_and_flags & pattern_flag::gradient_noise) != 0 ? r.table - kBytes : r.table;
 }
 
-/// Numbers of cells and the points in them.
+/// The numbers of cells, and their feature points.
 template <class Spu> class Features {
 public:
-  /// `table`: offset of the FeatureRecords.
+  /// Reads the FeatureRecords at offset `table`.
   Features(SceneAccess<Spu>& scene, uint32_t table) : scene_(scene), table_(table) {}
 
-  /// The number after `number` of a coordinate: begins with 0 and x, then y, then z.
+  /// Hashes a coordinate into a number: first x with number 0, then y, then z.
   uint32_t number_after(uint32_t number, uint32_t coordinate) {
     return at(number ^ (coordinate & (kFeatures - 1))).hash;
   }
@@ -64,7 +63,7 @@ public:
         table_ + (number & (kFeatures - 1)) * static_cast<uint32_t>(sizeof(FeatureRecord)));
   }
 
-  /// The words of all FeatureRecords, where memory is direct.
+  /// Returns the words of all FeatureRecords; for direct memory only.
   const int32_t* words() {
     return reinterpret_cast<const int32_t*>(scene_.template pattern_table<FeatureRecord>(table_));
   }

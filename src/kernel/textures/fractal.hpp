@@ -1,5 +1,5 @@
-// The Mandelbrot set, Julia sets and their kin in the xy plane: what becomes of a complex number that is
-// iterated. Kernel dialect.
+// The fractal pattern: the Mandelbrot set, Julia sets and related sets in the xy plane, by iteration of
+// complex numbers. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -9,8 +9,8 @@
 
 namespace celltrace::kernel {
 
-/// Its parameters: Julia's constant, the iterations, and the factors of what is counted outside and inside.
-/// Numbers and words of what is counted are POV-Ray's.
+/// The parameters are Julia's constant, the number of iterations, and the factors of the colouring outside
+/// and inside. Numbers and words of the colouring are POV-Ray's.
 struct FractalPattern : RarePattern {
   static constexpr const char* kName = "fractal";
 
@@ -31,13 +31,14 @@ struct FractalPattern : RarePattern {
     F least = square<S>(z), rounds(0.0f);
     if (magnet != 0 && !is_julia) {
       z = {F(0.0f), F(0.0f)};
-      least = F(1e30f); // which is not counted as a number that the point has come to
+      least = F(1e30f); // so that the first number does not count
     }
     const uint32_t outside = r.table >> fractal_word::exterior_shift & fractal_word::type_mask;
     const uint32_t inside = r.table >> fractal_word::interior_shift & fractal_word::type_mask;
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
     M stays = M::all();
-    // Numbers that have left are iterated on, wherever to: the next number does not wait for which they are.
+    // Numbers that have left continue to be iterated, so that the next number does not wait for the test
+    // which have left.
     Complex<S> left = z;
     for (uint32_t i = 0; i < most; ++i) {
       z = magnet == 0 ? plus<S>(power<S>(z, r.table & fractal_word::exponent_mask), c)
@@ -58,7 +59,7 @@ struct FractalPattern : RarePattern {
                          : outside > 6  ? remaining<S>(rounds, outside, factor)
                                         : counted<S>(left, outside, factor);
     const F of_inside = inside == 1   ? S::sqrt(least) * inner
-                        : inside == 6 ? z.a * z.a + z.b * z.b * inner // POV-Ray's factor is only of one
+                        : inside == 6 ? z.a * z.a + z.b * z.b * inner // POV-Ray's factor is of one part only
                         : inside > 6  ? remaining<S>(F(r.parameter[2]), inside, inner)
                                       : counted<S>(z, inside, inner);
     return S::select(stays, of_inside, of_outside);
@@ -81,7 +82,7 @@ private:
       result = times<S>(result, z);
     return result;
   }
-  /// The square of (z^2 + c - 1) / (2z + c - 2), or of the same with cubes.
+  /// Returns the square of (z^2 + c - 1) / (2z + c - 2), or of the corresponding quotient with cubes.
   template <class S>
   [[gnu::always_inline]] static Complex<S> magnetic(const Complex<S>& z, const Complex<S>& c, uint32_t kind) {
     using F = typename S::F;
@@ -101,8 +102,8 @@ private:
     const Complex<S> quotient = times<S>(upper, {lower.a * inverse, -lower.b * inverse});
     return times<S>(quotient, quotient);
   }
-  /// Of what is the same inside and outside: nothing but the factor, parts of the last number, or their
-  /// squares.
+  /// Returns a colouring that is the same inside and outside: the factor alone, a part of the last number, or
+  /// the part's square, times the factor.
   template <class S>
   [[gnu::always_inline]] static typename S::F counted(const Complex<S>& z, uint32_t type,
                                                       const typename S::F& factor) {
@@ -110,13 +111,14 @@ private:
     const typename S::F part = (type & 1) == 0 ? z.a : z.b;
     return type < 4 ? part * factor : part * part * factor;
   }
-  /// The rest of the rounds by the whole part of the factor, or by that and 1, over the factor.
+  /// Returns the remainder of the rounds divided by the whole part of the factor, or by that plus 1, over the
+  /// factor.
   template <class S>
   [[gnu::always_inline]] static typename S::F remaining(const typename S::F& rounds, uint32_t type,
                                                         const typename S::F& factor) {
     using F = typename S::F;
     const F divisor = S::max(S::floor(factor) + F(type == 7 ? 0.0f : 1.0f), F(1.0f));
-    // Half a round more: the quotient of what divides is not rounded down.
+    // Half a round is added so that an exact quotient is not rounded down.
     const F times = S::floor((rounds + F(0.5f)) / divisor);
     return (rounds - times * divisor) / S::max(factor, F(kLeastFactor));
   }

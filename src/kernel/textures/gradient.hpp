@@ -1,4 +1,4 @@
-// A ramp along a direction, once every unit. Kernel dialect.
+// The gradient pattern: a ramp along a direction, repeated every unit. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/lattice.hpp"
@@ -7,12 +7,12 @@
 
 namespace celltrace::kernel {
 
-/// Its parameters: the direction, of unit length.
+/// The parameters are the direction, a unit vector.
 struct GradientPattern : BlendPattern {
   static constexpr const char* kName = "gradient";
   static constexpr PatternCode kCode = PatternCode::resident;
 
-  /// As in POV-Ray 1 stays 1, and negative numbers are left to the wave.
+  /// Returns the value. As in POV-Ray 1 stays 1, and negative numbers are left to the wave.
   template <class S>
   [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     using F = typename S::F;

@@ -1,4 +1,4 @@
-// The noise of POV-Ray's generator 3: Perlin's, of gradients at lattice points (Perlin 1985). Kernel dialect.
+// Noise of POV-Ray's generator 3: Perlin's, from gradients at lattice points (Perlin 1985). Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -12,12 +12,12 @@ public:
   using S = typename Spu::rare_simd;
   using F = typename S::F;
 
-  /// `table`: offset of the GradientRecords.
+  /// Reads the GradientRecords at offset `table`.
   GradientNoise(SceneAccess<Spu>& scene, uint32_t table) : scene_(scene), table_(table) {}
 
   CELLTRACE_ONE_COPY F value(const V3<S>& p) const {
-    constexpr float kShift = 0.023157213f; // POV-Ray's shift of 10,000,000.023, whose cells are
-    constexpr uint32_t kCells = 10000000;  // these numbers further
+    constexpr float kShift = 0.023157213f; // fraction of POV-Ray's shift of points by 10,000,000.023
+    constexpr uint32_t kCells = 10000000;  // whole part of that shift, added to numbers of cells
     F sum(0.0f);
     const V3<S> shifted = {p.x + F(kShift), p.y + F(kShift), p.z + F(kShift)};
     for_each_cell_of<S>(shifted, [&](uint32_t lanes, const uint32_t(&cell)[3], const V3<S>& from) {

@@ -1,4 +1,4 @@
-// Six octaves of noise with creases. Kernel dialect.
+// The granite pattern: six octaves of noise with creases. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/noise.hpp"

@@ -1,4 +1,4 @@
-// Hexagons in the xz plane, with sides of length 1, of three kinds. Kernel dialect.
+// The hexagon pattern: hexagons in the xz plane, with sides of length 1, of three kinds. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/lattice.hpp"
@@ -15,7 +15,8 @@ struct HexagonPattern : ListPattern {
     constexpr float kWidth = 1.5f, kHeight = 0.866025404f;
     const F u = p.x * F(1 / kWidth), v = p.z * F(1 / kHeight);
     const F column = S::floor(u), row = S::floor(v);
-    // Centres are at the corners of the rectangle whose column and row have an even sum: two of the four.
+    // Centres are at corners of the rectangle where column and row have an even sum, which are two of the
+    // four.
     const F odd = remainder<S>(column + row, 2.0f);
     const auto square = [](const F& x) { return x * x; };
     const F x = (u - column) * F(kWidth), z = (v - row) * F(kHeight);

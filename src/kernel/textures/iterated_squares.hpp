@@ -1,5 +1,5 @@
-// Complex numbers that are squared and moved by a constant, again and again: the Mandelbrot set and Julia
-// sets of the second order. Kernel dialect.
+// Iteration of complex numbers that are squared and moved by a constant: the Mandelbrot set and Julia sets of
+// the second order. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -9,12 +9,12 @@ namespace celltrace::kernel {
 
 template <class S> struct Complex { typename S::F a, b; };
 
-/// Numbers that are squared, and what is asked of them: how many stay and, inside, the least size.
+/// Numbers that are squared, with the rounds that they stay bounded and, for those that stay, the least size.
 template <class S, bool kWantsLeast> struct IteratedSquares {
   using F = typename S::F;
 
   Complex<S> z;
-  F aa, bb; ///< squares of its parts
+  F aa, bb; ///< squares of the parts of z
   F least, rounds;
   typename S::M stays;
 
@@ -37,20 +37,21 @@ template <class S, bool kWantsLeast> struct IteratedSquares {
   }
 };
 
-/// Numbers in the greatest two parts of the Mandelbrot set, but for those near the edge.
+/// Returns the numbers in the two largest parts of the Mandelbrot set, except those near the edge.
 template <class S> [[gnu::always_inline]] inline typename S::M surely_stays(const Complex<S>& c) {
   using F = typename S::F;
-  constexpr float kRounding = 5e-7f; // of all terms together: none of them is above 1
+  constexpr float kRounding = 5e-7f; // bound for the sum of all terms, none of which is above 1
   const F x = c.a - F(0.25f), y = c.b * c.b, q = x * x + y, from_disc = c.a + F(1.0f);
   const auto in_cardioid = q * (q + x) + F(kRounding) < y * F(0.25f);
   return in_cardioid | (from_disc * from_disc + y < F(0.0625f - kRounding));
 }
 
-/// How a fractal pattern iterates squares and counts rounds, if that is all that it does.
+/// The parameters of a fractal pattern that only iterates squares and counts rounds.
 struct SquareIteration {
   const PatternRecord& record;
 
-  /// Whether it is: then the least size counts inside, or nothing does but a factor.
+  /// Returns true if a pattern is such a fractal: it counts rounds outside, and inside the least size or only
+  /// a factor.
   static bool describes(const PatternRecord& r) {
     return part(r, fractal_word::magnet_shift, fractal_word::magnet_mask) == 0 &&
            (r.table & fractal_word::exponent_mask) == 2 &&

@@ -1,4 +1,4 @@
-// Spots in all directions. Kernel dialect.
+// The leopard pattern: spots in all directions. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"

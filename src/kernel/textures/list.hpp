@@ -1,15 +1,17 @@
-// All patterns. The order gives each its kind, a number in its records. Kernel dialect.
+// All patterns. The order determines their kinds, which are numbers in records. Kernel dialect.
 //
 // A pattern P has, from pattern_traits.hpp or of its own,
 //   kName
-//   kIsList        whether its value is the number of a map's entry
-//   kIsColour      whether it has colours in place of values
-//   kCode          where its code is
-//   kReadsSurface  whether its value depends on more than points
-//   kDisturbs      whether a normal of it is something else than the slope of its value; the code of that is
-//                  with the rare patterns' if its value is, else with the noise's
-// value(p, record), and if it disturbs, disturbance(p, record); of rare ones, the scene stands before these.
-// Values of patterns of noise get the source of it besides, and those that read surfaces PatternPoints.
+//   kIsList        true if its value is the index of a map's entry
+//   kIsColour      true if it has colours in place of values
+//   kCode          location of its code
+//   kReadsSurface  true if its value depends on more than points
+//   kDisturbs      true if a normal of it is not the slope of its value; the code of that is in the module of
+//                  rare patterns if its value is, else in that of noise
+//   value(p, record)        also takes the noise generator if P is a noise pattern; takes PatternPoints
+//                           instead of a point if kReadsSurface
+//   disturbance(p, record)  if P disturbs
+// Functions of rare patterns take the scene first.
 #pragma once
 
 #include "kernel/textures/agate.hpp"

@@ -1,5 +1,5 @@
-// From a pattern to what its values stand for: an entry of its map, or a blend of two, each of which may be a
-// map again. Kernel dialect.
+// Maps of patterns: find the entry that a value stands for, or two entries that are blended, each of which
+// may be a map again. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -8,13 +8,14 @@
 
 namespace celltrace::kernel {
 
-/// How deep maps may lie in each other.
+/// Largest depth of nested maps.
 constexpr uint32_t kDeepestMapWalk = 8;
 
-/// What the entries of a tree of maps are where colours are asked; where normals are, they are normals.
+/// Kind of the entries of a tree of maps if colours are wanted; if normals are wanted, the entries are
+/// normals.
 enum class MapOf : uint32_t { pigments, textures };
 
-/// The pattern of a texture map; kNoOffset: it is no map.
+/// Returns the pattern of a texture map; kNoOffset: the material is no map.
 inline uint32_t map_of(const MaterialRecord& material) {
   return (material.flags & material_flag::mapped) != 0 ? material.pattern : kNoOffset;
 }
@@ -23,11 +24,11 @@ inline uint32_t map_entry_at(uint32_t entries, uint32_t number) {
   return entries + number * static_cast<uint32_t>(sizeof(MapEntryRecord));
 }
 
-/// Where values of a pattern lie in its map: calls `at(lanes, number, entry)` where an entry counts alone,
-/// and `between(lanes, number, below, above, share)` where two do, `number` and `share` being the upper
-/// one's. The first call is for all lanes, those after it for what lies below the last entry, each lane once:
-/// long maps are mostly intervals in which there is none. Of equal positions the first counts below and the
-/// last above, as in POV-Ray.
+/// Finds the places of values in a pattern's map: calls `at(lanes, number, entry)` if one entry counts, and
+/// `between(lanes, number, below, above, share)` if two count; `number` and `share` are those of the upper
+/// one. The first call is for all lanes; later calls are for lanes below the last entry, once for each lane:
+/// long maps consist mostly of intervals without a value. If several entries have one position, the first
+/// counts below it and the last above it, as in POV-Ray.
 template <class S, class Spu, class At, class Between>
 [[gnu::always_inline]] inline void find_interval(SceneAccess<Spu>& scene, const PatternRecord& r,
                                                  const typename S::F& value, At at, Between between) {
@@ -57,7 +58,7 @@ inline bool is_pigment(const PatternRecord& r) {
   return (r.kind_and_flags & pattern_flag::kind_mask) == kPatternKind<PigmentPattern>;
 }
 
-/// What a pattern's wave, if there is one, makes of its values.
+/// Applies a pattern's wave form, if it has one, to its values.
 template <class S> typename S::F in_wave(const PatternRecord& r, const typename S::F& value) {
   return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
 }
@@ -65,7 +66,7 @@ template <class S> typename S::F in_wave(const PatternRecord& r, const typename 
 /// Visits the leaves of a tree of maps that count at the points of a packet (`S` is Spu::simd) or of a part
 /// of it (Spu::rare_simd), with their weights, which add up to 1 in each lane. Without recursion: one level
 /// of the tree is one of `levels_`. A map whose pattern is a pigment waits on its level until the leaves of
-/// that, above it, have added up to their grey.
+/// that pigment, on higher levels, have added up to their grey.
 template <class Spu, TextureStage kStage, class S = typename Spu::rare_simd> class MapWalk {
 public:
   using F = typename S::F;
@@ -77,14 +78,14 @@ public:
                                         : kStage == TextureStage::maps  ? modules::kMaps
                                                                         : modules::kTextures;
 
-  /// `points` stay where they are.
+  /// Allocates nothing; `points` must outlive the walk.
   MapWalk(SceneAccess<Spu>& scene, const PatternPoints<S>& points, MapOf of = MapOf::pigments)
       : scene_(scene), of_(of), points_(&points) {
     if constexpr (!kIsPart) inside_ = kNoOffset;
   }
   MapWalk(SceneAccess<Spu>&, const PatternPoints<S>&&, MapOf = MapOf::pigments) = delete;
 
-  /// Starts at a pattern, whose leaves share `weight`.
+  /// Enters a pattern, whose leaves share `weight`.
   CELLTRACE_ONE_COPY void enter(uint32_t pattern, const F& weight, uint32_t lanes) {
     scene_.spu().run_in_module(kModule);
     Level& level = levels_[depth_++];
@@ -94,7 +95,7 @@ public:
     level.state = State::fresh;
   }
 
-  /// The next leaf, with its weight in those of `lanes`; false: there are no more.
+  /// Finds the next leaf and its weight in `lanes`; false: there are no more.
   CELLTRACE_ONE_COPY bool next(MapEntryRecord& leaf, F& weight, uint32_t& lanes) {
     scene_.spu().run_in_module(kModule);
     while (depth_ != ground_) {
@@ -119,7 +120,7 @@ public:
       const uint32_t number = level.next++;
       leaf = *scene_.map_entry(map_entry_at(level.entries, number));
       weight = level.weight * (level.state == State::average ? F(leaf.position) : weight_of(level, number));
-      lanes = level.lanes & (S::abs(weight) > F(0.0f)).bits(); // an average may take something away
+      lanes = level.lanes & (S::abs(weight) > F(0.0f)).bits(); // weights of an average may be negative
       if (lanes == 0) continue;
       if constexpr (kHasColours) leaf_is_coloured_ = false;
       const uint32_t pattern = pattern_of(leaf);
@@ -133,15 +134,15 @@ public:
     return false;
   }
 
-  /// The colours of the leaf that next() has come to.
+  /// Returns the colours of the leaf that next() has found.
   PigmentLanes<S> pigment(const MapEntryRecord& leaf) const {
     if constexpr (kHasColours)
       if (leaf_is_coloured_) return colours_;
     return pigment_of<S>(leaf);
   }
 
-  /// How bright a pigment is that is a map, at other points. Between two leaves: it takes the levels above
-  /// those that are under way.
+  /// Returns the grey of a pigment that is a map, at other points. May be called between two leaves: it uses
+  /// the levels above those in use.
   CELLTRACE_ONE_COPY F grey_of_pigment(uint32_t pattern, const PatternPoints<S>& points, uint32_t lanes) {
     scene_.spu().run_in_module(kModule);
     const PatternPoints<S>* const own = points_;
@@ -152,7 +153,7 @@ public:
     enter(pattern, F(1.0f), lanes);
     MapEntryRecord leaf;
     F weight;
-    next(leaf, weight, lanes); // there is none: all are parts of the grey
+    next(leaf, weight, lanes); // finds no leaf, as all are parts of the grey
     ground_ = 0;
     grey_ = nullptr;
     points_ = own;
@@ -160,25 +161,27 @@ public:
   }
 
 private:
-  /// Only such walks go on inside patterns that are pigments. Others have them go there, part by part.
+  /// True for walks of parts of packets: only these enter patterns that are pigments. Walks of whole packets
+  /// leave that to them, part by part.
   static constexpr bool kIsPart = S::kLanes == Part::kLanes;
 
-  /// Whether leaves may be patterns that are colours, be they only those of a pigment that is a pattern.
+  /// True if leaves may be patterns that are colours, even if only in a pigment that is a pattern.
   static constexpr bool kHasColours = Patterns::kSomeAreColours && kIsPart;
 
-  /// Of a level: its pattern has not been asked; its pattern is a pigment, which adds up in `upper`; leaves
-  /// have weights by lane; leaves have one weight; it is one leaf, whose colours are `colours_`.
+  /// State of a level. `fresh`: its pattern has not been evaluated; `waits`: its pattern is a pigment that
+  /// adds up in `upper`; `placed`: each lane has weights of its own; `average`: all lanes have the same
+  /// weights; `coloured`: it is one leaf, with the colours `colours_`.
   enum class State : uint32_t { fresh, waits, placed, average, coloured };
   struct Level {
     F weight;
-    F upper;   ///< by lane, number of the entry above the value
-    F share;   ///< of that entry; the rest is the one's before
-    F* around; ///< of one that waits: the grey that leaves add to after this one's
+    F upper;   ///< in each lane, the index of the entry above the value
+    F share;   ///< share of that entry; the rest is the share of the entry before it
+    F* around; ///< if it waits: the grey to which leaves contribute after this level's
     uint32_t pattern, entries, count, next, lanes;
     State state;
   };
 
-  /// Asks the pattern of a level, as far as that can be done at once, and finds the entries that count.
+  /// Evaluates the pattern of a level, as far as that is possible at once, and finds the entries that count.
   CELLTRACE_ONE_COPY void open(Level& level) {
     scene_.spu().run_in_module(kModule);
     Kept<Spu, PatternRecord> r = *scene_.pattern(level.pattern);
@@ -261,8 +264,8 @@ private:
   static bool is_relative(const PatternRecord& r) {
     return kStage != TextureStage::normals && (r.kind_and_flags & pattern_flag::relative) != 0;
   }
-  /// What is in a relative map is asked in the space of its pattern. A whole packet has no room on an SPU's
-  /// stack for points there: they are found anew, part by part.
+  /// Enters the space of a relative map's pattern, in which the map's contents are evaluated. A whole packet
+  /// has no room on an SPU's stack for points there: they are computed again, part by part.
   void enter_space(const PatternRecord& r, const Level& level) {
     if constexpr (kIsPart) {
       inside_ = to_pattern_space<kStage>(scene_, r, *points_, level.lanes);
@@ -280,7 +283,7 @@ private:
     return points;
   }
 
-  /// The pattern whose map an entry is; kNoOffset: it is a leaf.
+  /// Returns the pattern whose map an entry is; kNoOffset: it is a leaf.
   uint32_t pattern_of(const MapEntryRecord& entry) {
     if constexpr (kStage == TextureStage::normals) {
       if (grey_ != nullptr) return entry.child;
@@ -298,14 +301,14 @@ private:
   SceneAccess<Spu>& scene_;
   MapOf of_;
   const PatternPoints<S>* points_;
-  /// Of a relative map: points in its space, or the offset of its pattern.
+  /// In a relative map: points in its space, or the offset of its pattern.
   std::conditional_t<kIsPart, PatternPoints<S>, uint32_t> inside_;
   struct None {};
   std::conditional_t<kHasColours, PigmentLanes<S>, None> colours_;
-  bool leaf_is_coloured_ = false; ///< the leaf that next() has come to
-  F* grey_ = nullptr;             ///< what leaves add to, where they are parts of a pattern
+  bool leaf_is_coloured_ = false; ///< for the leaf that next() has found
+  F* grey_ = nullptr;             ///< sum of the leaves that are parts of a pattern
   uint32_t depth_ = 0;
-  uint32_t ground_ = 0; ///< the depth at which next() ends
+  uint32_t ground_ = 0; ///< depth at which next() ends
   Level levels_[kDeepestMapWalk];
 };
 

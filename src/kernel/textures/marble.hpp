@@ -1,4 +1,4 @@
-// Veins across x, which turbulence bends. Kernel dialect.
+// The marble pattern: veins across x, which turbulence bends. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"

@@ -1,7 +1,7 @@
-// POV-Ray's solid noise: at each lattice point a value and a gradient, blended over the cells. Kernel
+// POV-Ray's solid noise: a value and a gradient at each lattice point, blended over the cells. Kernel
 // dialect.
 //
-// The octaves, weights and tables are as measured from POV-Ray 3.7; in single precision.
+// Octaves, weights and tables are as measured from POV-Ray 3.7; in single precision.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -16,10 +16,10 @@ namespace celltrace::kernel::noise {
 template <class S> struct LatticeCells {
   using F = typename S::F;
   using I = typename S::I;
-  /// Numbers of the lattice planes below, by axis.
+  /// Numbers of the lattice planes below, for each axis.
   alignas(64) int32_t lattice[3][S::kLanes];
   F from[3];   ///< distance from them, in 0..1
-  F weight[3]; ///< of the lattice planes above
+  F weight[3]; ///< weight of the lattice planes above
 
   explicit LatticeCells(const V3<S>& p) {
     const F* const coordinate[3] = {&p.x, &p.y, &p.z};
@@ -32,10 +32,11 @@ template <class S> struct LatticeCells {
       weight[axis] = a * a * (F(3.0f) - a - a);
     }
   }
-  /// Lanes are in one cell if the lattice points below are the same.
+  /// Lanes are in one cell if these keys, the numbers of the lattice planes below, are equal.
   static constexpr uint32_t kKeys = 3;
   const int32_t* keys(uint32_t axis) const { return lattice[axis]; }
-  /// Where in kLattice the numbers of the eight points around a lane are: in the order of z, x, y.
+  /// Finds the positions in kLattice of the numbers of the eight points around a lane, in the order of z, x,
+  /// y.
   void operator()(uint32_t lane, uint32_t (&starts)[8]) const {
     const uint32_t plane = static_cast<uint32_t>(lattice[2][lane]);
     for (uint32_t i = 0; i < 4; ++i) {
@@ -44,7 +45,8 @@ template <class S> struct LatticeCells {
       starts[2 * i + 1] = start(column ^ above(plane));
     }
   }
-  /// The same in two steps, of which the first one is of all lanes at once: start() of these.
+  /// Finds these positions in two steps, the first for all lanes at once; the second is start() of the
+  /// indices.
   template <class LookUp>
   [[gnu::always_inline]] void find_indices(const LookUp& look_up, int32_t (&indices)[8][S::kLanes]) const {
     const auto index_of = [this](uint32_t lane, uint32_t corner) __attribute__((always_inline)) {
@@ -64,27 +66,27 @@ template <class S> struct LatticeCells {
 
 private:
   static uint32_t above(uint32_t plane) { return (plane + 1) & (kPeriod - 1); }
-  /// Where in kHash the hash is of one of the columns along z through the corners of a lane's cell, which are
-  /// in the order of x, y.
+  /// Returns the index in kHash of the hash of a column along z through a corner of a lane's cell. Corners
+  /// are in the order of x, y.
   [[gnu::always_inline]] uint32_t column_index(uint32_t lane, uint32_t corner) const {
     const uint32_t x = static_cast<uint32_t>(lattice[0][lane]), y = static_cast<uint32_t>(lattice[1][lane]);
     return kHash.entry[(corner & 1) != 0 ? above(x) : x] ^ ((corner & 2) != 0 ? above(y) : y);
   }
 };
 
-/// Where rare code takes fewer lanes than a packet has, local store is short: one copy of the code does for
-/// all that ask.
+/// True if local store is short, where rare code processes fewer lanes than a packet has: one copy of the
+/// code then serves all callers.
 template <class S> constexpr bool kOneCopy = S::kLanes < kSimdLanes;
-/// And for values as well as for vectors.
+/// Channels of noise for values: one copy also serves values and vectors.
 template <class S> constexpr uint32_t kValueChannels = kOneCopy<S> ? 3 : 1;
 
-/// Noise in `kChannels` coordinates, about 0.
+/// Computes noise in `kChannels` coordinates, about 0.
 template <class S, uint32_t kChannels>
 [[gnu::always_inline]] inline void make_noise_inline(const V3<S>& p, typename S::F (&noise)[kChannels]) {
   using F = typename S::F;
   const LatticeCells<S> cells(p);
-  // Half the weights of the cell's edges along x, by y and z. What an upper corner leaves of an edge's weight
-  // is the lower one's, and so on: differences instead of products.
+  // Half the weights of the cell's edges along x, by y and z. The weight of a lower corner is the rest of an
+  // edge's weight after the upper corner's, and so on: differences instead of products.
   const F(&weight)[3] = cells.weight;
   F edge[2][2];
   const F upper_z = weight[2] * F(0.5f), lower_z = F(0.5f) - upper_z;
@@ -110,7 +112,8 @@ CELLTRACE_ONE_COPY void make_noise(const V3<S>& p, typename S::F (&noise)[kChann
   make_noise_inline<S>(p, noise);
 }
 
-/// In 0..1. `first_generator`: as POV-Ray's generator 1 scales it, otherwise as generator 2 does.
+/// Returns noise in 0..1, scaled as by POV-Ray's generator 1 if `first_generator`, otherwise as by generator
+/// 2.
 template <class S> typename S::F value(const V3<S>& p, bool first_generator) {
   using F = typename S::F;
   F noise[kValueChannels<S>];
@@ -119,7 +122,7 @@ template <class S> typename S::F value(const V3<S>& p, bool first_generator) {
   return S::min(S::max(scaled, F(0.0f)), F(1.0f));
 }
 
-/// The same, spread about 0.5 by generator 2: what sums of octaves are made of.
+/// Spreads noise of generator 2 about 0.5, for sums of octaves.
 template <class S> typename S::F spread(const typename S::F& value, bool first_generator) {
   using F = typename S::F;
   return first_generator ? value : value + value - F(0.5f);
@@ -129,7 +132,8 @@ template <class S> typename S::F spread_value(const V3<S>& p, bool first_generat
   const F spread_out = spread<S>(value<S>(p, first_generator), first_generator);
   return S::min(S::max(spread_out, F(0.0f)), F(1.0f));
 }
-/// Octaves of value(). As in POV-Ray, only the first one is clipped. Not inlined: one copy does for all.
+/// Returns a sum of octaves of value(). As in POV-Ray, only the first one is clipped. Not inlined, as one
+/// copy serves all callers.
 template <class S>
 CELLTRACE_ONE_COPY typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t,
                                                   bool first_generator) {
@@ -144,7 +148,7 @@ CELLTRACE_ONE_COPY typename S::F turbulence_value(const V3<S>& p, const Turbulen
   return sum;
 }
 
-/// What patterns of noise get their values from: generators 1 and 2. The other source is GradientNoise.
+/// The noise source of generators 1 and 2 for patterns; that of generator 3 is GradientNoise.
 template <class S> struct LatticeNoise {
   using F = typename S::F;
   const PatternRecord& record;
@@ -161,15 +165,15 @@ template <class S> struct LatticeNoise {
   }
 };
 
-/// Three coordinates, about 0.
+/// Returns noise in three coordinates, about 0.
 template <class S> V3<S> vector(const V3<S>& p) {
   typename S::F noise[3];
   make_noise<S>(p, noise);
   return {noise[0], noise[1], noise[2]};
 }
 
-/// Octaves of the first coordinates of vector(), each `lambda` times finer and `omega` times weaker than the
-/// one before.
+/// Sums octaves of the first coordinates of vector(), each `lambda` times finer and `omega` times weaker than
+/// the previous one.
 template <class S, uint32_t kChannels>
 [[gnu::always_inline]] inline void add_octaves(const V3<S>& p, uint32_t octaves, float lambda, float omega,
                                                typename S::F (&sums)[kChannels]) {
@@ -194,7 +198,8 @@ template <class S> V3<S> turbulence(const V3<S>& p, uint32_t octaves, float lamb
   add_octaves<S>(p, octaves, lambda, omega, sums);
   return {sums[0], sums[1], sums[2]};
 }
-/// The first two coordinates of it; the third is 0 or, where one copy of the code does for both, as well.
+/// Returns the first two coordinates of turbulence(); the third is 0 or, if one copy of the code serves both,
+/// computed as well.
 template <class S> V3<S> turbulence_across_z(const V3<S>& p, uint32_t octaves, float lambda, float omega) {
   using F = typename S::F;
   if constexpr (kOneCopy<S>) {

@@ -1,18 +1,19 @@
-// The tables of POV-Ray's solid noise: the code module of noise brings them along. Kernel dialect.
+// Tables of POV-Ray's solid noise, which belong to the code module of noise. Kernel dialect.
 #pragma once
 
 #include <stdint.h>
 
 namespace celltrace::kernel::noise {
 
-/// Lattice points are numbered modulo this in each coordinate.
+/// Period of the lattice points' numbers in each coordinate.
 constexpr uint32_t kPeriod = 4096;
 
 struct HashTable {
   uint16_t entry[kPeriod]; ///< a permutation
 };
 
-/// Shuffled from the last entry down to the first, by a linear congruential generator that begins with 0.
+/// Makes the permutation by shuffling from the last entry down to the first, with a linear congruential
+/// generator that begins with 0.
 constexpr HashTable make_hash_table() {
   HashTable table = {};
   for (uint32_t i = 0; i < kPeriod; ++i)
@@ -29,8 +30,8 @@ constexpr HashTable make_hash_table() {
 }
 alignas(16) inline constexpr HashTable kHash = make_hash_table();
 
-/// By lattice point m = 0 to 255: twice the value at the point (m), and the gradient there (m + 1 to m + 3).
-/// Of vectors of noise, the same from m + 4 and m + 8 on for the second and the third coordinate.
+/// For lattice point m = 0 to 255: twice the value at the point (m), and the gradient there (m + 1 to m + 3).
+/// For vectors of noise, the second and the third coordinate have the same from m + 4 and m + 8 on.
 alignas(16) inline constexpr float kLattice[267] = {
     -1.0f,      0.604974f,  -0.937102f,  0.414115f,  0.576226f,   -0.0161593f, 0.432334f,    0.103685f,
     0.590539f,  0.0286412f, 0.46981f,    -0.84622f,  -0.0734112f, -0.304097f,  -0.40206f,    -0.210132f,

@@ -1,4 +1,4 @@
-// Normals that patterns disturb. Kernel dialect.
+// Disturbance of normals by patterns. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -9,8 +9,8 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// What a slope map makes of a pattern's value: the height that curves through its entries have there, each
-/// with the entry's slope (Hermite).
+/// Returns the height that a slope map has for a pattern's value: curves go through its entries, with each
+/// entry's slope (Hermite).
 template <class Spu>
 typename Spu::rare_simd::F height_of(SceneAccess<Spu>& scene, const PatternRecord& r,
                                      const typename Spu::rare_simd::F& value) {
@@ -31,7 +31,7 @@ typename Spu::rare_simd::F height_of(SceneAccess<Spu>& scene, const PatternRecor
   return height;
 }
 
-/// Less the slope of the pattern's values, from four points around each.
+/// Returns the negative slope of the pattern's values, from four points around each point.
 template <class Spu>
 V3<typename Spu::rare_simd>
 slope_disturbance(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, const PatternRecord& r,
@@ -60,7 +60,7 @@ slope_disturbance(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& 
   return sum * F(-0.1f / accuracy);
 }
 
-/// The transposed inverse of a linear map, times any positive factor.
+/// Computes the transposed inverse of a linear map, times a positive factor.
 inline void cofactors(const float (&m)[9], float (&c)[9]) {
   for (uint32_t row = 0; row < 3; ++row) {
     const float* const a = m + (row + 1) % 3 * 3;
@@ -75,7 +75,8 @@ inline void cofactors(const float (&m)[9], float (&c)[9]) {
       number = -number;
 }
 
-/// A unit normal as the pattern of `normal`, no map, disturbs it. `walk` is through the maps around it.
+/// Disturbs a unit normal by the pattern of `normal`, which is no map. `walk` goes through the maps around
+/// it.
 template <class Spu>
 CELLTRACE_ONE_COPY void
 disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, const NormalRecord& normal,
@@ -94,8 +95,8 @@ disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, c
   V3<S> change;
   const uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
   if (kind == kPatternKind<BumpsPattern> && (r.kind_and_flags & pattern_flag::at_features) != 0) {
-    // Facets: along the surface, by the noise of the point of their cell; or the direction of the point that
-    // is nearest to the normal, as many times as long as the first parameter says.
+    // Facets: along the surface, by the noise at the feature point of the cell; or, if the first parameter is
+    // not 0, the direction of the feature point that is nearest to the normal times that parameter.
     const float times = r.parameter[0];
     spu.enter_module(modules::kRarePatterns);
     const V3<S> facet =
@@ -108,7 +109,7 @@ disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, c
       change = change - local * dot<S>(change, local);
     }
   } else if (kind == kPatternKind<DentsPattern> && (r.kind_and_flags & pattern_flag::gradient_noise) != 0) {
-    // The depth is of generator 3, which has no vectors.
+    // The depth is noise of generator 3, which has no vectors.
     PatternRecord part = r;
     constexpr auto kNoWave = static_cast<uint32_t>(PatternWave::none) << pattern_flag::wave_shift;
     part.kind_and_flags = kind | kNoWave | pattern_flag::gradient_noise;
@@ -130,7 +131,7 @@ disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, c
   disturbed = normalise<S>(splat3<S>(m) * n.x + splat3<S>(m + 3) * n.y + splat3<S>(m + 6) * n.z);
 }
 
-/// As disturb_normal(), for a part of a packet.
+/// Disturbs the normals of a part of a packet; see disturb_normal().
 template <class Spu>
 void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
                   const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
@@ -160,7 +161,7 @@ void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
 
 } // namespace detail
 
-/// The normals at `points`, unit vectors on the viewer's side, as the record at `offset` disturbs them.
+/// Disturbs the normals at `points`, which are unit vectors on the viewer's side, by the record at `offset`.
 template <class Spu>
 CELLTRACE_ONE_COPY void disturb_normal(SceneAccess<Spu>& scene, uint32_t offset,
                                        const PatternPoints<typename Spu::simd>& points, uint32_t lanes,

@@ -1,4 +1,4 @@
-// Whether points are in an object. Kernel dialect.
+// The object pattern: tests points against an object. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -9,12 +9,13 @@
 
 namespace celltrace::kernel {
 
-/// Its table is a CsgRecord that skips nothing, whose program says which points are in the object.
+/// The table is a CsgRecord without skipped steps, whose program decides which points are in the object.
 struct ObjectPattern : RarePattern {
   static constexpr const char* kName = "object";
   static constexpr bool kIsList = true;
 
-  /// As module_shapes::inside(), beside the other rare patterns: the shapes' module has the same place.
+  /// Returns the points inside a solid, as module_shapes::inside() does. This copy is in the module of rare
+  /// patterns, which shares its region with that of shapes.
   template <class Spu>
   CELLTRACE_ONE_COPY [[gnu::flatten]] static uint32_t lanes_in(Spu& spu, const SolidRecord& solid,
                                                                const V3<typename Spu::rare_simd>& points) {
@@ -33,7 +34,7 @@ struct ObjectPattern : RarePattern {
     return lanes;
   }
 
-  /// Each lane has a place of its own in the program, which only goes forward.
+  /// Runs the program; each lane has its own place in it, which only advances.
   template <class Spu>
   [[gnu::always_inline]] static typename Spu::rare_simd::F
   value(SceneAccess<Spu>& scene, const V3<typename Spu::rare_simd>& p, const PatternRecord& r) {

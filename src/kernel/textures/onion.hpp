@@ -1,4 +1,4 @@
-// Shells around the origin, one unit apart. Kernel dialect.
+// The onion pattern: shells around the origin, one unit apart. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/lattice.hpp"

@@ -1,4 +1,4 @@
-// Where patterns are asked. Kernel dialect.
+// Points at which patterns are evaluated. Kernel dialect.
 #pragma once
 
 #include "kernel/packet.hpp"
@@ -6,18 +6,18 @@
 
 namespace celltrace::kernel {
 
-/// What patterns may ask of the surfaces of a packet besides points, in the lanes of objects that are
-/// object_flag::by_surface.
+/// Further input of patterns besides points, for a packet: surface coordinates and normals in the lanes of
+/// objects with object_flag::by_surface.
 struct SurfaceLanes {
   FloatLanes u, v;    ///< surface coordinates
-  VectorLanes normal; ///< unit vectors on the viewer's side, as they are disturbed by then
+  VectorLanes normal; ///< unit vectors on the viewer's side, as disturbed so far
 };
 
 /// Points of a packet, or of a part of it.
 template <class S> struct PatternPoints {
   V3<S> at;
-  const SurfaceLanes* surface = nullptr; ///< of the whole packet; null: no pattern asks for it
-  uint32_t first = 0;                    ///< lane of the packet that the part begins with
+  const SurfaceLanes* surface = nullptr; ///< of the whole packet; null: no pattern needs it
+  uint32_t first = 0;                    ///< first lane of the part in the packet
 };
 
 template <class Spu>
@@ -29,7 +29,7 @@ template <class Spu>
       });
 }
 
-/// The coordinates of surfaces as points.
+/// Returns the surface coordinates as points.
 template <class S> V3<S> surface_coordinates(const PatternPoints<S>& points) {
   using F = typename S::F;
   return {F::load(points.surface->u.lane + points.first), F::load(points.surface->v.lane + points.first),

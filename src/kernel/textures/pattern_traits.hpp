@@ -1,13 +1,13 @@
-// What patterns derive from: how the stages of textures treat them. Kernel dialect.
+// Base classes of patterns, which determine how the stages of textures treat them. Kernel dialect.
 #pragma once
 
 namespace celltrace::kernel {
 
-/// Where in local store a pattern's code is: always there, for little code that scenes are full of; in the
-/// module of patterns; in that of the noise; or in that of rare patterns.
+/// Location of a pattern's code in local store: `resident` for short code of frequent patterns, `plain` in
+/// the module of patterns, `noise` in that of noise, or `rare` in that of rare patterns.
 enum class PatternCode : uint32_t { resident, plain, noise, rare };
 
-/// A number at every point, which a map blends by.
+/// A pattern with a number at every point, by which a map blends.
 struct BlendPattern {
   static constexpr bool kIsList = false;
   static constexpr bool kIsColour = false;
@@ -18,32 +18,34 @@ struct BlendPattern {
   static constexpr bool kReadsSurface = false; ///< its value depends on more than points
 };
 
-/// The number of a map's entry at every point.
+/// A pattern with the index of a map's entry at every point.
 struct ListPattern : BlendPattern {
   static constexpr bool kIsList = true;
 };
 
-/// Its code is with the noise's, into which it is inlined always. Noise of a table reads the scene: it stands
-/// in a statement of its own, or compilers' orders of evaluation would show in modelled cycles.
+/// A pattern of noise, whose code is always inlined into that of noise. Noise of a table reads the scene, and
+/// is evaluated in a statement of its own, as otherwise compilers' orders of evaluation would change modelled
+/// cycles.
 struct NoisePattern : BlendPattern {
   static constexpr PatternCode kCode = PatternCode::noise;
   static constexpr bool kReadsNoise = true; ///< its value depends on the generator
 };
 
-/// Has no noise of its own, but turbulent values, times the first number of its turbulence, are added to z,
-/// or to x of marble, wherever the pattern is asked.
+/// A pattern without noise of its own. A turbulent value, times the first number of its turbulence, is added
+/// to z, or to x of marble, wherever the pattern is evaluated.
 struct ShiftedPattern : BlendPattern {
   static constexpr bool kReadsNoise = true;
   static constexpr bool kIsShifted = true;
 };
 
-/// Few scenes have it; it may read a table of the scene image. Its functions are inlined always.
+/// A rare pattern, which may read a table of the scene image. Its functions are always inlined.
 struct RarePattern : BlendPattern {
   static constexpr PatternCode kCode = PatternCode::rare;
 };
 
-/// A colour at every point, with its transparency, in place of a number and a map: colour(scene, points,
-/// record). It is a pigment, or an entry of a pigment's map, or the pattern of a pigment_pattern.
+/// A pattern with a colour and its transparency at every point, in place of a number and a map: colour(scene,
+/// points, record). The pattern is a pigment, an entry of a pigment's map, or the pattern of a
+/// pigment_pattern.
 struct ColourPattern : RarePattern {
   static constexpr bool kIsColour = true;
 };

@@ -1,7 +1,7 @@
-// The value of a pattern at points, a part of a packet's lanes at a time. Kernel dialect.
+// Evaluation of a pattern at points, for a part of a packet's lanes at a time. Kernel dialect.
 //
-// Patterns have code modules: those of noise, which brings its tables along, those that are rare, many of
-// which read tables of the scene image, and the others, but for few whose code is always there.
+// The code of patterns is in modules: one for noise, with its tables, one for rare patterns, many of which
+// read tables of the scene image, and one for the others, except for a few with resident code.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -17,11 +17,11 @@
 
 namespace celltrace::kernel {
 
-/// Who asks patterns: pigments, normals, and the maps of textures at hits. Each has a code module with its
-/// own copies of what asks them.
+/// A stage that evaluates patterns: pigments, normals, and the maps of textures at hits. Each has a code
+/// module with its own copies of the code that evaluates them.
 enum class TextureStage : uint32_t { colours, normals, maps };
 
-/// The values of the patterns whose code is in one place, waves included.
+/// Returns the values of a pattern whose code is in the location `kCode`, with its wave form.
 template <PatternCode kCode, class S>
 [[gnu::always_inline]] inline typename S::F value_of(const PatternRecord& r, const V3<S>& p) {
   typename S::F value(0.0f);
@@ -37,7 +37,7 @@ template <PatternCode kCode, class S>
   return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
 }
 
-/// Moves points to where a ShiftedPattern has its value.
+/// Moves points to where a ShiftedPattern is evaluated.
 template <class S, class Source>
 [[gnu::always_inline]] inline void shift_points(V3<S>& p, const PatternRecord& r, const Source& source) {
   using F = typename S::F;
@@ -75,7 +75,7 @@ CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> displaced(Spu& spu, const Turbule
   return p + noise::turbulence<S>(p, t.octaves, t.lambda, t.omega) * splat3<S>(t.amount);
 }
 
-/// By noise of generators 1 and 2.
+/// Moves points by noise of generators 1 and 2.
 template <class Spu>
 CELLTRACE_ONE_COPY void shift(Spu& spu, const PatternRecord& r, V3<typename Spu::rare_simd>& p) {
   using S = typename Spu::rare_simd;
@@ -83,7 +83,7 @@ CELLTRACE_ONE_COPY void shift(Spu& spu, const PatternRecord& r, V3<typename Spu:
   shift_points<S>(p, r, noise::LatticeNoise<S>{r});
 }
 
-/// What a pattern of which disturbs() is true adds to a normal, in its own space.
+/// Returns the vector that a pattern with disturbs() adds to a normal, in its own space.
 template <class Spu>
 CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> disturbance(Spu& spu, const PatternRecord& r,
                                                            const V3<typename Spu::rare_simd>& p) {
@@ -123,7 +123,7 @@ CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> bent(SceneAccess<Spu>& scene, con
 
 namespace module_rare {
 
-/// The random points that are nearest to points.
+/// Returns the feature points that are nearest to points.
 template <class Spu>
 CELLTRACE_ONE_COPY V3<typename Spu::rare_simd>
 nearest_feature(SceneAccess<Spu>& scene, const PatternRecord& r, const V3<typename Spu::rare_simd>& p) {
@@ -131,7 +131,7 @@ nearest_feature(SceneAccess<Spu>& scene, const PatternRecord& r, const V3<typena
   return CracklePattern::nearest_of<Spu>(scene, p, r, {0, true}).point;
 }
 
-/// Of rare patterns, and of those of noise with generator 3.
+/// Returns the values of rare patterns, and of noise patterns with generator 3.
 template <class Spu>
 CELLTRACE_ONE_COPY typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, const PatternRecord& r,
                                                     const PatternPoints<typename Spu::rare_simd>& points) {
@@ -157,7 +157,7 @@ CELLTRACE_ONE_COPY typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, con
   return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
 }
 
-/// The colours of patterns of which is_colour() is true, and black of others.
+/// Sets the colours of a pattern with is_colour(); for other patterns it leaves them as they are.
 template <class Spu>
 CELLTRACE_ONE_COPY void colour(SceneAccess<Spu>& scene, const PatternRecord& r,
                                const PatternPoints<typename Spu::rare_simd>& points,
@@ -169,7 +169,7 @@ CELLTRACE_ONE_COPY void colour(SceneAccess<Spu>& scene, const PatternRecord& r,
   });
 }
 
-/// As that of the noise.
+/// Returns the vector that a rare pattern with disturbs() adds to a normal, in its own space.
 template <class Spu>
 CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> disturbance(SceneAccess<Spu>& scene, const PatternRecord& r,
                                                            const V3<typename Spu::rare_simd>& p) {
@@ -187,7 +187,7 @@ CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> disturbance(SceneAccess<Spu>& sce
 
 } // namespace module_rare
 
-/// Points of `lanes` in the space of a pattern. Other lanes get any points.
+/// Maps the points of `lanes` to the space of a pattern. The results of other lanes are undefined.
 template <TextureStage kStage, class Spu>
 CELLTRACE_ONE_COPY PatternPoints<typename Spu::rare_simd>
 to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r,
@@ -219,7 +219,7 @@ to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r,
   return {p, points.surface, points.first};
 }
 
-/// At points in the pattern's own space, wave included. One copy, which is always there.
+/// Returns the values at points in the pattern's own space, with its wave form. Has one resident copy.
 template <class Spu>
 typename Spu::rare_simd::F pattern_value(SceneAccess<Spu>& scene, const PatternRecord& r,
                                          const PatternPoints<typename Spu::rare_simd>& points) {

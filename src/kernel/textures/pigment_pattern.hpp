@@ -1,4 +1,4 @@
-// How bright a pigment is. Kernel dialect.
+// The pigment_pattern: the brightness of a pigment. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -7,7 +7,7 @@
 
 namespace celltrace::kernel {
 
-/// Its value is found by MapWalk: patterns cannot ask each other, as that would be recursion.
+/// MapWalk finds its value: patterns cannot evaluate each other, as that would be recursion.
 struct PigmentPattern : RarePattern {
   static constexpr const char* kName = "pigment_pattern";
 
@@ -18,7 +18,7 @@ struct PigmentPattern : RarePattern {
   }
 };
 
-/// Red, green and blue as they count.
+/// Return the grey of a colour, with POV-Ray's weights.
 inline float grey_of(const float (&rgb)[3]) {
   return 0.297f * rgb[0] + 0.589f * rgb[1] + 0.114f * rgb[2];
 }

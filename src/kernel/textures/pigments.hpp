@@ -1,4 +1,4 @@
-// Pigments: the colours of surfaces, and what they let through. Kernel dialect.
+// Pigments: the colours of surfaces and their transparency. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -8,7 +8,7 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// Of a pattern whose map has colours only: the entries on both sides of its values, blended.
+/// Finds the pigment of a pattern whose map has colours only: blends the entries on both sides of its values.
 template <class Spu>
 CELLTRACE_ONE_COPY void blend_colours(SceneAccess<Spu>& scene, uint32_t pattern,
                                       const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
@@ -31,7 +31,7 @@ CELLTRACE_ONE_COPY void blend_colours(SceneAccess<Spu>& scene, uint32_t pattern,
       });
 }
 
-/// Of any pattern: the leaves of its tree of maps, by their weights.
+/// Finds the pigment of any pattern: adds up the leaves of its tree of maps by their weights.
 template <class Spu>
 CELLTRACE_ONE_COPY void add_up_leaves(SceneAccess<Spu>& scene, uint32_t pattern,
                                       const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
@@ -51,7 +51,7 @@ CELLTRACE_ONE_COPY void add_up_leaves(SceneAccess<Spu>& scene, uint32_t pattern,
 
 } // namespace detail
 
-/// The pigment of a pattern at the points of `lanes`, of a part of a packet.
+/// Finds the pigment of a pattern at the points of `lanes` in a part of a packet.
 template <class Spu>
 void pigment_at(SceneAccess<Spu>& scene, uint32_t pattern,
                 const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,

@@ -1,4 +1,4 @@
-// From 1 on the xz plane to 0 at a distance of 1. Kernel dialect.
+// The planar pattern: from 1 on the xz plane to 0 at a distance of 1. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"

@@ -1,4 +1,4 @@
-// Pillows: cubes whose surfaces bulge. Kernel dialect.
+// The quilted pattern: pillows, which are cubes with bulging surfaces. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/lattice.hpp"
@@ -12,7 +12,7 @@ struct QuiltedPattern : BlendPattern {
 
   static constexpr bool kDisturbs = true;
 
-  /// Its parameters: the two controls of the bulge.
+  /// The parameters are the two controls of the bulge.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     const V3<S> d = from_centre<S>(p);
     return S::abs((S::abs(d.x) + S::abs(d.y) + S::abs(d.z)) * bulge<S>(d, r) * typename S::F(kScale / 3));

@@ -1,4 +1,4 @@
-// Once around the y axis, from the side of -z on. Kernel dialect.
+// The radial pattern: a ramp around the y axis that begins at -z. Kernel dialect.
 #pragma once
 
 #include "kernel/angles.hpp"
@@ -10,7 +10,7 @@ namespace celltrace::kernel {
 struct RadialPattern : BlendPattern {
   static constexpr const char* kName = "radial";
 
-  /// On the axis it is as at +z, as POV-Ray has it.
+  /// Returns the value; on the axis it is that at +z, as in POV-Ray.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord&) {
     using F = typename S::F;
     constexpr float kOnAxis = 0.001f;

@@ -1,4 +1,4 @@
-// Waves of one length that run from points around the origin into each other. Kernel dialect.
+// The ripples pattern: waves of equal length that spread from points around the origin. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/running_waves.hpp"

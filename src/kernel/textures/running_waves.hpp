@@ -1,4 +1,4 @@
-// Waves that run from points around the origin into each other. Kernel dialect.
+// Waves that spread from points around the origin. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -8,8 +8,8 @@
 
 namespace celltrace::kernel {
 
-/// What ripples and waves share. A pattern says how high a wave is at a distance from its source, height(),
-/// and how much waves count, kStrength. Its parameter is their number.
+/// The common base of ripples and waves. A pattern defines height(), the height of a wave at a distance from
+/// its source, and kStrength, the weight of waves. The parameter is the number of waves.
 template <class Pattern> struct RunningWaves : RarePattern {
   static constexpr bool kDisturbs = true;
 
@@ -35,7 +35,8 @@ template <class Pattern> struct RunningWaves : RarePattern {
   }
 
 protected:
-  /// A wave's sine. As in POV-Ray, frequency and phase are those of the waves, and the common ones besides.
+  /// Returns the sine of a wave. As in POV-Ray, frequency and phase apply to the waves, and to the pattern's
+  /// values as with any pattern.
   template <class S>
   [[gnu::always_inline]] static typename S::F sine(const typename S::F& distance, float frequency,
                                                    const PatternRecord& r) {
@@ -45,7 +46,7 @@ protected:
   }
 
 private:
-  /// Calls `visit(from, distance, height)` for each wave, with the way from its source to the points.
+  /// Calls `visit(from, distance, height)` for each wave; `from` points from its source to the points.
   template <class Spu, class Visit>
   [[gnu::always_inline]] static void for_each_height(SceneAccess<Spu>& scene,
                                                      const V3<typename Spu::rare_simd>& p,

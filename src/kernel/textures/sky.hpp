@@ -1,4 +1,4 @@
-// The sky: layers of pigments over the background, as far away as nothing else. Kernel dialect.
+// The sky: layers of pigments over the background, farther away than anything else. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -9,7 +9,7 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// As add_sky(), for a part of a packet.
+/// Applies the sky to a part of a packet; see add_sky().
 template <class Spu>
 void add_sky_layers(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu::rare_simd>& direction,
                     uint32_t lanes, V3<typename Spu::rare_simd>& colour) {
@@ -42,9 +42,9 @@ void add_sky_layers(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu
 
 } // namespace detail
 
-/// What rays of `lanes` see that hit nothing, of unit `direction`. The background comes in `colour`. Layers
-/// before language version 3.7 dim those below them by filter and transmit alone, whatever their colours, but
-/// the background by the product of all colours.
+/// Replaces the background in `colour` by the sky that rays of `lanes`, with unit vectors `direction`, see if
+/// they hit nothing. Layers before language version 3.7 dim those below them by filter and transmit alone,
+/// whatever their colours, but the background by the product of all colours.
 template <class Spu>
 CELLTRACE_ONE_COPY void add_sky(SceneAccess<Spu>& scene, uint32_t sky,
                                 const V3<typename Spu::simd>& direction, uint32_t lanes,

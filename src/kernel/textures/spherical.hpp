@@ -1,4 +1,4 @@
-// From 1 at the origin to 0 on the unit sphere. Kernel dialect.
+// The spherical pattern: from 1 at the origin to 0 on the unit sphere. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"

@@ -1,4 +1,4 @@
-// Arms around the z axis that wind both ways. Kernel dialect.
+// The spiral2 pattern: arms that wind around the z axis in both directions. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/spiral1.hpp"
@@ -8,7 +8,7 @@ namespace celltrace::kernel {
 struct Spiral2Pattern : ShiftedPattern {
   static constexpr const char* kName = "spiral2";
 
-  /// Its parameter: the number of arms.
+  /// The parameter is the number of arms.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     const typename S::F radius = S::sqrt(p.x * p.x + p.y * p.y);
     return triangle<S>(radius) + triangle<S>(p.z + radius + Spiral1Pattern::wound<S>(p, r));

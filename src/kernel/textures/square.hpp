@@ -1,4 +1,4 @@
-// Unit squares of the xz plane, of four kinds. Kernel dialect.
+// The square pattern: unit squares in the xz plane, of four kinds. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/lattice.hpp"
@@ -17,7 +17,7 @@ struct SquarePattern : ListPattern {
     fraction<S>(snap<S>(p.x), x);
     fraction<S>(snap<S>(p.z), z);
     const F odd_x = S::to_float(x & I::splat(1)), odd_z = S::to_float(z & I::splat(1));
-    // Around a corner: 0, 1, 2, 3.
+    // The kinds around a corner are 0, 1, 2, 3.
     return odd_z + odd_x * (F(3.0f) - odd_z - odd_z);
   }
 };

@@ -1,4 +1,4 @@
-// What surfaces let through of the light that shadow rays ask for. Kernel dialect.
+// Transmittance of surfaces for shadow rays. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/pigments.hpp"
@@ -7,7 +7,7 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// Of a texture that is no map: the product of its layers.
+/// Finds the transmittance of a texture that is no map: the product over its layers.
 template <class Spu>
 [[gnu::noinline]] void filter_of_layers(SceneAccess<Spu>& scene, uint32_t material,
                                         const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
@@ -26,7 +26,7 @@ template <class Spu>
   }
 }
 
-/// Of any texture.
+/// Finds the transmittance of any texture.
 template <class Spu>
 [[gnu::noinline]] void filter_of_texture(SceneAccess<Spu>& scene, uint32_t material,
                                          const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
@@ -51,8 +51,8 @@ template <class Spu>
 
 } // namespace detail
 
-/// The transmittance of the texture at `material` at the points of `lanes`, of a part of a packet. One colour
-/// takes no code module: shadow rays through plain glass are many.
+/// Finds the transmittance of the texture at `material` at the points of `lanes` in a part of a packet. A
+/// single colour needs no code module: shadow rays through plain glass are frequent.
 template <class Spu>
 void transmittance_at(SceneAccess<Spu>& scene, uint32_t material,
                       const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
@@ -68,8 +68,8 @@ void transmittance_at(SceneAccess<Spu>& scene, uint32_t material,
   detail::filter_of_texture(scene, material, points, lanes, transmittance);
 }
 
-/// The transmittance of a surface. Its material is at `material`; if it is `blended`, a BlendRecord with
-/// three materials is there, whose weights are those of the barycentric coordinates u and v.
+/// Finds the transmittance of a surface. Its material is at `material`; if it is `blended`, a BlendRecord
+/// with three materials is there, which are weighted by the barycentric coordinates u and v.
 template <class Spu>
 [[gnu::always_inline]] inline void
 surface_transmittance(SceneAccess<Spu>& scene, uint32_t material, bool blended,

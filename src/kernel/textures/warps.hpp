@@ -1,4 +1,4 @@
-// How space is bent before a pattern is asked, but for turbulence. Kernel dialect.
+// Warps, which bend space before a pattern is evaluated, without turbulence. Kernel dialect.
 #pragma once
 
 #include "kernel/angles.hpp"
@@ -6,7 +6,7 @@
 
 namespace celltrace::kernel::warps {
 
-/// An angle in turns from 0 up to 1.
+/// Returns an angle in turns, in [0, 1).
 template <class S>
 [[gnu::always_inline]] inline typename S::F turns_from_0(const typename S::F& y, const typename S::F& x) {
   const typename S::F turns = turns_inline<S>(y, x);
@@ -31,7 +31,8 @@ template <class S> [[gnu::always_inline]] inline V3<S> repeated(const SpaceStepR
   return {coordinate[0], coordinate[1], coordinate[2]};
 }
 
-/// The centres of the copies that points are near. Each copy has a cell; turbulence moves it there.
+/// Returns the centres of the copies of a black hole that points are near. Each copy has a cell, in which
+/// turbulence moves it.
 template <class Spu>
 [[gnu::always_inline]] inline V3<typename Spu::rare_simd>
 centres_of(SceneAccess<Spu>& scene, const SpaceStepRecord& step, const V3<typename Spu::rare_simd>& p) {
@@ -76,7 +77,7 @@ attracted(SceneAccess<Spu>& scene, const SpaceStepRecord& step, const V3<typenam
   return select<S>(distance < radius, centre + from * (F(1.0f) + (is_inverse ? -share : share)), p);
 }
 
-/// From a shape to the unit square that is wrapped around it, and the distance.
+/// Maps points from a shape to the unit square that is wrapped around it, and their distance from it.
 template <class S>
 [[gnu::always_inline]] inline V3<S> unwrapped(WarpKind kind, const SpaceStepRecord& step, const V3<S>& p) {
   using F = typename S::F;

@@ -1,4 +1,4 @@
-// Wave forms: what becomes of a pattern's values before its map is asked. Kernel dialect.
+// Wave forms, which are applied to a pattern's values before its map. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -11,8 +11,9 @@ inline PatternWave wave_of(const PatternRecord& r) {
   return static_cast<PatternWave>(r.kind_and_flags >> pattern_flag::wave_shift & pattern_flag::wave_mask);
 }
 
-/// As POV-Ray: values repeat after slightly more than 1, so that 1 itself is the end and not the beginning. A
-/// result may be as much above 1. One copy, which is always there: both modules of patterns end with it.
+/// Applies a wave form. As in POV-Ray, values repeat after slightly more than 1, so that 1 itself is the end
+/// and not the beginning; a result may exceed 1 by as much. Has one resident copy, as both modules of
+/// patterns end with it.
 template <class S>
 CELLTRACE_ONE_COPY typename S::F in_wave_form(const PatternRecord& r, const typename S::F& value) {
   using F = typename S::F;

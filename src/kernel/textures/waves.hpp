@@ -1,4 +1,4 @@
-// Waves of different lengths that run from points around the origin into each other. Kernel dialect.
+// The waves pattern: waves of different lengths that spread from points around the origin. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/running_waves.hpp"

@@ -1,4 +1,4 @@
-// Rings around the z axis, which turbulence bends. Kernel dialect.
+// The wood pattern: rings around the z axis, which turbulence bends. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/noise.hpp"
@@ -8,7 +8,7 @@ namespace celltrace::kernel {
 
 struct WoodPattern : NoisePattern {
   static constexpr const char* kName = "wood";
-  static constexpr bool kReadsNoise = false; // but vectors of it
+  static constexpr bool kReadsNoise = false; // false, as it reads vectors of noise only
 
   template <class S, class Source>
   [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r, const Source&) {

@@ -1,4 +1,4 @@
-// Ten octaves of noise. Kernel dialect.
+// The wrinkles pattern: ten octaves of noise. Kernel dialect.
 #pragma once
 
 #include "kernel/textures/noise.hpp"
