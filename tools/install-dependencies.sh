@@ -3,6 +3,7 @@
 #
 #   tools/install-dependencies.sh GROUP...
 #
+#   program  to build the library and the program without its window
 #   build    to build the library and the program
 #   tests    to build and run the tests and benchmarks
 #   bench    Embree and POV-Ray, which celltrace is compared with
@@ -15,7 +16,7 @@
 set -euo pipefail
 
 declare -A packages=(
-  [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libjpeg62-turbo-dev libopenexr-dev libpng-dev libsdl2-dev libsdl2-ttf-dev libseccomp-dev libxsimd-dev nlohmann-json3-dev zlib1g-dev"
+  [program]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libjpeg62-turbo-dev libopenexr-dev libpng-dev libseccomp-dev libxsimd-dev nlohmann-json3-dev zlib1g-dev"
   [tests]="catch2 fonts-dejavu-core libbenchmark-dev pkg-config python3 xz-utils"
   [python]="pybind11-dev python3-dev python3-numpy python3-pip python3-pytest python3-setuptools python3-venv python3-wheel"
   [docs]="doxygen mkdocs"
@@ -23,6 +24,7 @@ declare -A packages=(
   [bench]="libembree-dev povray povray-includes"
   [extras]="ccache clang ffmpeg fish imagemagick libclang-rt-14-dev libmagickcore-6.q16-6-extra povray povray-includes python3-matplotlib valgrind xdotool xvfb zsh"
 )
+packages[build]="${packages[program]} libsdl2-dev libsdl2-ttf-dev"
 
 is_installed() {
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
