@@ -36,7 +36,7 @@ def pybind11_folder():
 def build(folder):
     """As little as the package needs."""
     arguments = ["-DCMAKE_BUILD_TYPE=Release", "-DCELLTRACE_COMPONENTS=celltrace",
-                 "-DBUILD_SHARED_LIBS=OFF", "-DCELLTRACE_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}",
+                 "-DBUILD_SHARED_LIBS=OFF", "-DCELLTRACE_UNITY=ON", "-DCELLTRACE_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}",
                  "-DCELLTRACE_PYTHON_DIR=.", *pybind11_folder()]
     if has("ninja"):
         arguments += ["-G", "Ninja"]

@@ -127,7 +127,7 @@ TEST_CASE("The SPU's machine code renders all published scenes", "[.all]") {
     check_scene(path, kLarge);
 }
 
-// One of the two exceptions from "the same picture everywhere" in docs/architecture.md.
+// One of the exceptions in docs/differences-between-backends.md.
 TEST_CASE("The SPU's rounding picks one or the other of two surfaces in one place") {
   if (!has_machine_code()) return;
   const Scene scene = parse_string(R"(

@@ -343,8 +343,8 @@ TEST_CASE("What has no bounds is seen where something else is at the same distan
   }
 }
 
-// The other exception from "the same picture everywhere" in docs/architecture.md; the SPU's rounding is the
-// one of the pictures of machine code.
+// Another exception in docs/differences-between-backends.md; tests of machine code have that of the SPU's
+// rounding.
 TEST_CASE("Bundled shadow rays see what single ones do, but for the sides of triangles") {
   Scene scene = scene_named("meshes");
   const Object ball = mesh_object(ball_mesh(40), 0, 0);
