@@ -1,5 +1,5 @@
-// What the tables of a scene image have to be, whoever wrote it, so that kernels can follow its offsets. All
-// of these take the image's first byte and its header, and need each table to lie within the image.
+// Checks that the tables of a scene image are well formed, whoever wrote it, so that kernels can follow its
+// offsets. All functions take the image's first byte and its header; each table must lie within the image.
 #pragma once
 
 #include "records/image.hpp"
@@ -23,24 +23,25 @@ bool lights_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 /// long, and objects say what their textures ask. Objects and blends are valid.
 bool textures_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if conditions end, so do their programs, and solids are of kinds that there are.
+/// Returns true if conditions and their programs end, and solids have known kinds.
 bool csg_is_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if the insides of meshes have grids, and their cells lists of triangles.
+/// Returns true if the insides of meshes have grids, and the cells of these have lists of triangles.
 bool mesh_insides_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if the boxes around triangles of crossed meshes are nested, and solids refer to some of them.
+/// Returns true if the boxes around triangles of crossed meshes are nested, and solids refer to some of these
+/// boxes.
 bool crossed_meshes_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if instances have meshes and numbers of their own for the triangles of these, whose nodes lead to
-/// them in few steps.
+/// Returns true if instances have meshes and separate numbers for their triangles, and the nodes of these
+/// meshes lead to the triangles in few steps.
 bool instances_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if there are no groups, or each object is in one.
+/// Returns true if there are no groups, or each object is in one.
 bool groups_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if there are no copies, or each of them and its prototype are of one number of objects, and not many.
-/// The groups are valid.
+/// Returns true if there are no copies, or each copy has as many objects as its prototype, and not many. The
+/// groups must be valid.
 bool prototypes_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
 } // namespace celltrace

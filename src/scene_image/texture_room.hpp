@@ -9,8 +9,8 @@
 
 namespace celltrace {
 
-/// Of all textures together, in each of the tables: what several maps share is written once for each space
-/// that it is in.
+/// The largest number of records of all textures together, in each table. A map that several textures share
+/// is written once for each space that it is in.
 inline constexpr std::size_t kMostRecords = std::size_t{1} << 22;
 
 template <class Record>
