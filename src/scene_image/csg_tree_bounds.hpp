@@ -49,8 +49,9 @@ struct Limit {
   std::size_t shown;
 };
 
-/// Bounds of a quadric or a plane along its own axes, around which there may be some where there are none
-/// along those of the world: around what has been turned as a whole. Infinite if not.
+/// Returns bounds of a quadric or a plane along its own axes; infinite if there are none. A shape in an
+/// object that has been turned as a whole may have such bounds even if it has none along the axes of the
+/// world.
 Aabb bounds_in_own_space(const Node& node, const std::vector<Limit>& limits);
 
 } // namespace celltrace::csg

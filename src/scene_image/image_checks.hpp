@@ -9,18 +9,20 @@
 
 namespace celltrace {
 
-/// True if `offset` is that of a record of a table of `count` of them.
+/// Returns true if `offset` is the offset of a record in a table of `count` records.
 inline bool refers_to(std::uint32_t offset, std::uint32_t table, std::uint32_t count, std::size_t record) {
   return offset >= table && (offset - table) % record == 0 && (offset - table) / record < count;
 }
 
-/// True if objects are of kinds that there are, and refer to materials, interiors and what their kinds need.
+/// Returns true if objects have known kinds, and refer to materials, interiors and the tables that their
+/// kinds need.
 bool objects_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
 bool lights_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if every reference of textures is to a record of its table, no walk through maps and layers is too
-/// long, and objects say what their textures ask. Objects and blends are valid.
+/// Returns true if every reference among textures leads to a record of the right table, walks through maps
+/// and layers are short enough, and objects' flags say what their textures need. Objects and blends must be
+/// valid.
 bool textures_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
 /// Returns true if conditions and their programs end, and solids have known kinds.
