@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "celltrace/pov.hpp"
-#include "geometry/function_machine.hpp"
 #include "pov/diagnostics.hpp"
+#include "geometry/function_machine.hpp"
 #include "pov/input.hpp"
 #include "pov/memory.hpp"
 #include "pov/names.hpp"
