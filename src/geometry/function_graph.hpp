@@ -44,7 +44,7 @@ struct FunctionBlock {
 };
 
 /// The blocks of a select: the first is chosen for a number below 0. With two blocks, the second is chosen
-/// otherwise; with three, the second is for 0 and the third for numbers above 0.
+/// otherwise; with three, the second is chosen for 0 only, and the third otherwise.
 struct FunctionBranches {
   std::uint32_t count = 0;
   std::uint32_t blocks[3] = {};
