@@ -13,9 +13,9 @@
 
 namespace celltrace::cli {
 
-/// A file that is written while a command runs, such as a trace; or none. It gets its name when it is
-/// finished. If the command fails before, the file is removed, unless it is `useful_in_part`, as it may show
-/// the cause, and not empty.
+/// A file that is written while a command runs, such as a trace; or none. The file gets its name when it is
+/// finished. If the command fails before, the file is removed; a file that is `useful_in_part`, since it may
+/// show the cause, is kept unless it is empty.
 class OutputFile {
 public:
   /// Opens a file; none if `path` is empty. Throws InputError if the file cannot be written.

@@ -10,7 +10,7 @@
 
 namespace celltrace::cli {
 
-/// What CLI11 fills in besides the request.
+/// Texts that CLI11 fills in besides the request.
 struct OutputTexts {
   std::string file_type; ///< empty: by the extension
   std::string pov_name;  ///< name of the picture by POV-Ray's rule; used if RenderRequest::output is empty

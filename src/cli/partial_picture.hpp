@@ -31,7 +31,7 @@ public:
   /// Returns the share of the finished rows in the costs of all rows.
   double finished_share(const RowCosts& costs) const;
 
-  /// A range of rows that are not finished; remaining() returns the first one, as long as it goes.
+  /// A range of rows that are not finished; next() returns the first one.
   struct Rows {
     int top, bottom;
   };

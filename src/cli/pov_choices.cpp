@@ -53,7 +53,7 @@ std::string_view file_type_name(char letter) {
 }
 
 std::vector<std::string> FileChoice::options() const {
-  constexpr int kDefaultQuality = 2; // the range of JPEG starts below
+  constexpr int kDefaultQuality = 2; // lower values choose JPEG's default quality
   Options options;
   const FileType* const file_type = find_file_type(type == 0 ? 'n' : type);
   if (bits && file_type->has_bits && !is_grey) add(options, "--bits", *bits > 8 ? "16" : "8");

@@ -52,7 +52,7 @@ enum class Action {
   refused_if_on    ///< changes the picture if it is on
 };
 
-/// What becomes of a number out of range.
+/// The treatment of a number out of range.
 enum class Beyond {
   refused,
   nearest ///< becomes the nearest number of the range

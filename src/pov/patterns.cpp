@@ -311,7 +311,7 @@ std::size_t PatternDefinition::list_length() const {
 }
 
 std::vector<PatternMap<Pigment>::Entry> PatternDefinition::default_colours() const {
-  // Of all fractals, only the plain Mandelbrot set has colours of its own.
+  // Only the plain Mandelbrot set, of all fractals, has colours of its own.
   const auto* fractal = std::get_if<Fractal>(&value().kind);
   const bool is_other = fractal && (fractal->is_julia || fractal->magnet != 0 || fractal->exponent != 2);
   std::vector<PatternMap<Pigment>::Entry> entries;

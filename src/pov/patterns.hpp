@@ -63,8 +63,8 @@ private:
   std::shared_ptr<Pattern> value_; ///< shared by copies until one of them changes; null: a default pattern
 };
 
-/// Puts a pattern, if there is one, on surface coordinates. It must be complete: nothing moves or changes it
-/// afterwards.
+/// Puts a pattern, if there is one, on surface coordinates. The pattern must be complete: nothing moves or
+/// changes it afterwards.
 void put_on_surface(PatternDefinition& pattern);
 bool is_on_surface(const PatternDefinition& pattern);
 /// Returns whether a pattern depends on more of a surface than points.

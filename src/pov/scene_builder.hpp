@@ -25,7 +25,7 @@ public:
       : limits_(limits), diagnostics_(diagnostics), tokens_(tokens), origins_(origins) {}
 
   /// The texture that others start from, and that objects without one get: black, with the default finish,
-  /// until #default changes it. It does not move with these objects.
+  /// until #default changes it. The default texture does not move with these objects.
   TexturePtr default_texture = std::make_shared<TextureDefinition>();
   CameraDefinition default_camera;
 

@@ -120,7 +120,7 @@ CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double star
 /// Returns the camera adapted to a picture of this width and height.
 Camera framed(Camera camera, double width, double height) {
   const double own = glm::length(camera.right) / glm::length(camera.up);
-  // How many times wider the picture is than the camera's view.
+  // The ratio of the picture's width to that of the camera's view.
   const double wider = width / height / own;
   if (camera.framing == Camera::Framing::fixed || !(wider > 0) || !std::isfinite(wider)) return camera;
   if (camera.framing == Camera::Framing::whole && wider > 1)

@@ -8,8 +8,7 @@
 
 namespace celltrace {
 
-/// How long to wait for SPEs that may have no message, so that a request to stop is noticed soon; and how
-/// long if nobody can request it.
+/// The time to wait for SPEs that may have no message: short if somebody may ask to stop, long if nobody can.
 constexpr std::chrono::milliseconds kBetweenQuestions(5), kBetweenLooksAtSpes(50);
 
 /// Calls the caller's function, and holds its exception until the SPEs are idle.

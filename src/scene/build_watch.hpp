@@ -16,8 +16,8 @@ namespace celltrace {
 class BuildWatch {
 public:
   /// Watches with `go_on`, which gets the finished fraction, is called in this thread only, and may be empty.
-  /// If it returns false the computation ends with Cancelled; its exceptions pass through. It has to outlive
-  /// this object.
+  /// If `go_on` returns false the computation ends with Cancelled; exceptions of `go_on` pass through.
+  /// `go_on` has to outlive this object.
   explicit BuildWatch(const std::function<bool(double fraction)>& go_on)
       : go_on_(go_on), thread_(std::this_thread::get_id()),
         outer_(std::exchange(current_, go_on ? this : nullptr)) {}

@@ -87,7 +87,7 @@ std::uint32_t sum_of(std::uint32_t a, std::size_t b) {
   return a + static_cast<std::uint32_t>(b);
 }
 
-/// How many objects use a mesh, and whether they share it.
+/// The uses of a mesh: how many objects have it, and whether they share it.
 struct MeshUses {
   std::uint32_t count = 0;
   bool is_shared = false;

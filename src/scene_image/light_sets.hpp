@@ -1,4 +1,4 @@
-// Which lights shine on which objects, as bits for the kernel.
+// The lights that illuminate each object, as bits for the kernel.
 #pragma once
 
 #include "celltrace/scene.hpp"

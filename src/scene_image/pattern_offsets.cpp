@@ -52,7 +52,7 @@ Periods common(const Periods& a, const Periods& b) {
   return {common(a.x, b.x), common(a.y, b.y), common(a.z, b.z)};
 }
 
-// Of each kind that has some.
+// The periods of each kind of pattern that has some.
 
 constexpr double kRootOfThree = std::numbers::sqrt3;
 

@@ -33,7 +33,7 @@ struct ImageParts;
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
 constexpr std::uint32_t kImageVersion = 19;
 
-/// What a SceneImage remembers of its scene; each of the first two takes 4 bytes per object.
+/// The data of its scene that a SceneImage keeps; each of the first two takes 4 bytes per object.
 struct ImageMemory {
   bool updatable = false; ///< needed by update() and update_surfaces()
   bool owners = false;    ///< needed by owner_of()

@@ -1,4 +1,4 @@
-// How large the tables of textures may grow.
+// Limits on the size of the tables of textures.
 #pragma once
 
 #include "celltrace/error.hpp"
