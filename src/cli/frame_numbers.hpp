@@ -14,7 +14,7 @@ struct Animation {
   int initial_frame = 1, final_frame = 1;
   double initial_clock = 0, final_clock = 1;
   bool cyclic = false; ///< the frame after the last one would be the first one
-  /// The subset to render: frames, or below 1 fractions of final_frame. None: the first frame, and the last.
+  /// The subset to render, as frame numbers, or below 1 as fractions of final_frame; by default, all frames.
   std::optional<double> start_frame, end_frame;
   int step = 1;               ///< distance of rendered frames
   bool has_one_frame = false; ///< only frame 1, but as an animation

@@ -98,7 +98,8 @@ enum class FunctionOp : std::uint16_t {
   enter_loop,           ///< continues at the target unless a <= b
   repeat,               ///< adds 1 to a; continues at the target if a <= b then
   call_code,   ///< calls callees[a]; its arguments are in the registers of `operands` from index target on
-  call_native, ///< calls a native function likewise; its results go to `result` and the following registers
+  call_native, ///< calls a native function in this way; its results go to `result` and the following
+               ///< registers
   finish,      ///< returns a
 };
 

@@ -169,7 +169,7 @@ void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, c
 void transform(Fog& fog, const Transform& next);
 /// Sets the up direction of a fog; 0 if the vector has no direction.
 void set_up(Fog& fog, const Vec3& up);
-/// Completes a fog; makes it black where POV-Ray would divide by zero.
+/// Makes a complete fog black where POV-Ray would divide by zero.
 void settle(Session& session, Fog& fog, const Location& where);
 
 // Textures as they were before version 3.0 (old_textures.cpp)

@@ -15,7 +15,8 @@ constexpr int kRaysAlongSide = 5;
 constexpr std::uint64_t kRays = 6 * kRaysAlongSide * kRaysAlongSide;
 /// The largest number of shape tests for all objects of a scene, which take a few milliseconds.
 constexpr std::uint64_t kMostTests = 20'000;
-/// The share of the way from the middle of the bounds to their surface within which a point counts as inside.
+/// A point counts as outside of the bounds if it is still outside at this share of its distance from their
+/// middle.
 constexpr double kMargin = 0.99;
 /// The size of the region in which an object without an extent is tested, as a multiple of its bounds.
 constexpr double kReach = 3;

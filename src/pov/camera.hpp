@@ -17,7 +17,7 @@ struct Session;
 std::vector<const char*> camera_kind_names();
 
 /// The fields of a camera in any order, which finish() applies in a fixed order. In a scene of a version
-/// before 3.5 each field changes at once what there is so far, and finish() has nothing left to apply.
+/// before 3.5 each field takes effect at once, and finish() has nothing left to apply.
 struct CameraDefinition {
   bool acts_at_once = false;
   Camera::Kind kind = Camera::Kind::perspective;

@@ -42,8 +42,8 @@ bool has_texture(const ObjectDefinition& object) {
 }
 
 /// Collects the textures for faces without one. As in POV-Ray, a point on such a face takes the textures of
-/// all textured shapes that contain it, in equal shares. If any part of a union has no texture, all of them
-/// get a default one.
+/// all textured shapes that contain it, in equal shares. A shape without a texture adds none, except in a
+/// union, where it has the default texture.
 class CutTextures {
 public:
   CutTextures(Session& session, const Compound& whole) : session_(session) {

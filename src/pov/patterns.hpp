@@ -70,7 +70,7 @@ bool is_on_surface(const PatternDefinition& pattern);
 /// Returns whether a pattern depends on more of a surface than points.
 bool asks_for_surface(const PatternDefinition& pattern);
 /// Makes `pattern` the one with this number. Earlier modifiers keep their effect, unless it was on surface
-/// coordinates, except that a new pattern with a wave of its own sets the wave.
+/// coordinates; but a new pattern with a wave or a frequency of its own sets that.
 void choose(PatternDefinition& pattern, int number);
 void set_argument(Session& session, PatternDefinition& pattern, const Quantity& argument,
                   const Location& where);

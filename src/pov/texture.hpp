@@ -118,7 +118,7 @@ struct BuiltMaterial {
 
 struct TextureDefinition {
   PigmentDefinition pigment;
-  NormalPtr normal; ///< null: smooth; later normals start from a smooth one that is not null
+  NormalPtr normal; ///< null: smooth; any other smooth normal is kept as the start of later normals
   SharedValue<FinishDefinition> finish;
   TexturePtr below;          ///< the layer under this one
   int layers = 1;            ///< number of layers, with those below

@@ -12,8 +12,8 @@
 
 namespace celltrace {
 
-/// The plans of a picture. They are kept, with the costs they have measured, as long as the rows are the
-/// same.
+/// The plans of a picture, which are kept, with the costs that they have measured, as long as the rows are
+/// the same.
 class FramePlan {
 public:
   /// Refers to all arguments, which must outlive this object; each call uses `options` as they are then.

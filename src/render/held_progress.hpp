@@ -1,4 +1,4 @@
-// Calls a caller's Progress while SPEs are at work, which must not go on when it throws.
+// Calls a caller's Progress while SPEs are at work, and keeps its exception from leaving them at work.
 #pragma once
 
 #include "celltrace/render.hpp"

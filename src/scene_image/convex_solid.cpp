@@ -144,8 +144,8 @@ bool ConvexSolid::is_surely_empty() const {
          });
 }
 
-/// Returns the faces of the last box that has cut the solid if no other half-space cuts that box, and it is
-/// not flat compared with a space of this size; else nothing.
+/// Returns the faces of the box that has cut the solid, in reverse order, if no other half-space cuts the
+/// box, and it is not flat compared with a space of this size; else nothing.
 std::vector<ConvexSolid::HalfSpace> ConvexSolid::faces_of_whole_box(double size) const {
   if (!box_) return {};
   const double tolerance = kFlat * std::max(size, box_->reach);

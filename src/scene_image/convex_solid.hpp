@@ -17,8 +17,8 @@ public:
   /// flat, or if its visibility to rays differs from that of the objects before.
   bool cut(const Object& object);
 
-  /// Returns whether one of its boxes lies completely outside of one of the half-spaces, so that nothing is
-  /// seen.
+  /// Returns whether the box that has cut the solid lies completely outside of one of the half-spaces, so
+  /// that nothing is seen.
   bool is_surely_empty() const;
 
   /// Returns the object that rays see in place of the solid: a box of one material, or a mesh in the world

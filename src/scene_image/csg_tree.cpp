@@ -20,8 +20,8 @@ namespace {
 struct Surroundings {
   Transform transform;
   bool no_shadow = false, no_image = false, no_reflection = false;
-  /// Whether the object's own no_shadow, no_image and no_reflection count. As in POV-Ray, all three count in
-  /// unions, but only no_reflection if a union is clipped or part of another operation; all but no_shadow
+  /// True where the object's own no_shadow, no_image and no_reflection count. As in POV-Ray, all three count
+  /// in unions, but only no_reflection if a union is clipped or part of another operation; all but no_shadow
   /// count in merges; none in intersections and differences. An inverted operation follows the rule of the
   /// operation that it becomes.
   bool hides_shadow = true, hides_image = true, hides_reflection = true;

@@ -56,8 +56,8 @@ public:
   std::vector<std::shared_ptr<const Object>> objects;
   std::vector<kernel::RainbowRecord> rainbows; ///< visible rainbows only
   std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
-  /// By material of the scene: the flags of an object that consists of it. They are opaque, two_sided and
-  /// by_surface of object_flag, and the flags of material_word, which lie below all flags of object_flag
+  /// By material of the scene: the flags of an object that consists of it, which are opaque, two_sided and
+  /// by_surface of object_flag, and the flags of material_word. The latter lie below all flags of object_flag
   /// except the kinds.
   std::vector<std::uint32_t> object_flags;
 
