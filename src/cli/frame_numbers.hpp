@@ -22,7 +22,7 @@ struct Animation {
   bool is_on() const { return has_one_frame || initial_frame != 1 || final_frame != 1; }
 };
 
-/// The largest number of frames in an animation.
+/// Limit on frames in an animation.
 inline constexpr int kMaxFrame = 9'999'999;
 
 /// Returns the frames of an animation, at least one. As in POV-Ray, they may end after the final frame if the

@@ -37,7 +37,6 @@ private:
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// The result of rendering a picture.
 struct PictureOutcome {
   RenderStatistics statistics; ///< of everything rendered now
   bool complete = true;

@@ -19,7 +19,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// The largest number of pixels in a picture that is completely in memory, which may take 100 bytes per
+/// Limit on pixels in a picture that is completely in memory, which may take 100 bytes per
 /// pixel.
 constexpr std::int64_t kMostPixelsOfWhole = std::int64_t{1} << 24;
 /// The number of pixels in a poster's band, unless the least number of rows has more. Colours as numbers take

@@ -81,7 +81,6 @@ bool takes_blanks(Action action);
 /// Returns whether POV-Ray takes a setting's value for "on".
 bool is_on(std::string_view value);
 
-/// Returns whether a value means "off".
 bool is_off_word(std::string_view value);
 
 /// Return whether the text is, begins with or ends with a word, ignoring case.

@@ -94,7 +94,7 @@ public:
   }
 
 private:
-  /// The largest number of INI files that are open at once.
+  /// Limit on INI files that are open at once.
   static constexpr int kMostIniFiles = 16;
 
   void apply(const PovEntry& entry) {

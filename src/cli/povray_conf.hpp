@@ -24,7 +24,6 @@ struct PermittedFolder {
   bool may_be_written = false; ///< reading is permitted in any case
 };
 
-/// The contents of a povray.conf.
 struct PovrayConf {
   FileSecurity security = FileSecurity::restricted;
   std::vector<PermittedFolder> folders;

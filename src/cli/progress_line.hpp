@@ -55,7 +55,6 @@ private:
   TimeToGo to_go_;
 };
 
-/// Returns whether stderr is a terminal.
 bool stderr_is_terminal();
 
 } // namespace celltrace::cli

@@ -38,7 +38,6 @@ std::string name_of(const CacheConfig& shape) {
          policies[static_cast<unsigned>(shape.replacement)];
 }
 
-/// Returns the sum of `replay_one` over all traces.
 template <class ReplayOne> ReplayResult sum(const std::vector<CacheTrace>& traces, ReplayOne replay_one) {
   ReplayResult result;
   for (const CacheTrace& trace : traces)

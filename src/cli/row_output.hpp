@@ -22,7 +22,6 @@ public:
 
   /// Appends all of `rows`, which are as wide as the region.
   void write(const PictureRows& rows);
-  /// Appends blank rows of the region.
   void write_blank(int count);
   /// Writes the rows below the region; then a file gets its name.
   void finish();
@@ -31,7 +30,6 @@ private:
   template <class Work> void naming_the_file(Work work);
   void open(const std::optional<double>& gamma);
   void put(const PictureRows& rows);
-  /// Appends blank rows.
   void put_blank(int count);
   void make_blank_row();
 

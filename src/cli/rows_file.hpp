@@ -25,13 +25,11 @@ public:
   static std::optional<std::string> head_of(const std::filesystem::path& path);
 
   bool is_kept() const { return !path_.empty(); }
-  /// The rows [top, bottom) of a part.
   struct Rows {
     int top, bottom;
   };
   /// Returns the first part that begins with this row or below it; nothing if there is no such part.
   std::optional<Rows> next(int top) const;
-  /// Counts the rows of all parts.
   int count() const;
   /// Returns the bytes of the part that begins with this row; nothing if there is no such part, or if it is
   /// damaged, in which case it is forgotten.

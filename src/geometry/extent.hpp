@@ -17,7 +17,6 @@ struct Extent {
 
   bool is_everywhere() const;
   double volume() const;
-  /// Returns a box around the transformed box.
   Extent moved(const Transform& transform) const;
   /// Returns the intersection, or an empty box.
   Extent common(const Extent& other) const;

@@ -10,7 +10,7 @@ namespace celltrace {
 
 namespace {
 
-/// The largest number of steps in one run.
+/// Limit on steps in one run.
 constexpr std::uint64_t kMostSteps = 1'000'000'000;
 
 constexpr std::size_t kMostMemoParameters = 8;

@@ -13,7 +13,7 @@ namespace celltrace {
 
 class FunctionCode;
 
-/// The largest number of parameters of a function, which is POV-Ray's.
+/// Limit on parameters of a function, which is POV-Ray's.
 inline constexpr std::size_t kMostParameters = 56;
 
 /// Operations on numbers, as lists for the compiler, the machine and the folding of constants. Each gives the

@@ -178,7 +178,6 @@ Extent extent(const Cone& any_cone, const Transform& transform) {
                                              : round_extent(cone.cap, cone.base, cone.cap_radius, transform);
 }
 
-/// Returns a cylinder as a cone.
 Cone as_cone(const Cylinder& c) {
   return {c.base, c.cap, c.radius, c.radius, c.open};
 }

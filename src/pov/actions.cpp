@@ -14,7 +14,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// The largest number of objects nested in each other, as by a loop that adds to a union. A level takes 1.3
+/// Limit on objects nested in each other, as by a loop that adds to a union. A level takes 1.3
 /// KB of the stack.
 constexpr int kDeepestObject = 1000;
 

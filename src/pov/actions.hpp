@@ -139,7 +139,6 @@ int noise_generator(Session& session, double number, const Location& where);
 
 /// Applies a change, unless the pattern is on surface coordinates.
 void change(Session& session, PatternDefinition& pattern, const PatternChange& change);
-/// Returns the texture with a change to its pattern, which it must have.
 TexturePtr changed(Session& session, const TexturePtr& texture, const PatternChange& change,
                    const Location& where);
 /// Fails for a texture whose pattern is one of textures, or which is on surface coordinates: such a texture
@@ -161,7 +160,6 @@ void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefiniti
 /// Moves the pigments that the sky has so far.
 void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where);
 
-/// Returns whether a fog of this type lies on the ground.
 bool is_ground_fog(Session& session, double type, const Location& where);
 /// Sets a fog's colour or, from a single number, its distance.
 void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, const Location& where);
@@ -301,7 +299,6 @@ ObjectPtr declared(const ObjectPtr& object);
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where);
 /// Returns a pattern of an object's inside; `object` has been moved to its place.
 pattern::Inside inside_of(Session& session, const Limit& object, const Location& where);
-/// Adds to one of the object's own lists of limits.
 void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
            const std::vector<Limit>& added, const Location& where);
 void apply(Session& session, const std::shared_ptr<const MaterialDefinition>& material,

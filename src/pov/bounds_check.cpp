@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kRaysAlongSide = 5;
 constexpr std::uint64_t kRays = 6 * kRaysAlongSide * kRaysAlongSide;
-/// The largest number of shape tests for all objects of a scene, which take a few milliseconds.
+/// Limit on shape tests for all objects of a scene, which take a few milliseconds.
 constexpr std::uint64_t kMostTests = 20'000;
 /// A point counts as outside of the bounds if it is still outside at this share of its distance from their
 /// middle.

@@ -200,7 +200,6 @@ private:
     function_->body = std::move(code);
   }
   auto find(NameId name) const {
-    // Finds the innermost variable of that name.
     return std::find_if(variables_.rbegin(), variables_.rend(),
                         [name](const Variable& variable) { return variable.name == name; });
   }

@@ -112,7 +112,7 @@ Quantity normalize(const Call& call) {
   return Quantity::vector(length == 0 ? Vec3(0, 0, 0) : v / length);
 }
 
-/// The largest number of characters in a number.
+/// Limit on characters in a number.
 constexpr int kMostDigits = 254;
 
 std::string format(double value, int width, int digits, std::chars_format notation) {

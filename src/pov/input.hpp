@@ -67,7 +67,6 @@ public:
 
   /// Reads a token; at the end of the top frame, always Kind::end.
   Token read();
-  /// Returns whether the next token comes from a file.
   bool reads_file() const { return top().put_back.empty() && top().scanner != nullptr; }
   /// Returns whether the next token comes from a recording.
   bool reads_record() const { return top().put_back.empty() && top().scanner == nullptr; }

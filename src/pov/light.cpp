@@ -29,7 +29,7 @@ Light moved(Light light, const Transform& next) {
 }
 
 std::vector<Light> lights_at_places(const Light& light) {
-  // The largest number of lights along a side. Larger: each surface is lit by more lights; smaller: penumbrae
+  // Limit on lights along a side. Larger: each surface is lit by more lights; smaller: penumbrae
   // have steps.
   constexpr int kMostPlaces = 16;
   const LightArea& area = *light.area;

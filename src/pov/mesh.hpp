@@ -49,7 +49,6 @@ private:
   std::vector<ListEntry> written_;
 };
 
-/// The lists of a mesh2.
 struct Mesh2Definition {
   CountedList vertex_vectors;
   CountedList normal_vectors;

@@ -23,7 +23,7 @@ using Operation = Csg::Operation;
 /// Nearer crossings count as the origin of the ray.
 constexpr double kNearest = 1e-6;
 constexpr double kFarthest = 1e7;
-/// The largest number of shape tests in all calls together.
+/// Limit on shape tests in all calls together.
 constexpr std::uint64_t kMostTests = 10'000'000'000;
 
 struct Query {

@@ -19,7 +19,7 @@ namespace {
 using Wave = Pattern::Wave;
 using namespace pattern;
 
-/// The largest number of steps of space in a pattern: transformations between warps count as one.
+/// Limit on steps of space in a pattern: transformations between warps count as one.
 constexpr std::size_t kMostSpaceSteps = 64;
 constexpr double kMostArms = 1e6;
 

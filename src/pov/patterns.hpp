@@ -85,7 +85,6 @@ void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, c
 bool has_own_slopes(const PatternDefinition& pattern);
 /// Makes it the pattern of a kind that only one word stands for.
 void choose(PatternDefinition& pattern, const pattern::Kind& kind);
-/// Returns the number of the pattern of such a kind.
 int number_of(const pattern::Kind& kind);
 /// Returns the number of `average`, which has no kind of its own.
 int average_number();

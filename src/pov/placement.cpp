@@ -64,7 +64,6 @@ const char* name_of(const ObjectDefinition& csg) {
   return csg.inverse ? "an inverse union" : "a clipped union";
 }
 
-/// Returns whether there is a mesh in an object.
 bool has_mesh(const Object& object) {
   if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape)) return true;
   if (object.clipped_by && std::any_of(object.clipped_by->begin(), object.clipped_by->end(), has_mesh))
@@ -73,7 +72,6 @@ bool has_mesh(const Object& object) {
   return csg && std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_mesh);
 }
 
-/// Returns whether there is any shape in an object.
 bool has_shapes(const Object& object) {
   const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
   return !csg || std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_shapes);

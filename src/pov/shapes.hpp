@@ -25,7 +25,6 @@ struct WrittenShape {
   std::optional<Location> comma; ///< behind the last argument
 };
 
-/// Returns the names of all shapes.
 std::vector<const char*> shape_names();
 /// Returns whether a shape, by its index in shape_names(), has optional arguments after the required ones.
 bool has_option(int shape);

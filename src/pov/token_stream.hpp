@@ -31,7 +31,6 @@ enum class Start {
   defaults,   ///< { texture ... }
 };
 
-/// A token of the grammar.
 struct Terminal {
   int token = 0;  ///< the grammar's number, 0 at the end
   int detail = 0; ///< Names::Entry::detail of a reserved word
@@ -52,7 +51,6 @@ public:
     level.start_pending = false;
     return level.start;
   }
-  /// Reads the next terminal.
   void next(Terminal& terminal);
 
   /// For the grammar: reports that the value is complete; `has_lookahead` if next() was called once too

@@ -20,9 +20,9 @@ namespace celltrace {
 namespace {
 
 constexpr std::size_t kMostObjects = most_of(PictureLimit::coplanar_objects);
-/// The largest number of overlapping pairs; more would take too long.
+/// Limit on overlapping pairs; more would take too long.
 constexpr std::size_t kMostOverlaps = most_of(PictureLimit::coplanar_pairs);
-/// The largest number of steps by which faces of one plane are moved apart.
+/// Limit on steps by which faces of one plane are moved apart.
 constexpr int kMostSteps = most_of(PictureLimit::coplanar_layers);
 /// The number of steps that certainly move a face out of a solid on whose boundary it was; solids are
 /// slightly enlarged.

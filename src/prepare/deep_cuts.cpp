@@ -16,7 +16,7 @@ namespace celltrace {
 
 namespace {
 
-/// The largest number of comparisons of faces in a scene.
+/// Limit on comparisons of faces in a scene.
 constexpr std::size_t kMostComparisons = most_of(PictureLimit::shallow_cuts);
 
 /// A face of a shape in the scene. `ends` has the faces of a box by axis, the lower one of each first; of a

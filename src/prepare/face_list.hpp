@@ -156,7 +156,7 @@ private:
   void sort();
   static bool are_in_one_plane(const Face& a, const Face& b);
 
-  /// The largest number of pairs; more would take too long.
+  /// Limit on pairs; more would take too long.
   static constexpr std::size_t kMostPairs = most_of(PictureLimit::coplanar_comparisons);
 
   const Scene& scene_;

@@ -14,7 +14,7 @@ namespace celltrace {
 
 namespace {
 
-/// The largest number of quadrics: they have no bounds, so that each ray is tested against all of them.
+/// Limit on quadrics: they have no bounds, so that each ray is tested against all of them.
 constexpr std::size_t kMostSpheres = most_of(PictureLimit::large_spheres);
 
 class LargeSpheres {

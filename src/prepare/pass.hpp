@@ -14,7 +14,6 @@
 
 namespace celltrace {
 
-/// The limits that a scene passes.
 using PassedLimits = std::set<PictureLimit>;
 
 /// The inputs of passes besides the scene, and the set to which they add limits.

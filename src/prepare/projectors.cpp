@@ -23,7 +23,6 @@ bool has_meshes(const Object& object) {
   return csg && *csg && std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_meshes);
 }
 
-/// Returns the triangles of a mesh as objects.
 std::vector<Object> triangles_of(const Object& object, const Mesh& mesh) {
   std::vector<Object> triangles;
   for (const Mesh::Triangle& triangle : mesh.triangles) {

@@ -16,7 +16,7 @@ namespace celltrace {
 
 namespace {
 
-/// The largest number of objects, and of vertices of a mesh, that are examined: more take time and hardly
+/// Limit on objects, and on vertices of a mesh, that are examined: more take time and hardly
 /// move the median.
 constexpr std::size_t kMostLooks = 256;
 

@@ -16,7 +16,7 @@ namespace {
 using Simd = HostSimd<BaselineArch>;
 using LaneAabb = bvh::LaneAabb<Simd>;
 
-/// The least number of objects per thread; with fewer, starting threads takes longer than they save.
+/// Least number of objects per thread; with fewer, starting threads takes longer than they save.
 constexpr std::uint32_t kObjectsAThread = 65536;
 /// The number of objects that are prefetched while one is read.
 constexpr std::size_t kAhead = 16;

@@ -117,7 +117,6 @@ CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double star
   return record;
 }
 
-/// Returns the camera adapted to a picture of this width and height.
 Camera framed(Camera camera, double width, double height) {
   const double own = glm::length(camera.right) / glm::length(camera.up);
   // The ratio of the picture's width to that of the camera's view.

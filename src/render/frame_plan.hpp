@@ -47,7 +47,6 @@ private:
 
   /// Returns the rows of bundles that the picture's rows need.
   BundleRows grid_rows_of(const RowRange& rows) const;
-  /// Returns the first line of a row of bundles.
   std::uint32_t line_of(std::uint32_t bundle_row) const;
 
   const RenderOptions& options_;

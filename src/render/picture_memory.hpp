@@ -66,7 +66,6 @@ private:
   template <class Picture> Picture make_picture(const RowRange& rows) const;
   /// Returns whether the grid begins to the upper left of the picture, as the grid of the fixed method does.
   bool begins_before_picture() const;
-  /// Returns the first pixel of a row of the region.
   const std::uint8_t* first_pixel(int row) const;
   /// Returns the place of the rows in the picture and on the grid.
   GridAtPicture grid_at_picture(const RowRange& rows) const;

@@ -12,7 +12,6 @@ void check(const RenderOptions& options);
 RenderOptions with_picture_of(RenderOptions options, const RenderOptions& given);
 /// Returns whether the SPEs write colours as numbers.
 bool brings_colours(const RenderOptions& options);
-/// Returns the part of the picture that is rendered.
 PictureRegion region_of(const RenderOptions& options);
 
 } // namespace celltrace

@@ -18,9 +18,9 @@ namespace celltrace {
 
 namespace {
 
-/// The largest number of pairs to examine; more would take too long.
+/// Limit on pairs to examine; more would take too long.
 constexpr std::size_t kMostSurfacePairs = most_of(PictureLimit::coincident_pairs);
-/// The largest number of surfaces if they are examined only to find out whether their order matters.
+/// Limit on surfaces if they are examined only to find out whether their order matters.
 constexpr std::size_t kMostSurfacesWithoutOrder = 8192;
 
 /// A surface of an object, and the region in which the object may show it.

@@ -16,7 +16,7 @@ using namespace kernel;
 
 namespace {
 
-/// The largest number of triangles in the lowest boxes; a box around fewer is not worth its test.
+/// Limit on triangles in the lowest boxes; a box around fewer is not worth its test.
 constexpr std::size_t kMostInBox = 4;
 
 struct Corners {

@@ -17,7 +17,7 @@ using namespace kernel;
 
 namespace {
 
-/// The largest number of planes that are cut out; further ones are ignored, since the time grows with the
+/// Limit on planes that are cut out; further ones are ignored, since the time grows with the
 /// square.
 constexpr std::size_t kMostPlanes = 1000;
 

@@ -35,7 +35,6 @@ struct TriangleSpan {
   }
 };
 
-/// Checks the tables of instances.
 class InstanceCheck {
 public:
   InstanceCheck(const std::byte* base, const ImageHeader& h)

@@ -56,7 +56,6 @@ struct ImageParts {
   const Scene& scene() const { return prepared.scene(); }
   /// Returns how many threads are worth starting if each is to have at least `objects_a_thread` objects.
   unsigned threads_for(std::uint32_t objects_a_thread, unsigned threads) const;
-  /// Returns the form of each of the scene's objects.
   std::vector<ObjectForm> forms() const;
   /// Returns, by object record, the index of the scene's object that it belongs to; objects that are no
   /// instances come in the order of the image.

@@ -14,7 +14,6 @@ using namespace kernel;
 
 namespace {
 
-/// Checks the tables of textures.
 class TextureCheck {
 public:
   TextureCheck(const std::byte* base, const ImageHeader& h)

@@ -21,7 +21,6 @@ inline Index interior_or_own(Index interior, const Scene& scene, std::size_t who
   return shared != kNoIndex ? shared : own_interior(scene, whole);
 }
 
-/// Returns the number of interior records of a scene.
 std::size_t interior_records(const Scene& scene);
 
 } // namespace celltrace

@@ -12,7 +12,7 @@
 
 namespace celltrace {
 
-/// The largest number of entries of a list.
+/// Limit on entries of a list.
 constexpr std::size_t kMostListEntries = 6;
 
 /// Returns whether a pattern chooses an entry of its map by an index, as checker does.

@@ -16,7 +16,7 @@ namespace {
 
 /// The largest leaf; a packet tests about this many triangles in the time of one node.
 constexpr std::uint32_t kMostInLeaf = 4;
-/// The largest number of places at which the SAH tries to split a range; short ranges try all.
+/// Limit on places at which the SAH tries to split a range; short ranges try all.
 constexpr std::uint32_t kMostPlaces = 64;
 
 constexpr float kBeyond = 3e38f;

@@ -17,7 +17,7 @@ using namespace kernel;
 
 namespace {
 
-/// The largest number of list entries per triangle; a grid that would have more gets fewer cells.
+/// Limit on list entries per triangle; a grid that would have more gets fewer cells.
 constexpr std::uint64_t kMostEntriesPerTriangle = 16;
 
 /// Returns the transformation to a space whose third axis is along the mesh's inside vector, and in which the

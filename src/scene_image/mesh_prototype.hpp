@@ -34,7 +34,6 @@ public:
   /// Returns the index of each group's first triangle, followed by the number of triangles. Groups have at
   /// most kernel::kMaxCopiedObjects triangles.
   const std::vector<std::uint32_t>& groups() const { return groups_; }
-  /// Returns the bounds of the groups.
   const std::vector<kernel::Aabb>& group_bounds() const { return group_bounds_; }
   std::uint32_t group_count() const { return static_cast<std::uint32_t>(groups_.size()) - 1; }
   /// Returns the number of triangles with normals.

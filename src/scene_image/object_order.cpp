@@ -121,7 +121,6 @@ public:
   Orderer(PlacedObject* objects, PlacedObject* spare, std::uint32_t* cells)
       : objects_(objects), spare_(spare), cells_(cells) {}
 
-  /// Orders all objects, in threads.
   std::vector<std::uint32_t> order(std::uint32_t count, unsigned threads) {
     std::vector<Bounds> bounds(threads);
     for_each_part(threads, [&](unsigned part) {

@@ -14,7 +14,7 @@ struct alignas(16) PlacedObject {
 
 /// Scenes with fewer objects keep their order.
 constexpr std::uint32_t kMinObjectsToOrder = 4096;
-/// The largest number of objects in a group, unless all of them are at one place.
+/// Limit on objects in a group, unless all of them are at one place.
 constexpr std::uint32_t kMaxRun = 256;
 
 /// Orders `count` objects along a Morton curve through the cells of a grid over their centres; cells with

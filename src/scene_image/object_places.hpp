@@ -15,7 +15,6 @@
 
 namespace celltrace {
 
-/// Work memory for ordering objects.
 struct OrderMemory {
   PlacedObject* objects;
   PlacedObject* spare;

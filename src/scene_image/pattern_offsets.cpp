@@ -113,7 +113,6 @@ enum class Left {
   same_side, ///< enough to stay on the same side of 0, for patterns that differ between the sides
 };
 
-/// Returns the part of an offset that consists of whole periods.
 Vec3 whole_periods(const Vec3& offset, const Periods& periods, Left left = Left::least) {
   constexpr double kSide = 512;
   Vec3 whole(0);

@@ -55,7 +55,7 @@ public:
   /// every offset in it are right.
   static SceneImage from_bytes(std::span<const std::byte> bytes);
 
-  /// The least number of objects per thread; with fewer, starting threads takes longer than they save.
+  /// Least number of objects per thread; with fewer, starting threads takes longer than they save.
   static constexpr std::uint32_t kObjectsAThread = 32768;
   /// Becomes the image of `scene`, using up to `threads` threads with at least `objects_a_thread` objects
   /// each; the result does not depend on their number. Reuses its memory if that is large enough, and uses

@@ -120,7 +120,6 @@ private:
   void add_shape(const Object& object);
   /// Adds a polygon as triangles. Returns false if the object has to stay a polygon, or is none.
   bool add_as_triangles(const Object& object);
-  /// Adds the parts of one object of the scene.
   void add_parts(std::size_t whole, unsigned threads);
   void add_projectors(const Scene& scene, std::size_t first);
   /// Adds a mesh; `part` is the CSG part that it is, or null.

@@ -28,7 +28,6 @@ void write_map(const Transform& map, float (&to)[12]);
 /// singular.
 PlacedShape place_shape(const Object& object);
 
-/// Returns whether with_boundary() changes a shape.
 bool has_boundary(const PlacedShape& shape);
 /// Returns the shape that points are tested against if rounding alone moves them off its surface. As in
 /// POV-Ray, such points are inside of a box, a half-space and an open cylinder or cone, but not of a closed

@@ -48,7 +48,6 @@ public:
   /// Writes the objects of [begin, end) of the scene while it counts them: see SceneObjects::write_placed().
   std::optional<ObjectCensus> send_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
                                           std::uint32_t begin, std::uint32_t end);
-  /// Writes the groups of objects that are no instances.
   void write_groups(std::span<const std::uint32_t> groups, unsigned threads);
   void write_instanced(const InstancedMeshes& instanced);
   /// Writes the instances; they come behind everything else.

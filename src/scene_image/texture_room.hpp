@@ -9,7 +9,7 @@
 
 namespace celltrace {
 
-/// The largest number of records of all textures together, in each table. A map that several textures share
+/// Limit on records of all textures together, in each table. A map that several textures share
 /// is written once for each space that it is in.
 inline constexpr std::size_t kMostRecords = std::size_t{1} << 22;
 
