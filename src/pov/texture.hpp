@@ -169,7 +169,7 @@ TexturePtr with_filter_as_transmit(const TexturePtr& texture, bool also_lowest);
 
 struct SkySphereDefinition {
   std::vector<PigmentDefinition> pigments; ///< the last one is on top
-  Vec3 emission{1, 1, 1};                  ///< factors of their colours, but not of what filters
+  Vec3 emission{1, 1, 1};                  ///< factors of their colours, not applied to filter
   Location emission_where;
   UnsupportedPtr unsupported;
 };
