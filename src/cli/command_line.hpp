@@ -32,7 +32,7 @@ struct RenderRequest {
   FilmFormat film = FilmFormat::none;
   FrameRate frame_rate;
   ImageFormat format = ImageFormat::png; ///< of pictures
-  FileOptions file;                      ///< how pictures are stored; its format is the one above
+  FileOptions file;                      ///< how pictures are stored; file.format equals `format`
   int bits = 8; ///< per channel of the picture: 8 or 16; OpenEXR 16 or 32; Radiance and blocks 8
   RenderOptions options;
   std::vector<std::filesystem::path> library_paths;

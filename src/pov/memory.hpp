@@ -14,7 +14,7 @@ namespace celltrace::pov {
 /// Thrown if the scene has passed a limit; parse() adds the place.
 struct LimitPassed {
   std::uint64_t ParseLimits::*limit;
-  const char* who; ///< "the scene's declarations need"
+  const char* who; ///< subject of the message, such as "the scene's declarations need"
   const char* unit;
 };
 

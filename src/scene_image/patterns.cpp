@@ -15,7 +15,8 @@ namespace {
 
 using Parameters = float (&)[5];
 
-// One for each kind that the kernel has: its number, and its parameters.
+// One overload of put() for each kind of pattern: returns the kind's number in the kernel, and sets the
+// parameters.
 
 std::uint32_t put(const pattern::Checker&, Parameters) {
   return kPatternKind<CheckerPattern>;

@@ -3,11 +3,12 @@
 // One contiguous, 128-byte aligned block: header, lights, materials, patterns and their maps, normals,
 // blends, interiors, conditions of CSG, insides of meshes, instances and their meshes, extra records,
 // objects, groups of objects and which of them are copies (the static part, written here), then the voxels or
-// nodes and the object lists of the accelerator (PREPARE FRAME's). From kMinObjectsToOrder on, objects lie in
-// the order of a Morton curve, and behind them instances of meshes, each in the order of its mesh's
-// prototype. All positions are 32-bit offsets from its base, so that the static part can be saved, mapped
-// elsewhere and sent to another process of the same byte order; it carries a version and a checksum. Words
-// are in the host's order: SharedImage is what SPEs of another order read.
+// nodes and the object lists of the accelerator (written by PREPARE FRAME). Scenes of at least
+// kMinObjectsToOrder objects have them in the order of a Morton curve, followed by the instances of meshes,
+// each in the order of its mesh's prototype. All positions are 32-bit offsets from the image's base, so that
+// the static part can be saved, mapped elsewhere and sent to another process of the same byte order; the
+// static part carries a version and a checksum. Words are in the host's order; SPEs of another order read a
+// SharedImage.
 #pragma once
 
 #include "celltrace/scene.hpp"

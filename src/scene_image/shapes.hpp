@@ -1,5 +1,5 @@
-// Shapes of a Scene as records: each in single precision, in the space that its primitive in the kernel
-// wants.
+// Converts shapes of a Scene to records: each in single precision, in the space of its primitive in the
+// kernel.
 #pragma once
 
 #include "celltrace/scene.hpp"

@@ -1,4 +1,4 @@
-// The scene image as the SPEs of a machine read it.
+// The scene image in the byte order of a machine's SPEs.
 #pragma once
 
 #include "celltrace/spe/types.hpp"

@@ -9,7 +9,7 @@
 
 namespace celltrace {
 
-/// Looks at the textures of a scene, which stay as long as this lives.
+/// Decides about the textures of a scene, which must outlive this object.
 class TextureSharing {
 public:
   explicit TextureSharing(const std::vector<Material>& materials);
