@@ -88,12 +88,12 @@ private:
       std::cerr << what() << ": " << finished << " frames are finished, " << frames_.size() << " to go\n";
   }
 
-  /// Of a film that is broken off the frames that it has are one, too.
+  /// Finishes a film that was stopped with the frames that it has.
   void finish_film() {
     if (film_ && done_ > 0) film_->finish();
   }
 
-  /// False: interrupted.
+  /// Renders the frames. Returns false if it was interrupted.
   bool render_frames() {
     RunReports reports(request_);
     bool complete = true;
@@ -151,13 +151,13 @@ private:
     try {
       film_->add(image);
     } catch (...) {
-      film_.reset(); // there is nothing left to finish
+      film_.reset(); // nothing is left to finish
       throw;
     }
   }
 
   void print_messages(const std::string& messages) {
-    // Most frames say the same.
+    // Prints messages only if they differ, as most frames have the same ones.
     if (request_.quiet || messages == messages_) return;
     line_.wipe();
     std::cerr << messages << std::flush;
@@ -193,14 +193,14 @@ private:
   }
 
   const RenderRequest& request_;
-  std::vector<int> frames_; ///< to be rendered
+  std::vector<int> frames_; ///< numbers of the frames to render
   ResumeState state_;
   ProgressLine line_;
   PovReport report_;
   std::unique_ptr<Film> film_;
-  std::size_t done_ = 0;      ///< frames
-  bool is_frame_cut_ = false; ///< a frame was broken off between its first pixel and its last
-  std::string messages_;      ///< that were printed last
+  std::size_t done_ = 0;      ///< number of frames
+  bool is_frame_cut_ = false; ///< a frame was stopped between its first pixel and its last
+  std::string messages_;      ///< printed last
   RenderStatistics last_;
   std::optional<RenderStatistics> sum_;
   double parse_seconds_ = 0;

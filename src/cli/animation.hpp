@@ -5,8 +5,8 @@
 
 namespace celltrace::cli {
 
-/// Of a request for an animation or a film, which may have one frame only. Returns the exit code: 0, or 2 if
-/// it was interrupted.
+/// Runs a request for an animation or a film, which may have a single frame. Returns the exit code: 0, or 2
+/// if it was interrupted.
 int run_animation(const RenderRequest& request);
 
 } // namespace celltrace::cli

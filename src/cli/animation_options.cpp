@@ -12,7 +12,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Takes a whole number from the front.
+/// Reads an integer from the front of a text and removes it.
 bool take_number(std::string_view& text, unsigned& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc()) return false;
@@ -36,7 +36,7 @@ FrameRate parse_frame_rate(const std::string& text) {
   return rate;
 }
 
-/// +Declare=clock=X: the word is the language's own.
+/// Takes the clock of +Declare=clock=X, since `clock` is a word of the language itself.
 void take_declared_clock(RenderRequest& request) {
   for (auto declare = request.declares.begin(); declare != request.declares.end();) {
     if (declare->first != "clock") {

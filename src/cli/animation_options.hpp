@@ -1,4 +1,4 @@
-// The options of `render` that make an animation of it.
+// The options of `render` that request an animation.
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -10,7 +10,7 @@
 
 namespace celltrace::cli {
 
-/// What CLI11 fills in besides the request.
+/// Texts that CLI11 fills in besides the request.
 struct AnimationTexts {
   std::optional<int> initial_frame, final_frame;
   std::string cyclic = "off";
@@ -23,8 +23,8 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
 /// is not 0 makes an animation, and the final frame is at least the initial one.
 void set_frames(Animation& animation, const AnimationTexts& texts);
 
-/// After the request's output is known. Throws InputError for frames and clocks that make no sense, and for
-/// what films cannot be.
+/// Completes the animation, after the request's output is known. Throws InputError for frames and clocks that
+/// make no sense, and for combinations that films do not support.
 void finish_animation(RenderRequest& request, const AnimationTexts& texts);
 
 } // namespace celltrace::cli

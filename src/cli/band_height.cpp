@@ -22,7 +22,7 @@ int BandHeight::wanted(int top, int rows) const {
   double share = kPart;
   if (seconds_ >= 0) {
     const double left = costs_.of(top, top + rows) * seconds_;
-    // Small bands: an interrupt loses the band that is being rendered, which the progress has counted.
+    // Uses small bands, since an interrupt loses the current band, whose progress has been shown.
     const bool is_watched = loses_bands_ && costs_.are_measured();
     if (left < (is_watched ? kQuickSeconds : 2 * kBandSeconds)) return rows;
     share = kBandSeconds / seconds_;

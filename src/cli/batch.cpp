@@ -17,7 +17,8 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Renders one scene. The error's first line is the result's text, and all of it goes to stderr.
+/// Renders a scene. If it fails, the error's first line becomes the result's text, and the whole error goes
+/// to stderr.
 SheetEntry render_one(RenderRequest render) {
   SheetEntry entry;
   entry.scene = render.scene.string();
@@ -45,7 +46,7 @@ SheetEntry render_one(RenderRequest render) {
   return entry;
 }
 
-/// Returns the files of all renders together: one sandbox has to do, as the process cannot leave it.
+/// Returns the files of all renders together: one sandbox has to serve all, as the process cannot leave it.
 SandboxFiles files_of_all(const BatchRequest& batch) {
   SandboxFiles files;
   for (const RenderRequest& render : batch.renders) {
@@ -65,7 +66,7 @@ int run_batch(const BatchRequest& batch) {
   ContactSheet sheet;
   for (const RenderRequest& render : batch.renders) {
     sheet.add(render_one(render));
-    interrupt_after(0); // the time of one scene is not that of the next
+    interrupt_after(0); // ends the time limit of the last scene
     if (interrupted()) break;
   }
   const std::filesystem::path page = batch.folder / "contact-sheet.html";

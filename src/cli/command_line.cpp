@@ -35,7 +35,7 @@ bool is_folder(const std::filesystem::path& path) {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// What is before and after the first `separator`; all and nothing if there is none.
+/// Returns the texts before and after the first `separator`; the whole text and "" if there is none.
 std::pair<std::string, std::string> split(const std::string& text, char separator) {
   const std::size_t at = std::min(text.find(separator), text.size());
   return {text.substr(0, at), text.substr(std::min(at + 1, text.size()))};
@@ -44,7 +44,7 @@ std::pair<std::string, std::string> split(const std::string& text, char separato
 constexpr const char* kRenderSeconds = "render-seconds";
 constexpr const char* kRenderMemory = "render-memory";
 
-/// NAME=VALUE, where K, M and G behind the value stand for 2^10, 2^20 and 2^30.
+/// Sets a limit from NAME=VALUE, where K, M and G after the value stand for 2^10, 2^20 and 2^30.
 void set_limit(RenderRequest& request, const std::string& text) {
   const auto [wanted_name, value] = split(text, '=');
   const std::string& wanted = wanted_name;
@@ -76,7 +76,7 @@ void set_limit(RenderRequest& request, const std::string& text) {
     request.limits.*limit->limit = static_cast<std::uint64_t>(number);
 }
 
-/// What CLI11 fills in besides the request.
+/// Texts that CLI11 fills in besides the request.
 struct RenderTexts {
   std::vector<std::filesystem::path> scenes;
   MachineTexts machine;
@@ -85,7 +85,7 @@ struct RenderTexts {
   MessageTexts messages;
   std::optional<double> antialias; ///< the threshold
   int antialias_method = 1;
-  Antialiasing antialiasing; ///< all but method and threshold
+  Antialiasing antialiasing; ///< everything but method and threshold
   double start_column = 0, end_column = 1, start_row = 0, end_row = 1;
   std::string verbose, povray = "off";
   OutputTexts output;
@@ -190,7 +190,7 @@ void add_client_options(CLI::App& command, RenderTexts& texts) {
              "Write progress as POV-Ray does where stderr is no terminal");
 }
 
-/// Lets the last of options that are repeated count, but for those that collect values.
+/// Makes the last one of repeated options count, except for options that collect values.
 void let_the_last_count(CLI::App& command) {
   for (CLI::Option* option : command.get_options())
     if (!option->get_positional() && option->get_items_expected_max() == 1)
@@ -293,11 +293,11 @@ void add_study_options(CLI::App& command, StudyRequest& request, std::string& ba
   command.add_flag("--quiet", request.quiet, "No progress, and no tables on stdout");
 }
 
-/// Returns how many columns or rows a part of the whole is. POV-Ray keeps parts in single precision.
+/// Returns how many columns or rows a fraction of the whole is. POV-Ray stores fractions in single precision.
 double part_of(double part, int size) {
   return std::floor(double{static_cast<float>(part)} * size);
 }
-/// Columns and rows are counted as POV-Ray counts them: from 1 on, and below that as parts of the whole.
+/// Returns the first column or row, counted as POV-Ray does: from 1, and below 1 as a fraction of the whole.
 int first_of(double start, int size) {
   return static_cast<int>(std::min(start < 1 ? part_of(start, size) : std::floor(start) - 1, 1e9));
 }
@@ -334,7 +334,7 @@ std::optional<Antialiasing> antialiasing_of(const RenderTexts& texts) {
   return antialiasing;
 }
 
-/// What rendering and looking around share.
+/// Completes the parts of a request that `render` and `view` share.
 void finish_scene(RenderRequest& request, const RenderTexts& texts, Schedule schedule) {
   finish_machine(request.options, texts.machine, schedule);
   request.lenient = texts.machine.emulation.lenient;
@@ -360,8 +360,8 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
     throw InputError("--sandbox starts no process, and this film needs ffmpeg: .y4m does not");
 }
 
-/// Sees to it that no scene's picture takes the place of another's: the second one of a name gets its
-/// folder's name in front, or a number behind.
+/// Gives each picture a name of its own: if scenes have the same name, later pictures get their folder's name
+/// in front, or a number at the end.
 void give_own_names(std::vector<RenderRequest>& renders) {
   std::set<std::filesystem::path> taken;
   for (RenderRequest& render : renders) {
@@ -377,7 +377,7 @@ void give_own_names(std::vector<RenderRequest>& renders) {
   }
 }
 
-/// Makes one request of each scene.
+/// Makes a request for each scene.
 BatchRequest batch_of(const RenderRequest& render, const RenderTexts& texts) {
   const std::filesystem::path& output = render.output;
   if (texts.output.picture == "off" || output.empty() || (output.has_filename() && !is_folder(output)))
@@ -405,10 +405,11 @@ void finish(ViewRequest& view, const RenderTexts& texts) {
   if (texts.scenes.size() > 1) throw InputError("a window shows one scene");
   view.render.scene = texts.scenes.front();
   finish_scene(view.render, texts, Schedule::lockstep);
-  if (!texts.antialias) view.render.options.antialiasing = Antialiasing(); // of pictures at rest
+  if (!texts.antialias) view.render.options.antialiasing = Antialiasing(); // for still pictures
 }
 
-/// Takes what follows the first "--" away: CLI11 gives it to a command only before its positional arguments.
+/// Removes the arguments after the first "--": CLI11 would pass them to a command only before its positional
+/// arguments.
 std::vector<std::string> split_rest(std::vector<std::string>& arguments) {
   const auto mark = std::find(arguments.begin(), arguments.end(), "--");
   if (mark == arguments.end()) return {};
@@ -527,7 +528,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   std::vector<std::string> rest;
   if (!arguments.empty() && arguments.front() == "spu") rest = split_rest(arguments);
   try {
-    std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
+    std::reverse(arguments.begin(), arguments.end()); // in CLI11's order
     app.parse(std::move(arguments));
   } catch (const CLI::Success& information) {
     std::ostringstream out, err;

@@ -5,9 +5,9 @@
 
 namespace celltrace::cli {
 
-/// Prints one line (or JSON) to stdout and writes the difference picture if one is asked for. Returns the
-/// exit code: 0, or 1 if a bar was given and not reached. Throws InputError for pictures that cannot be read
-/// or compared.
+/// Prints one line (or JSON) to stdout and writes the difference picture if requested. Returns the exit code:
+/// 0, or 1 if a limit was given and not reached. Throws InputError for pictures that cannot be read or
+/// compared.
 int run_compare(const CompareRequest& request);
 
 } // namespace celltrace::cli

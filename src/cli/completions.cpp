@@ -21,7 +21,7 @@ template <class Visit> void for_each_option(const DescribedCommand& command, Vis
       if (!option.positional()) visit(option);
 }
 
-/// In single quotes, as all shells take it.
+/// Returns a text in single quotes, as all shells accept it.
 std::string in_quotes(const std::string& text) {
   std::string out = "'";
   for (const char c : text)

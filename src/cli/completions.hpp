@@ -1,4 +1,4 @@
-// What --completions prints: what a shell needs to complete words of the command line.
+// The output of --completions, with which a shell completes words of the command line.
 #pragma once
 
 #include "cli/described_command.hpp"
@@ -8,7 +8,8 @@
 
 namespace celltrace::cli {
 
-/// `commands` as describe() returns them; `shell` is "bash", "zsh" or "fish". Throws InputError for another.
+/// Returns the completions. `commands` come from describe(); `shell` is "bash", "zsh" or "fish". Throws
+/// InputError for any other shell.
 std::string completions(const std::vector<DescribedCommand>& commands, const std::string& shell);
 
 } // namespace celltrace::cli

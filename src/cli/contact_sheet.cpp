@@ -9,7 +9,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Text as HTML has it, also between quotes.
+/// Returns a text escaped for HTML, also between quotes.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -33,7 +33,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// A file's name as a relative URL: letters with a meaning there are numbers.
+/// Returns a file's name as a relative URL, in which special characters are escaped.
 std::string url_of(const std::string& name) {
   std::string url = "./";
   for (const char c : name) {

@@ -7,10 +7,10 @@
 
 namespace celltrace::cli {
 
-/// Splits NAME=VALUE. Throws InputError if it is none, and for numbers that are too large.
+/// Splits NAME=VALUE. Throws InputError if the text has another form, and for numbers that are too large.
 std::pair<std::string, std::string> parse_declare(const std::string& text);
 
-/// Returns the number that a text is, or else the string: what is in quotes is a string.
+/// Returns the number in a text, or else the string, without its quotes.
 std::variant<double, std::string> declared_value(const std::string& text);
 
 } // namespace celltrace::cli

@@ -6,7 +6,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// The words of "TEXT:a|b" (choice.hpp) and "TEXT:{a,b}" (CLI::IsMember); none for any other type.
+/// Returns the words of "TEXT:a|b" (choice.hpp) and "TEXT:{a,b}" (CLI::IsMember); none for any other type.
 std::vector<std::string> choices_of(const std::string& type) {
   const std::size_t colon = type.find(':');
   if (colon == type.npos) return {};
@@ -16,7 +16,7 @@ std::vector<std::string> choices_of(const std::string& type) {
   return words.find('|') == words.npos ? std::vector<std::string>() : CLI::detail::split(words, '|');
 }
 
-/// The name of a value of CLI11's types, in words.
+/// Returns the name of a value that has one of CLI11's types.
 std::string value_of(const std::string& type) {
   constexpr std::pair<const char*, const char*> kNames[] = {
       {"INT", "N"}, {"UINT", "N"}, {"FLOAT", "NUMBER"}, {"TEXT", "WORD"}};
@@ -25,7 +25,7 @@ std::string value_of(const std::string& type) {
   return type;
 }
 
-/// The limits of "INT:INT in [1 - 9]" (CLI::Range) and "FLOAT:1 to 9" (choice.hpp).
+/// Returns the limits of "INT:INT in [1 - 9]" (CLI::Range) and "FLOAT:1 to 9" (choice.hpp).
 std::string limits_of(const std::string& type) {
   const std::size_t colon = type.find(':');
   std::string limits = colon == type.npos ? "" : type.substr(colon + 1);
@@ -67,7 +67,7 @@ DescribedGroup describe_group(const CLI::App& app, const std::string& title) {
 
 DescribedCommand describe_command(const CLI::App& app, const std::string& name) {
   DescribedCommand command{name, app.get_description(), app.get_footer(), {describe_group(app, "")}};
-  // Groups of options are commands without a name.
+  // Groups of options are subcommands without a name.
   for (const CLI::App* part : app.get_subcommands([](const CLI::App*) { return true; }))
     if (part->get_name().empty()) command.groups.push_back(describe_group(*part, part->get_group()));
   return command;

@@ -1,4 +1,4 @@
-// The command line as data, for pages and completions that are made of the same description as --help.
+// The command line as data, from which --help, pages and completions are made.
 #pragma once
 
 #include <string>
@@ -11,22 +11,23 @@ class App;
 namespace celltrace::cli {
 
 struct DescribedOption {
-  std::vector<std::string> names; ///< "-o", "--output"; none for a positional argument
-  std::string value;              ///< what stands for its value: "N", "FILE", "free|lockstep"; "" for a flag
-  std::vector<std::string> choices; ///< the only words that it takes
-  std::string limits;               ///< "1 to 65535"; "" where there are none, or words
+  std::vector<std::string> names;   ///< "-o", "--output"; none for a positional argument
+  std::string value;                ///< placeholder of its value: "N", "FILE", "free|lockstep"; "" for a flag
+  std::vector<std::string> choices; ///< the only words allowed
+  std::string limits;               ///< "1 to 65535"; "" if there are none, or if it takes words
   std::string description;
   std::string default_value;
   bool required = false;
 
   bool positional() const { return names.empty(); }
   bool takes_folder() const { return value.find("DIR") != value.npos; }
-  /// By the conventions of this program: FILE, or a name with an extension.
+  /// Returns whether the value is a file by the conventions of this program: FILE, or a name with an
+  /// extension.
   bool takes_file() const;
 };
 
 struct DescribedGroup {
-  std::string title; ///< "" for what has no group of its own
+  std::string title; ///< "" for options without a group
   std::vector<DescribedOption> options;
 };
 
@@ -37,7 +38,8 @@ struct DescribedCommand {
   std::vector<DescribedGroup> groups;
 };
 
-/// The program itself, then its commands. What has an empty group, which hides it from --help, is left out.
+/// Returns the program itself, followed by its commands. Options in an empty group, which hides them from
+/// --help, are left out.
 std::vector<DescribedCommand> describe(const CLI::App& app);
 
 } // namespace celltrace::cli

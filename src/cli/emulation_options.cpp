@@ -12,7 +12,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// The first of the options that was given; null if none was.
+/// Returns the first of these options that was given; null if none was.
 const char* first_given(const EmulationTexts& texts) {
   if (!texts.schedule.empty()) return "--schedule";
   if (!texts.seed.empty()) return "--seed";
@@ -39,7 +39,7 @@ TransferTime transfers_of(const EmulationTexts& texts) {
   return TransferTime::at_wait;
 }
 
-/// False if the text is something else, or more.
+/// Parses a number; returns false if the text is anything else.
 template <class Number> bool parse(const std::string& text, Number& number) {
   const char* const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), last, number);

@@ -1,4 +1,4 @@
-// The options that only emulated machines have: schedule, seed, transfers, faults, timing, limits, traces.
+// Options for emulated machines only: schedule, seed, transfers, faults, timing, limits, traces.
 #pragma once
 
 #include "celltrace/spe/backend.hpp"
@@ -12,7 +12,7 @@ class App;
 
 namespace celltrace::cli {
 
-/// The options as they were given; empty: not given.
+/// The options as they were given; empty if they were not.
 struct EmulationTexts {
   std::string schedule;
   std::string seed;
@@ -26,14 +26,14 @@ struct EmulationTexts {
   std::string cache_trace;
 };
 
-/// What every command has that runs emulated machines: all but --cache-trace. `default_schedule` is what
-/// holds where neither --schedule nor --trace is given.
+/// Adds the options of every command that runs emulated machines: all but --cache-trace. `default_schedule`
+/// applies if neither --schedule nor --trace is given.
 void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule default_schedule);
-/// For what runs the tracer.
+/// Adds the option of commands that run the tracer.
 void add_cache_trace_option(CLI::App& command, EmulationTexts& texts);
 
-/// What they say together. Throws InputError if they contradict each other or the backend. Where the
-/// traces go stays unset.
+/// Returns the configuration that the options make together. Throws InputError if they contradict each other
+/// or the backend. The files of traces stay unset.
 EmulationConfig emulation_config(const EmulationTexts& texts, Backend backend, Schedule default_schedule);
 
 } // namespace celltrace::cli

@@ -23,7 +23,7 @@ public:
   }
 
 private:
-  /// False at the end of the text.
+  /// Skips blanks; returns false at the end of the text.
   bool skip_blanks() {
     while (!rest_.empty() && is_blank(rest_[0]))
       rest_.remove_prefix(1);

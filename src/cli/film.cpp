@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where something goes wrong, the file is named.
+/// Runs `work`, and puts the name of the file in front of its errors.
 template <class Work> auto naming(const std::string& name, Work work) {
   try {
     return work();
@@ -32,7 +32,7 @@ template <class Work> auto naming(const std::string& name, Work work) {
   }
 }
 
-/// Puts frames into a stream; those of Film are for whoever owns it.
+/// Writes frames to a stream, which a Film owns.
 class Y4mWriter {
 public:
   explicit Y4mWriter(FrameRate rate) : rate_(rate) {}
@@ -83,7 +83,7 @@ private:
   Y4mWriter writer_;
 };
 
-/// Writes under another name, which has the same extension.
+/// A film that ffmpeg writes under a temporary name with the same extension.
 class FfmpegFilm : public Film {
 public:
   FfmpegFilm(const fs::path& path, FrameRate rate) : path_(path), writer_(rate) {
@@ -110,7 +110,7 @@ public:
     }
   }
   void finish() override {
-    // What cannot be written any more, ffmpeg complains of.
+    // Ends ffmpeg's input; ffmpeg reports errors of data that is still to be written.
     pipe_.reset();
     if (const int status = wait(); status != 0) fail(status);
     std::error_code error;
@@ -119,7 +119,8 @@ public:
   }
 
 private:
-  /// Ctrl-C is for celltrace, which then lets ffmpeg finish what it has: a process group of its own.
+  /// Starts ffmpeg in a process group of its own: Ctrl-C is for celltrace, which then lets ffmpeg finish the
+  /// frames it has.
   void start() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
@@ -127,7 +128,7 @@ private:
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    // Its stdout might be what celltrace reports on.
+    // Redirects ffmpeg's stdout to stderr, as celltrace may write reports to stdout.
     posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
@@ -157,17 +158,17 @@ private:
                      ": ffmpeg cannot be started: " + std::generic_category().message(error));
   }
 
-  /// Codecs are ffmpeg's choice for the kind of file. Players want half the chroma each way, for which sides
-  /// have to be even, and what colours mean.
+  /// Returns ffmpeg's command line. ffmpeg chooses codecs by the kind of file. Players need chroma at half
+  /// resolution each way, for which sides must be even, and the meaning of colours.
   std::vector<std::string> command() const {
     return {"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "yuv4mpegpipe", "-i",
             "pipe:0", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-color_range", "tv",
             "-colorspace", "smpte170m", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
-            // A name may begin with a dash.
+            // The prefix protects names that begin with a dash.
             "file:" + part_.string()};
   }
 
-  /// Its exit code, or 128 and the signal that ended it.
+  /// Waits for ffmpeg. Returns its exit code, or 128 plus the signal that ended it.
   int wait() {
     int status = 0;
     pid_t ended = 0;

@@ -11,7 +11,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// What POV-Ray calls final_frame: of a cyclic animation one more than there is.
+/// Returns POV-Ray's final_frame, which in a cyclic animation is one more than there is.
 int last_number(const Animation& animation) {
   return animation.final_frame + (animation.cyclic ? 1 : 0);
 }
@@ -23,7 +23,7 @@ float clock_step(const Animation& animation) {
          static_cast<float>(steps);
 }
 
-/// Returns a frame, given as its number or as a part of final_frame, in POV-Ray's precision.
+/// Returns a frame, given as its number or as a fraction of final_frame, in POV-Ray's precision.
 int frame_at(double value, const Animation& animation, const char* option) {
   if (value > kMaxFrame)
     throw InputError(std::string(option) + ": frames are numbered up to " + std::to_string(kMaxFrame));

@@ -1,5 +1,4 @@
-// The frames of an animation: which of them are rendered, at which clock, and into which files. All as
-// POV-Ray has it.
+// The frames of an animation, as in POV-Ray: those that are rendered, their clock, and their files.
 #pragma once
 
 #include "celltrace/pov.hpp"
@@ -10,33 +9,33 @@
 
 namespace celltrace::cli {
 
-/// By default a still picture.
+/// The frames of an animation; by default, of a still picture.
 struct Animation {
   int initial_frame = 1, final_frame = 1;
   double initial_clock = 0, final_clock = 1;
   bool cyclic = false; ///< the frame after the last one would be the first one
-  /// The part that is rendered: frames, or below 1 parts of final_frame. None: from the first, to the last.
+  /// The subset to render, as frame numbers, or below 1 as fractions of final_frame; by default, all frames.
   std::optional<double> start_frame, end_frame;
-  int step = 1;               ///< from each frame that is rendered to the next one
-  bool has_one_frame = false; ///< frame 1 only, and yet no still picture
+  int step = 1;               ///< distance of rendered frames
+  bool has_one_frame = false; ///< only frame 1, but as an animation
 
   bool is_on() const { return has_one_frame || initial_frame != 1 || final_frame != 1; }
 };
 
-/// Frames of an animation at most.
+/// Limit on frames in an animation.
 inline constexpr int kMaxFrame = 9'999'999;
 
-/// Returns the frames of an animation that is on, one at least. As in POV-Ray, they may end behind the final
-/// frame if the subset does. Throws InputError for frames beyond kMaxFrame.
+/// Returns the frames of an animation, at least one. As in POV-Ray, they may end after the final frame if the
+/// subset does. Throws InputError for frames beyond kMaxFrame.
 std::vector<int> frames_to_render(const Animation& animation);
 
-/// What a scene's clock is in a frame, and what else it may know of it. In POV-Ray's precision: of a clock
-/// the single one, of the step between frames six digits.
+/// Returns a scene's clock in a frame; frame_of() returns it with other properties of the frame. The
+/// precision is POV-Ray's: single precision for the clock, six digits for the step between frames.
 double clock_of(const Animation& animation, int frame);
 AnimationFrame frame_of(const Animation& animation, int frame);
 
-/// The picture of a frame: as many digits as the last number has, before the extension. Of a still picture
-/// the name itself.
+/// Returns the file for a frame's picture: the number is padded to the digits of the last one, and stands
+/// before the extension. For a still picture returns `output`.
 std::filesystem::path picture_of(const std::filesystem::path& output, const Animation& animation, int frame);
 
 } // namespace celltrace::cli

@@ -11,7 +11,7 @@ FrameSource::FrameSource(const RenderRequest& request, const RenderOptions& opti
     : request_(request), frames_(std::move(frames)) {
   RenderOptions own = options;
   own.build_progress = [](double) { return !interrupted(); };
-  // Of an emulated machine there is only one: its time and its trace go on from frame to frame.
+  // An emulated machine gets one renderer: its time and its trace continue from frame to frame.
   const bool prepares_ahead = options.backend == Backend::native && frames_.size() > 1;
   for (int i = 0; i < (prepares_ahead ? 2 : 1); ++i)
     renderers_.push_back(std::make_unique<Renderer>(own));

@@ -1,5 +1,5 @@
-// Frames of an animation, ready to be rendered: while one is traced, the next one is read and prepared by
-// another thread.
+// Provides frames of an animation, ready to be rendered: while one is traced, another thread reads and
+// prepares the next one.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -18,23 +18,24 @@ class FrameSource {
 public:
   struct Frame {
     int number = 0;
-    ReadScene read;               ///< without a scene: the user interrupted it
-    bool is_prepared = false;     ///< false with a scene: the same, while image and accelerator were made
-    Renderer* renderer = nullptr; ///< that has the frame; until the next but one is taken
-    std::string messages;         ///< of reading
+    ReadScene read; ///< without a scene if the user interrupted it
+    bool is_prepared =
+        false; ///< false with a scene if it was interrupted while image and accelerator were built
+    Renderer* renderer = nullptr; ///< holds the frame until the next but one is taken
+    std::string messages;         ///< printed while the scene was read
   };
 
-  /// `frames`: numbers, at least one. Reading the first one begins. Throws InputError for options out of
-  /// range.
+  /// Starts reading the first of `frames`, of which there is at least one. Throws InputError for options out
+  /// of range.
   FrameSource(const RenderRequest& request, const RenderOptions& options, std::vector<int> frames);
   FrameSource(const FrameSource&) = delete;
   FrameSource& operator=(const FrameSource&) = delete;
   ~FrameSource();
 
   bool is_at_end() const { return next_ == frames_.size(); }
-  /// Waits for the next frame and begins with the one after it. `accelerator_bytes`: what the last one had;
-  /// if it is much, there is never more than one. Throws what reading and preparing throw, a SceneError with
-  /// the frame's number.
+  /// Waits for the next frame and starts the one after it. `accelerator_bytes` is the size of the last
+  /// frame's accelerator; if it is large, only one frame is in memory. Throws the exceptions of reading and
+  /// preparing; a SceneError gets the frame's number.
   Frame take(std::uint64_t accelerator_bytes);
 
 private:
@@ -43,7 +44,7 @@ private:
 
   const RenderRequest& request_;
   std::vector<int> frames_;
-  std::vector<std::unique_ptr<Renderer>> renderers_; ///< one, or two that take turns
+  std::vector<std::unique_ptr<Renderer>> renderers_; ///< one, or two that alternate
   std::size_t next_ = 0;
   std::future<Frame> coming_;
 };

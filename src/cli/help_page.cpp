@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kPageWidth = 80, kColumn = 26;
 
-/// Appends words, broken into lines that begin at a column; the first line goes on where the page ends.
+/// Appends words, broken into lines that begin at a column; the first line continues the page's last one.
 void append_wrapped(std::string& page, const std::string& text, std::size_t column) {
   std::size_t at = page.size() - (page.rfind('\n') + 1);
   std::istringstream words(text);
@@ -27,7 +27,7 @@ void append_wrapped(std::string& page, const std::string& text, std::size_t colu
   page += '\n';
 }
 
-/// Appends a name and its value; a list of words may take more lines than one.
+/// Appends a name and its value; a list of words may take several lines.
 void append_name(std::string& page, const std::string& name) {
   constexpr std::size_t kDeeper = 6;
   page += "  ";
@@ -78,7 +78,7 @@ void append_options(std::string& page, const DescribedGroup& group, bool positio
     if (is_wanted(option)) append_row(page, name_of(option), text_of(option));
 }
 
-/// Appends text whose lines stay lines.
+/// Appends text without joining its lines.
 void append_lines(std::string& page, const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Calls `take` with each line of a text, and its number, until that returns false.
+/// Calls `take` with each line of a text and the line's number until it returns false.
 template <class Take> void for_each_line(std::string_view text, Take take) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   for (int number = 1; !text.empty(); ++number) {
@@ -64,7 +64,7 @@ bool looks_like_ini(std::string_view text) {
     const auto is_letter = [&](std::size_t at) {
       return at < rest.size() && std::isalpha(static_cast<unsigned char>(rest[at])) != 0;
     };
-    // A directive of the scene language begins with #, too.
+    // A line that begins with # and a letter is a directive of the scene language, not a comment.
     if (rest.empty() || rest[0] == ';' || (rest[0] == '#' && !is_letter(1))) return true;
     const std::string_view name = trimmed(rest.substr(0, rest.find('=')));
     answer = rest[0] == '[' || ((rest[0] == '+' || rest[0] == '-') && is_letter(1)) ||

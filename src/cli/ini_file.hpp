@@ -1,4 +1,4 @@
-// POV-Ray's INI files: lines of sections.
+// POV-Ray's INI files: lines in sections.
 #pragma once
 
 #include <functional>
@@ -14,21 +14,21 @@ using TextReader = std::function<std::string(const std::string& file)>;
 std::string read_ini_text(const std::string& file);
 
 struct IniLine {
-  std::string_view text; ///< without what ends the line
+  std::string_view text; ///< without its line end
   int number;            ///< from 1 on
 };
 
 struct IniLines {
   std::vector<IniLine> lines;
-  bool has_section = false; ///< the section that was asked for
+  bool has_section = false; ///< the requested section exists
 };
 
 /// Returns the lines before the first [section], and those of sections with this name, in either case; an
-/// empty name: of no section. Lines end with LF, CR LF or CR, and a byte order mark may precede the first
-/// one. The lines are parts of `text`.
+/// empty name matches no section. Lines end with LF, CR LF or CR, and a byte order mark may precede the first
+/// one. The lines point into `text`.
 IniLines parse_ini(std::string_view text, std::string_view section);
 
-/// Whether a file has settings or switches in front, and not a scene.
+/// Returns whether a file begins with settings or switches instead of a scene.
 bool looks_like_ini(std::string_view text);
 
 } // namespace celltrace::cli

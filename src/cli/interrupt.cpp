@@ -12,11 +12,11 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Signals that come so close together are one: timeout(1) sends its signal to the program and to its group.
-constexpr std::int64_t kTogether = 300'000'000; // ns
+/// The time within which signals count as one: timeout(1) sends its signal to the program and to its group.
+constexpr std::int64_t kTogether = 300'000'000; // in ns
 
 std::optional<std::chrono::steady_clock::time_point> deadline;
-std::atomic<std::int64_t> first{0}; ///< when the first signal came, in ns; 0: none has
+std::atomic<std::int64_t> first{0}; ///< time of the first signal in ns; 0 if there was none
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "a signal handler must not take a lock");
 
 extern "C" void on_signal(int number) {

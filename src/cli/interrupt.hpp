@@ -1,19 +1,19 @@
-// Ctrl-C, and the end of the time that a run has, as a question that a render can ask.
+// Detects Ctrl-C, and the end of a run's time limit, for renders that ask.
 #pragma once
 
 namespace celltrace::cli {
 
-/// From now on the first SIGINT or SIGTERM only makes interrupted() true; a later one ends the process.
+/// Makes the first SIGINT or SIGTERM set interrupted() to true from now on; a later one ends the process.
 void catch_interrupts();
 
-/// Makes interrupted() true after so many seconds from now, too, in place of an earlier limit; 0: there is
-/// none. To be called while no other thread asks.
+/// Makes interrupted() true after this many seconds, too, and replaces an earlier limit; 0 removes the limit.
+/// Call it while no other thread calls interrupted().
 void interrupt_after(double seconds);
 
-/// Safe from any thread.
+/// Returns whether the run was interrupted; safe from any thread.
 bool interrupted() noexcept;
 
-/// Says what has made interrupted() true, for messages.
+/// Returns the cause of the interrupt, for messages.
 const char* interruption() noexcept;
 
 } // namespace celltrace::cli

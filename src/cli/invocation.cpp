@@ -21,7 +21,7 @@ Invocation read_render(const std::vector<std::string>& defaults, const std::vect
                        const std::vector<std::string>& own) {
   std::vector<std::string> all = {"render"};
   append(all, defaults);
-  // A user's INI file that stands for every run is full of settings without effect.
+  // A user's INI file applies to every run and is full of settings without effect, whose notes are left out.
   const std::size_t usual_notes = translate_pov_switches(all).notes.size();
   append(all, environment);
   append(all, own);
@@ -55,7 +55,7 @@ Invocation read_invocation(std::string_view program, const std::vector<std::stri
   } catch (const InputError& error) {
     if (environment.empty()) throw;
     const std::string what = error.what();
-    read({}); // throws if the arguments are wrong without it
+    read({}); // throws if the arguments are wrong without the variable
     throw InputError(std::string(kOptionsVariable) + ": " + what);
   }
 }

@@ -1,11 +1,11 @@
-// What --list-keywords prints, which is also docs/keywords.md.
+// The output of --list-keywords, which is also docs/keywords.md.
 #pragma once
 
 #include <string>
 
 namespace celltrace::cli {
 
-/// Every word that the scene language reserves, by what becomes of it, in Markdown.
+/// Returns a page in Markdown with every reserved word of the scene language, by its support.
 std::string keyword_page();
 
 } // namespace celltrace::cli

@@ -1,4 +1,4 @@
-// The note that leads to --lenient where a scene uses something that is not supported.
+// The note that recommends --lenient if a scene uses something unsupported.
 #pragma once
 
 #include "celltrace/pov.hpp"

@@ -39,7 +39,7 @@ template <class E, std::size_t N> std::vector<std::string> names(const E (&all)[
   return list;
 }
 
-/// Null if nothing has the name.
+/// Returns the entry with this name; null if there is none.
 template <class E, std::size_t N> const E* find(const Named<E> (&table)[N], const std::string& name) {
   const auto found = std::find_if(table, table + N, [&](const Named<E>& each) { return name == each.first; });
   return found == table + N ? nullptr : &found->second;
@@ -74,7 +74,7 @@ void add_machine_options(CLI::App& command, RenderOptions& options, MachineTexts
       "How the SPEs share a frame: strips that exchange work, that diffusion adjusts between frames or "
       "that stay; or bundles of packets or random tiles, dealt out");
   add_choice(command, "--model", texts.model, {names(kModels), {}}, "Programming model");
-  // Only emulated machines have what follows.
+  // The following options are for emulated machines only.
   CLI::Option_group& emulation = *command.add_option_group("cell_emu and cell_sim only");
   add_emulation_options(emulation, texts.emulation, Schedule::free);
   add_cache_trace_option(emulation, texts.emulation);
@@ -84,7 +84,7 @@ void finish_machine(RenderOptions& options, const MachineTexts& texts, Schedule 
   options.backend = backend_named(texts.backend);
   options.simd = simd_level_named(texts.simd);
   options.cache = parse_cache(texts.cache);
-  // CLI11 lets no other names pass.
+  // CLI11 has rejected all other names.
   options.balance = *find(kBalances, texts.balance);
   options.accelerator = *find(kAccelerators, texts.accelerator);
   options.model = *std::find_if(std::begin(kModels), std::end(kModels),

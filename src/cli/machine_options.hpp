@@ -1,4 +1,4 @@
-// The options of `render` and `view` that say what renders, and how it is shared among SPEs.
+// The options of `render` and `view` that choose the machine, and how work is shared among SPEs.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -10,7 +10,7 @@
 
 namespace celltrace::cli {
 
-/// What CLI11 fills in besides the options.
+/// Texts that CLI11 fills in besides the options.
 struct MachineTexts {
   std::string backend = "native";
   std::string simd = "auto";
@@ -23,12 +23,12 @@ struct MachineTexts {
 
 void add_machine_options(CLI::App& command, RenderOptions& options, MachineTexts& texts);
 
-/// Throws InputError for texts that contradict each other, and for no cache. Where none is said, the schedule
-/// is `default_schedule`.
+/// Completes the options. Throws InputError for texts that contradict each other, and for an invalid cache.
+/// The schedule is `default_schedule` if none is given.
 void finish_machine(RenderOptions& options, const MachineTexts& texts, Schedule default_schedule);
 
-/// `off`, `WAYSxSETS` or `WAYSxSETS:random|fifo|lru`. Throws InputError for any other text and for sizes that
-/// a cache cannot have.
+/// Parses `off`, `WAYSxSETS` or `WAYSxSETS:random|fifo|lru`. Throws InputError for any other text and for
+/// sizes that a cache cannot have.
 CacheConfig parse_cache(const std::string& text);
 
 } // namespace celltrace::cli

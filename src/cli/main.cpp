@@ -35,10 +35,11 @@ void print_notes(const std::vector<std::string>& notes) {
     std::cerr << "note: " << note << '\n';
 }
 
-/// One picture takes a few large blocks one after the other. glibc would give each of them back to the system
-/// and have the pages of the next one brought in anew, and cut the heap into pieces too short for huge pages.
-/// The heap grows once for nearly all scenes, so that these are on huge pages as a whole: large ones are read
-/// in 0.75 of the time. That takes address space, not memory, but for the last huge page.
+/// Prepares the heap for a picture, which takes a few large blocks one after the other. By default glibc
+/// would return each block to the system and fault in the pages of the next one anew, and cut the heap into
+/// pieces too short for huge pages. Growing the heap once is enough for nearly all scenes, and puts it on
+/// huge pages as a whole: large scenes are read in 0.75 of the time. That takes address space, but no memory
+/// except for the last huge page.
 void prepare_heap() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
@@ -46,7 +47,7 @@ void prepare_heap() {
   constexpr int kHeapOfMostScenes = 512 << 20;
   mallopt(M_TOP_PAD, kHeapOfMostScenes);
   char* const before = static_cast<char*>(sbrk(0));
-  void* volatile grows = std::malloc(celltrace::kHugePage); // volatile: not to be left out
+  void* volatile grows = std::malloc(celltrace::kHugePage); // volatile, so that it is not optimised away
   std::free(grows);
   char* const after = static_cast<char*>(sbrk(0));
   if (after > before) celltrace::use_huge_pages(before, static_cast<std::size_t>(after - before));
@@ -86,8 +87,8 @@ int run(const char* program, const std::vector<std::string>& arguments, MessageF
   return run_with_files(render);
 }
 
-/// The text says where, and "error:", itself, but for a file that cannot be read: of all such files the same
-/// is said.
+/// Prints an error. Its text includes the place and "error:", except for a file that cannot be read: all such
+/// files get the same message.
 void print(const celltrace::SceneError& error) {
   const celltrace::Finding& first = error.findings().front();
   if (first.line == 0)
@@ -96,7 +97,7 @@ void print(const celltrace::SceneError& error) {
     std::cerr << error.what() << '\n';
 }
 
-/// For errors: `spu` leaves 1 to the programs that it runs.
+/// Returns the exit code for errors: `spu` leaves 1 to the programs that it runs.
 int error_code(const std::vector<std::string>& arguments) {
   return !arguments.empty() && arguments.front() == "spu" ? kSpuRunFailed : 1;
 }
@@ -107,7 +108,7 @@ int main(int argc, char** argv) {
   prepare_heap();
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   occupy_standard_streams();
-  MessageFiles messages; // of errors, too
+  MessageFiles messages; // also gets errors
   try {
     const int code = run(argc > 0 ? argv[0] : "", arguments, messages);
     check_standard_output();

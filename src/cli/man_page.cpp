@@ -8,7 +8,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Text as troff takes it: nothing in it is a request or an escape, and dashes are those that are typed.
+/// Returns a text escaped for troff: it has no requests and escapes, and its dashes are the ASCII ones.
 std::string quoted(const std::string& text) {
   std::string out;
   bool line_begins = true;

@@ -1,4 +1,4 @@
-// What --man-page prints, and what is installed as celltrace(1).
+// The output of --man-page, which is installed as celltrace(1).
 #pragma once
 
 #include "cli/described_command.hpp"
@@ -8,7 +8,7 @@
 
 namespace celltrace::cli {
 
-/// In the man macros; `commands` as describe() returns them.
+/// Returns the page in the man macros; `commands` come from describe().
 std::string man_page(const std::vector<DescribedCommand>& commands);
 
 } // namespace celltrace::cli

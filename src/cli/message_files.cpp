@@ -28,7 +28,7 @@ MessageKind kind_of_message(std::string_view line, MessageKind before) {
   return MessageKind::debug;
 }
 
-/// Writes lines to files and to the stream that std::cerr had.
+/// Writes lines to files and to the original stream of std::cerr.
 class MessageFiles::Sorter : public std::streambuf {
 public:
   explicit Sorter(const MessageRequest& request) : hidden_(request.hidden) {
@@ -47,10 +47,10 @@ public:
   }
 
 private:
-  static constexpr std::string_view kWipe = "\033[K"; ///< of a terminal's line
+  static constexpr std::string_view kWipe = "\033[K"; ///< erases to the end of the terminal's line
 
   struct File {
-    std::optional<MessageKind> kind; ///< none: all
+    std::optional<MessageKind> kind; ///< none: all kinds
     std::ofstream stream;
   };
 
@@ -70,7 +70,7 @@ private:
     return size;
   }
 
-  /// Lets progress through that has no end yet: it begins by wiping its line.
+  /// Writes a progress line without an end, which begins by erasing its line.
   int sync() override {
     if (line_.compare(0, kWipe.size(), kWipe) == 0) {
       if (!is_hidden(MessageKind::render)) print(line_);
@@ -83,7 +83,8 @@ private:
     console_->sputn(text.data(), static_cast<std::streamsize>(text.size()));
   }
 
-  /// Lines that end with a carriage return are progress, which is overwritten: files get none.
+  /// Adds a character. Lines that end with a carriage return are progress, which is overwritten, so that
+  /// files do not get them.
   void put(char c) {
     line_ += c;
     if (c == '\n') return end_line();

@@ -1,5 +1,4 @@
-// Files that get messages, besides stderr, and kinds of messages that stderr does not get: POV-Ray's text
-// streams.
+// Copies messages to files, and hides kinds of messages from stderr: POV-Ray's text streams.
 #pragma once
 
 #include <filesystem>
@@ -11,28 +10,28 @@
 
 namespace celltrace::cli {
 
-/// The streams that POV-Ray sorts its messages into.
+/// The text streams of POV-Ray.
 enum class MessageKind {
-  debug, ///< the scene's own words, and whatever is none of the others
+  debug, ///< the scene's own messages, and all that belong to no other kind
   error,
   render,     ///< progress
-  statistics, ///< the summary in the end
-  warning     ///< notes, too
+  statistics, ///< the summary at the end
+  warning     ///< and notes
 };
 
-/// Returns the kind that a line on stderr has. Lines that begin with blanks go on with the line before.
+/// Returns the kind of a line on stderr. Lines that begin with blanks continue the line before.
 MessageKind kind_of_message(std::string_view line, MessageKind before);
 
 struct MessageRequest {
   std::vector<std::pair<MessageKind, std::filesystem::path>> files;
   std::vector<std::filesystem::path> all_files; ///< for messages of every kind
-  std::vector<MessageKind> hidden;              ///< not on stderr
-  bool appends = false;                         ///< to files that are there
+  std::vector<MessageKind> hidden;              ///< kinds that stderr does not get
+  bool appends = false;                         ///< to existing files
 
   bool is_empty() const { return files.empty() && all_files.empty() && hidden.empty(); }
 };
 
-/// Sorts what is written to std::cerr as long as it lives. One at a time.
+/// Sorts the output to std::cerr while it lives. Only one may exist at a time.
 class MessageFiles {
 public:
   MessageFiles();
@@ -40,7 +39,8 @@ public:
   MessageFiles(const MessageFiles&) = delete;
   MessageFiles& operator=(const MessageFiles&) = delete;
 
-  /// Begins to sort, unless nothing is asked for. Throws InputError, naming it, if a file cannot be written.
+  /// Starts sorting if the request asks for it. Throws InputError, naming the file, if a file cannot be
+  /// written.
   void open(const MessageRequest& request);
 
 private:

@@ -17,7 +17,7 @@ constexpr std::pair<const char*, MessageKind> kKinds[] = {{"debug", MessageKind:
                                                           {"statistics", MessageKind::statistics},
                                                           {"warning", MessageKind::warning}};
 
-/// None: "all".
+/// Returns the kind with this name; nothing for "all".
 std::optional<MessageKind> kind_named(const std::string& name, const std::string& option) {
   if (name == "all") return std::nullopt;
   const auto found = std::find_if(std::begin(kKinds), std::end(kKinds),

@@ -1,4 +1,4 @@
-// The options of `render` that say where messages go.
+// The options of `render` for the destinations of messages.
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -19,8 +19,9 @@ struct MessageTexts {
 
 void add_message_options(CLI::App& command, MessageTexts& texts);
 
-/// Puts files without a folder beside the picture, as POV-Ray does; the request's output has to be known.
-/// Throws InputError for a kind of messages that there is not, and for a file that is the picture's, too.
+/// Completes the request, whose output must be known: puts files without a folder beside the picture, as
+/// POV-Ray does. Throws InputError for an unknown kind of messages, and if a file is the same as the
+/// picture's.
 void finish_messages(RenderRequest& request, const MessageTexts& texts);
 
 } // namespace celltrace::cli

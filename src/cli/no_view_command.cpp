@@ -1,4 +1,4 @@
-// In place of view_command.cpp where SDL2 or SDL2_ttf was missing when this was built.
+// Replaces view_command.cpp in builds without SDL2 or SDL2_ttf.
 #include "cli/view_command.hpp"
 
 #include "celltrace/error.hpp"

@@ -18,7 +18,7 @@ const CLI::App& parsed_command(const CLI::App& app) {
   return parsed.empty() ? app : *parsed.front();
 }
 
-/// Returns what the names before the `=` of an argument may be.
+/// Returns all names that may stand before the `=` of an argument.
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   const std::vector<DescribedCommand> commands = describe(app);
@@ -36,7 +36,7 @@ std::string unexpected(const CLI::App& app, const std::string& argument) {
   return "there is no option '" + name + "'" + (nearest.empty() ? "" : ": '" + nearest + "' perhaps?");
 }
 
-/// Returns what CLI11 says of an option without its value, in a sentence; else what it says.
+/// Returns CLI11's message about an option without its value as a sentence; any other message stays.
 std::string missing_value(const CLI::App& app, const std::string& said) {
   const std::string name = said.substr(0, said.find(": "));
   const std::vector<DescribedCommand> commands = describe(app);

@@ -1,4 +1,4 @@
-// Errors in options, in words that say what to type.
+// Errors in options, phrased so that they say what to type.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ class ParseError;
 
 namespace celltrace::cli {
 
-/// Returns one line about what CLI11 has refused while it read the options of `app`.
+/// Returns one line about an error that CLI11 has found in the options of `app`.
 std::string option_error(const CLI::App& app, const CLI::ParseError& error);
 
 } // namespace celltrace::cli

@@ -14,7 +14,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Errors of a file with its name in front.
+/// Runs `work`, and puts the name of the file in front of its errors.
 template <class Work> void naming(const std::filesystem::path& path, Work work) {
   try {
     work();
@@ -48,13 +48,13 @@ OutputFile::~OutputFile() {
   try {
     file_->commit();
   } catch (const InputError&) {
-    // The error that brought this about is the one to report.
+    // Drops this error: the one that led here is reported.
   }
 }
 
 void OutputFile::finish() {
   if (!file_) return;
-  useful_in_part_ = false; // once is enough if it fails
+  useful_in_part_ = false; // tried once only, even if it fails
   naming(path_, [&] { file_->commit(); });
 }
 
@@ -71,7 +71,8 @@ void write_report(const std::string& where, const std::string& text) {
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
-    // Writing to what is open for reading fails, as it would without; nobody could be told of that of stderr.
+    // Writing to a file that is open for reading fails, as writing to a closed one would; errors of stderr
+    // could not be reported anyway.
     static_cast<void>(open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY));
   }
 }

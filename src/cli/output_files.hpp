@@ -1,4 +1,4 @@
-// Where reports go.
+// Writes reports to files and to stdout.
 #pragma once
 
 #include "image/file.hpp"
@@ -13,23 +13,23 @@
 
 namespace celltrace::cli {
 
-/// A file that is written while a command works, such as a trace; or none. It takes its name when it is
-/// finished. Of a command that fails in between, what says how it came to that stays: it is `useful_in_part`,
-/// unless it is empty.
+/// A file that is written while a command runs, such as a trace; or none. The file gets its name when it is
+/// finished. If the command fails before, the file is removed; a file that is `useful_in_part`, since it may
+/// show the cause, is kept unless it is empty.
 class OutputFile {
 public:
-  /// Throws InputError if the file cannot be written. `path` empty: there is none.
+  /// Opens a file; none if `path` is empty. Throws InputError if the file cannot be written.
   explicit OutputFile(const std::filesystem::path& path, bool useful_in_part = false);
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
-  /// Null: there is none.
+  /// Returns the stream; null if there is no file.
   std::ostream* stream() { return file_ ? &stream_ : nullptr; }
-  /// Throws InputError if not all could be written.
+  /// Finishes the file. Throws InputError if not everything could be written.
   void finish();
 
 private:
-  /// Hands on to a C stream, which has a buffer.
+  /// A buffer that passes everything on to a C stream, which has a buffer of its own.
   class Buffer : public std::streambuf {
   public:
     void write_to(std::FILE* file) { file_ = file; }
@@ -50,18 +50,17 @@ private:
   std::ostream stream_{&buffer_};
 };
 
-/// Writes all of a report at once. `where` is a file, or "-" for stdout. Throws InputError if it cannot be
-/// written.
+/// Writes a whole report. `where` is a file, or "-" for stdout. Throws InputError if it cannot be written.
 void write_report(const std::string& where, const std::string& text);
 
-/// Gives what is to come to stdout, a file that fails where it is closed. For the start of the program: files
-/// that it opens must not take the places of those that it was started without.
+/// Fills standard streams that are closed with files on which reading and writing fail. Called when the
+/// program starts, so that files that it opens do not get the numbers of the missing streams.
 void occupy_standard_streams();
 
-/// Throws InputError if stdout is closed, so that a program can tell before it makes what is to go there.
+/// Throws InputError if stdout is closed, so that a program can tell before it starts the work.
 void check_standard_output_is_open();
 
-/// For the end: throws InputError if something that was to go to stdout did not.
+/// Throws InputError if some output to stdout was lost; called at the end.
 void check_standard_output();
 
 } // namespace celltrace::cli

@@ -17,7 +17,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// The words of --file-type: pictures by their extensions, and films.
+/// Returns the words of --file-type: extensions of pictures and films.
 std::vector<std::string> file_types() {
   return {"png", "ppm", "jpg", "jpeg", "tga", "bmp", "exr", "hdr", "dds", "y4m"};
 }
@@ -26,13 +26,14 @@ std::string extension_of(const OutputTexts& texts) {
   return '.' + (texts.file_type.empty() ? "png" : texts.file_type == "jpeg" ? "jpg" : texts.file_type);
 }
 
-/// A name without an extension gets that of the file type, and a folder the scene's name.
+/// Returns the output file: a name without an extension gets that of the file type, and a folder the scene's
+/// name.
 std::filesystem::path own_output(const RenderRequest& request, const OutputTexts& texts) {
   const std::string extension = extension_of(texts);
   std::filesystem::path output = request.output;
   if (std::error_code ignored; output.has_filename() && std::filesystem::is_directory(output, ignored))
     output /= "";
-  // The scene's folder is POV-Ray's choice.
+  // POV-Ray writes to the scene's folder.
   if (output.empty() && request.stands_in_for_povray) output = request.scene.parent_path() / "";
   if (!output.has_filename()) return output / (request.scene.stem().string() + extension);
   if (!output.has_extension()) return output += extension;
@@ -57,7 +58,7 @@ std::filesystem::path output_of(const RenderRequest& request, const OutputTexts&
   const std::filesystem::path given = is_own ? request.output : std::filesystem::path(texts.pov_name);
   if (is_stream_of_bytes(given)) return given;
   if (is_own) return own_output(request, texts);
-  // Films are no files of POV-Ray's, and have names as everywhere.
+  // POV-Ray has no films, so that these have names as everywhere.
   if (film_format_of(given) != FilmFormat::none) return given;
   return pov_output(texts.pov_name, request.scene, extension_of(texts));
 }
@@ -79,9 +80,9 @@ FileGamma file_gamma_of(const std::string& text) {
   return {power};
 }
 
-/// Returns the bits a channel of the file. POV-Ray, too, takes any number for any format.
+/// Returns the bits per channel of the file. As in POV-Ray, any number is accepted for any format.
 int bits_of(RenderRequest& request, const OutputTexts& texts, const image::FormatRow& row) {
-  const int usual = request.file.grey ? row.holds.bits.back() : row.holds.bits.front(); // as POV-Ray has it
+  const int usual = request.file.grey ? row.holds.bits.back() : row.holds.bits.front(); // as in POV-Ray
   const int wanted = texts.bits.value_or(usual);
   for (const int bits : row.holds.bits)
     if (bits == wanted) return bits;
@@ -95,7 +96,7 @@ int bits_of(RenderRequest& request, const OutputTexts& texts, const image::Forma
   return bits;
 }
 
-/// Sets what a picture's format asks of rendering.
+/// Sets rendering options that a picture's format needs.
 void set_picture_format(RenderRequest& request, const OutputTexts& texts) {
   RenderOptions& options = request.options;
   const bool is_stream = is_stream_of_bytes(request.output);
@@ -118,7 +119,7 @@ void set_picture_format(RenderRequest& request, const OutputTexts& texts) {
       row.holds.pixels == image::Pixels::numbers ||
       (row.holds.pixels == image::Pixels::encoded &&
        (request.bits == 16 || file.grey || file.gamma.power || (options.alpha && !row.holds.alpha)));
-  // The blocks of other pictures are made in the end.
+  // The blocks of other pictures are encoded at the end.
   options.blocks = row.holds.pixels == image::Pixels::blocks && options.model == Model::shared &&
                    !options.antialiasing && !options.region;
 }
@@ -138,7 +139,7 @@ void set_format(RenderRequest& request, const OutputTexts& texts) {
   if (options.first_hits) throw InputError("--first-hits is for OpenEXR files");
 }
 
-/// Whether it is /dev/null, which takes any number of pictures.
+/// Returns whether the output is /dev/null, which accepts any number of pictures.
 bool is_nothing(const std::filesystem::path& output) {
   struct stat status, nothing;
   return output != kStandardOutput && stat(output.c_str(), &status) == 0 &&
@@ -152,7 +153,7 @@ std::filesystem::path pov_output(const std::string& name, const std::filesystem:
   if (name.empty() || name.back() == '/') return name + scene.stem().string() + extension;
   const std::size_t dot = name.find_last_of("./");
   const bool has_extension = dot != std::string::npos && name.compare(dot, std::string::npos, extension) == 0;
-  // Nothing but an extension counts as none, and has the scene's name in front.
+  // A name that is only an extension gets the scene's name in front.
   if (has_extension && (dot == 0 || name[dot - 1] == '/'))
     return name.substr(0, dot) + scene.stem().string() + extension;
   if (has_extension) return name;

@@ -24,7 +24,7 @@ template <class Picture> void clear_part(Picture& picture, const PictureRegion& 
     std::fill_n(picture.pixel(part.left, y), 4 * (part.right - part.left), 0);
 }
 
-/// Copies whole rows of what is seen first.
+/// Copies whole rows of first hits.
 void copy_rows(const FirstHits& from, FirstHits& to, int top, int bottom) {
   const auto width = static_cast<std::ptrdiff_t>(to.width);
   const auto copy = [&](const auto& numbers, auto& copied, std::ptrdiff_t channels) {
@@ -35,7 +35,7 @@ void copy_rows(const FirstHits& from, FirstHits& to, int top, int bottom) {
   copy(from.normal, to.normal, 3);
   copy(from.object, to.object, 1);
 }
-/// Copies whole rows of the blocks that begin in these rows.
+/// Copies whole rows of blocks that begin in these rows.
 void copy_rows(const BlockImage& from, BlockImage& to, int top, int bottom) {
   const std::ptrdiff_t row = std::ptrdiff_t{8} * to.columns();
   const std::ptrdiff_t first = top / 4 * row, end = (bottom + 3) / 4 * row;
@@ -158,7 +158,7 @@ RenderResult render_remaining(Renderer& renderer, const RenderOptions& options, 
       return progress(std::clamp(done + costs.above(rows.top + fraction * count), 0.0, 1.0));
     });
     bands.learn(rows.top, count, result.statistics.render_seconds);
-    // What is missing of blocks is black.
+    // Missing blocks are black.
     picture.take(result, rows, !options.antialiasing && !options.blocks);
     sum.complete = result.complete;
     if (first)

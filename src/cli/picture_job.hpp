@@ -1,4 +1,4 @@
-// What rendering a picture and rendering an animation share.
+// Functions shared by rendering a picture and rendering an animation.
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -18,16 +18,16 @@ class CacheTraceWriter;
 
 namespace celltrace::cli {
 
-/// The traces that a request asks for, and the diagnostics of what broke a rule.
+/// The traces that a request asks for, and the diagnostics of broken rules.
 class RunReports {
 public:
   explicit RunReports(const RenderRequest& request);
   ~RunReports();
 
-  /// Lets a renderer that these options make report here, which it does until it is gone.
+  /// Makes a renderer with these options report here, as long as it lives.
   void attach(RenderOptions& options);
-  /// Prints what an emulated machine found wrong since the last call. `error` is what is printed as the error
-  /// anyway.
+  /// Prints the emulated machine's diagnostics since the last call, except for `error`, which is printed as
+  /// the error anyway.
   void print_diagnostics(const std::string& error = {});
   void finish();
 
@@ -37,32 +37,32 @@ private:
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// Result of rendering a picture.
 struct PictureOutcome {
-  RenderStatistics statistics; ///< of all that was rendered now
+  RenderStatistics statistics; ///< of everything rendered now
   bool complete = true;
-  int rows_to_go = 0; ///< that a run which goes on has to render
+  int rows_to_go = 0; ///< rows that a continued run has to render
 };
 
-/// Renders the scene that is prepared to `path`, which may be empty, but for the rows that `kept` has, and
-/// adds others to these, `costs` saying how far it is. `renderer` has RenderOptions::rows_at_once as
-/// rows_at_once() says. If `progress` breaks it off, the rest of the picture is blank. `use_image` is for
-/// pictures that are complete and in memory whole.
+/// Renders the prepared scene to `path`, which may be empty. Rows in `kept` are not rendered again, and new
+/// rows are added to it; `costs` determines the progress. `renderer` has RenderOptions::rows_at_once as
+/// rows_at_once() returns it. If `progress` stops the rendering, the rest of the picture is blank.
+/// `use_image` is called for pictures that are complete and completely in memory.
 PictureOutcome render_picture(Renderer& renderer, const RenderRequest& request,
                               const std::filesystem::path& path, RowsFile& kept, const RowCosts& costs,
                               const Progress& progress,
                               const std::function<void(const Image&)>& use_image = {});
 
-/// To a file or, where `path` is kStandardOutput, to stdout. Of a picture that becomes blocks only now,
-/// `statistics` get what these are worth.
+/// Saves a picture to a file or, if `path` is kStandardOutput, to stdout. If the picture is encoded in blocks
+/// only now, `statistics` get the quality of the blocks.
 void save_picture(const RenderRequest& request, const std::filesystem::path& path,
                   const PartialPicture& picture, RenderStatistics& statistics);
 
-/// Says on standard error output why the picture may not be what the scene says: rays that were dropped, and
-/// limits that the scene passes.
+/// Prints on stderr why the picture may differ from the scene: dropped rays, and limits that the scene
+/// passes.
 void print_warnings(const RenderStatistics& statistics);
 
-/// "32x18, native.avx2, 2 SPEs; parse 0.01 s, build 0.00 s, render 0.02 s; 1.23 million rays/s"
+/// Returns a line such as "32x18, native.avx2, 2 SPEs; parse 0.01 s, build 0.00 s, render 0.02 s; 1.23
+/// million rays/s".
 std::string summary_of(const RenderStatistics& statistics, double parse_seconds);
 
 } // namespace celltrace::cli

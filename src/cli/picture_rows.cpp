@@ -21,7 +21,7 @@ private:
   std::string bytes_;
 };
 
-/// Takes values from the front of bytes. After a failure all others fail, too.
+/// Reads values from the front of bytes. After a failure, all further reads fail, too.
 class ByteReader {
 public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -40,7 +40,7 @@ private:
   bool good_ = true;
 };
 
-/// Calls visitor.visit(numbers, count) for all that is kept of a part. `Rows` may be constant.
+/// Calls visitor.visit(numbers, count) for all data of a part. `Rows` may be constant.
 template <class Rows, class Visitor>
 void visit_part(Rows& rows, const PictureRegion& part, double& gamma, Visitor& visitor) {
   const auto columns = static_cast<std::size_t>(part.right - part.left);
@@ -64,7 +64,7 @@ void visit_part(Rows& rows, const PictureRegion& part, double& gamma, Visitor& v
   }
 }
 
-/// Gamma of colours that have none, in bytes.
+/// The gamma, in bytes, of colours without one.
 constexpr double kNoGamma = 0;
 
 } // namespace

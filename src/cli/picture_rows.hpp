@@ -1,4 +1,4 @@
-// Rows of a picture in memory, and as bytes that are kept for a run that goes on.
+// Rows of a picture, in memory and as bytes that are kept for a continued run.
 #pragma once
 
 #include "celltrace/image.hpp"
@@ -9,7 +9,7 @@
 
 namespace celltrace::cli {
 
-/// A picture, or some rows of one, in each of the forms that are wanted; the others are empty.
+/// A picture, or some rows of one, in each requested form; the other forms are empty.
 struct PictureRows {
   Image image;
   ColourImage colours;
@@ -20,14 +20,14 @@ struct PictureRows {
 /// Moves the pictures out of a result.
 PictureRows rows_of(RenderResult&& result);
 
-/// Returns a part of all forms as bytes that this computer understands; of blocks, whole rows of those that
-/// begin in the part.
+/// Returns a part of all forms as bytes in this computer's format; of blocks, whole rows of those that begin
+/// in the part.
 std::string bytes_of(const PictureRows& rows, const PictureRegion& part);
-/// Puts back what bytes_of() gave. Returns false if these are not the bytes of such a part; it may have
-/// changed then.
+/// Restores a part from bytes_of(). Returns false if the bytes do not belong to such a part, which may be
+/// overwritten then.
 bool take_bytes(std::string_view bytes, PictureRows& rows, const PictureRegion& part);
 
-/// Returns whether rays have reached all pixels of a part: where none has, alpha is 0.
+/// Returns whether rays have reached all pixels of a part; other pixels have alpha 0.
 bool has_all_pixels(const Image& image, const PictureRegion& part);
 
 } // namespace celltrace::cli

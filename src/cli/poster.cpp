@@ -19,16 +19,17 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Limit of pictures that are in memory whole, where they may take 100 bytes a pixel.
+/// Limit on pixels in a picture that is completely in memory, which may take 100 bytes per
+/// pixel.
 constexpr std::int64_t kMostPixelsOfWhole = std::int64_t{1} << 24;
-/// Pixels of a poster's band, unless the least number of rows has more. Colours as numbers take four times
-/// the memory.
+/// The number of pixels in a poster's band, unless the least number of rows has more. Colours as numbers take
+/// four times the memory.
 constexpr std::int64_t kPixelsOfBand = std::int64_t{1} << 20, kPixelsOfColours = kPixelsOfBand / 4;
-/// Rate below which rendered rows are worth keeping: rendering others again takes no longer than reading
-/// them.
+/// The rate, in bytes per second, below which rendered rows are worth keeping: above it, rendering them again
+/// takes no longer than reading them.
 constexpr double kBytesToKeepPerSecond = 50e6;
 
-/// Makes room for rows of the region, in each form that goes out.
+/// Allocates rows of the region in each requested form.
 PictureRows make_rows(const RenderOptions& options, int count) {
   const PictureRegion region = region_of(options);
   const int width = region.right - region.left;
@@ -83,7 +84,7 @@ public:
   }
 
 private:
-  /// Writes rows that are kept. Returns false if there are none after all.
+  /// Writes rows that were kept. Returns false if they are missing after all.
   bool take_kept(const RowsFile::Rows& part) {
     const int count = part.bottom - part.top;
     const bool is_band = part.bottom <= height_ && count <= options_.rows_at_once;
@@ -95,7 +96,7 @@ private:
     return true;
   }
 
-  /// Returns how many seconds it took.
+  /// Renders a band. Returns the time in seconds.
   double render(int top, int bottom) {
     RenderResult result = renderer_.render_rows(top, bottom, [&](double fraction) {
       return progress_(costs_.above(top + fraction * (bottom - top)));
@@ -116,8 +117,8 @@ private:
     return seconds;
   }
 
-  /// Returns the rows that no render has to bring again: all, or of a band that was broken off those blocks
-  /// that are final. With antialiasing a pixel that is there may be its first ray's only.
+  /// Returns the parts of a band that need not be rendered again: the whole band or, if it was stopped, the
+  /// final blocks. With antialiasing, a pixel with a colour may have its first ray only.
   std::vector<PictureRegion> finished_parts(const RenderResult& result, int rows) const {
     if (result.complete) return {{0, width_, 0, rows}};
     std::vector<PictureRegion> parts;
@@ -143,7 +144,7 @@ private:
   PictureRegion region_;
   int width_, height_; ///< of the region
   RowsFile& kept_;
-  bool keeps_all_; ///< however fast rows were rendered
+  bool keeps_all_; ///< at any speed of rendering
   RowKeeper keeper_;
   const RowCosts& costs_;
   const Progress& progress_;

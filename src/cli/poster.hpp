@@ -1,4 +1,4 @@
-// Pictures that are never in memory whole: bands of rows go out when they are finished, and are forgotten.
+// Renders pictures that are never completely in memory: finished bands of rows are written and freed.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -10,12 +10,12 @@
 
 namespace celltrace::cli {
 
-/// Chooses RenderOptions::rows_at_once for a picture that is large, or that somebody reads while it is
-/// rendered. Returns 0 for others, which are in memory whole. Films, surfaces in blocks and models other than
-/// `shared` are always: throws InputError if they are too large for that.
+/// Chooses RenderOptions::rows_at_once for a picture that is large, or is read while it is rendered. Returns
+/// 0 for others, which are completely in memory. Films, surfaces in blocks and models other than `shared`
+/// always are: throws InputError if they are too large for that.
 int rows_at_once(const RenderRequest& request);
 
-/// Does what render_picture() does, band by band.
+/// Renders as render_picture() does, but band by band.
 PictureOutcome render_poster(Renderer& renderer, const RenderRequest& request,
                              const std::filesystem::path& path, RowsFile& kept, const RowCosts& costs,
                              const Progress& progress);

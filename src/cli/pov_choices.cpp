@@ -12,7 +12,7 @@ namespace {
 struct FileType {
   char letter; // lower case
   std::string_view name;
-  bool has_bits; // 8 or 16 a channel
+  bool has_bits; // 8 or 16 bits per channel
 };
 
 constexpr FileType kFileTypes[] = {
@@ -53,7 +53,7 @@ std::string_view file_type_name(char letter) {
 }
 
 std::vector<std::string> FileChoice::options() const {
-  constexpr int kDefaultQuality = 2; // of JPEG, below
+  constexpr int kDefaultQuality = 2; // lower values choose JPEG's default quality
   Options options;
   const FileType* const file_type = find_file_type(type == 0 ? 'n' : type);
   if (bits && file_type->has_bits && !is_grey) add(options, "--bits", *bits > 8 ? "16" : "8");

@@ -1,4 +1,4 @@
-// Switches and settings that depend on each other: what they mean is known when all are read.
+// Switches and settings that depend on each other, so that their meaning is known when all are read.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace celltrace::cli {
 
-/// Antialiasing; the defaults are POV-Ray's.
+/// The settings of antialiasing; the defaults are POV-Ray's.
 struct SamplingChoice {
   bool is_on = false, jitters = true;
   double threshold = 0.3, jitter = 1;
@@ -19,24 +19,25 @@ struct SamplingChoice {
   std::vector<std::string> options() const;
 };
 
-/// The file of the picture.
+/// The settings of the picture's file.
 struct FileChoice {
-  char type = 0; ///< a letter of POV-Ray's; 0: none was named
+  char type = 0; ///< POV-Ray's letter; 0: none was given
   bool is_grey = false;
-  std::optional<double> bits;  ///< a channel
+  std::optional<double> bits;  ///< per channel
   std::optional<double> gamma; ///< none: sRGB
   double compression = 0;
 
-  /// Returns celltrace's options, but for the type.
+  /// Returns celltrace's options, without the type.
   std::vector<std::string> options() const;
 };
 
-/// Returns celltrace's name of a file type that POV-Ray has a letter for, in either case. Empty: it has none.
+/// Returns celltrace's name of the file type with this POV-Ray letter, in either case; empty if there is
+/// none.
 std::string_view file_type_name(char letter);
 
-/// Kinds of messages that are not printed, and files that get some.
+/// The kinds of messages that are not printed, and files that get messages.
 struct MessageChoice {
-  std::map<std::string, bool, std::less<>> printed;      ///< kinds that something was said of
+  std::map<std::string, bool, std::less<>> printed;      ///< kinds that were switched on or off
   std::map<std::string, std::string, std::less<>> files; ///< by kind
   bool appends = false;
 

@@ -40,7 +40,7 @@ public:
   }
 
 private:
-  /// False at the end, or at a comment.
+  /// Skips blanks. Returns false at the end, or at a comment.
   bool skip_blanks() {
     while (!rest_.empty() && is_blank(rest_[0]))
       rest_.remove_prefix(1);
@@ -78,14 +78,14 @@ private:
     rest_.remove_prefix(rest_.find('=') + 1);
     while (!rest_.empty() && is_blank(rest_[0]))
       rest_.remove_prefix(1);
-    // A command of the shell has words that look like switches.
+    // Keeps the rest of the line together: a shell command contains words that look like switches.
     ends_the_line_ = in_file_ || (entry.setting && entry.setting->action == Action::never_run);
     take_value(entry, in_file_ || (entry.setting && takes_blanks(entry.setting->action)),
                entry.setting && entry.setting->action == Action::scene);
     return entry;
   }
 
-  /// Returns the length of the name that a setting at the front of a text has. 0: there is none.
+  /// Returns the length of a setting's name at the front of a text; 0 if there is none.
   static std::size_t setting_name(std::string_view text) {
     std::size_t length = 0, equals = 0;
     while (length < text.size() && is_name_letter(text[length]))
@@ -104,7 +104,7 @@ private:
     }
   }
 
-  /// Reads what is in quotes. One that is not closed reaches to the end of an argument.
+  /// Reads a quoted text. Without a closing quote it reaches to the end of the argument.
   std::string quoted() {
     const char quote = rest_[0];
     rest_.remove_prefix(1);
@@ -119,7 +119,7 @@ private:
     return text;
   }
 
-  /// Reads a word, or more.
+  /// Reads a word or, with blanks, several.
   std::string words(bool with_blanks, bool is_scene) {
     std::size_t length = word_length(rest_);
     while (with_blanks) {
@@ -136,7 +136,7 @@ private:
     return text;
   }
 
-  /// Up to a blank or a comment, unless it is in quotes that are closed.
+  /// Returns the length up to a blank or a comment outside of closed quotes.
   std::size_t word_length(std::string_view text) const {
     std::size_t length = 0;
     for (; length < text.size() && !is_blank(text[length]) && !is_comment(text[length]); ++length)
@@ -147,7 +147,7 @@ private:
     return length;
   }
 
-  /// Whether the name `before` does not go on with the words `more`.
+  /// Returns whether the name `before` ends in front of the words `more`.
   static bool ends_before(std::string_view more, std::string_view before, bool is_scene) {
     if (begins_entry(more)) return true;
     if (is_scene) return has_pov_extension(before);

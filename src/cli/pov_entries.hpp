@@ -11,28 +11,28 @@ namespace celltrace::cli {
 
 struct PovEntry {
   enum class Kind {
-    option, ///< +W640: a switch
+    option, ///< a switch: +W640
     setting,
     file ///< the name of a scene or an INI file
   };
 
   Kind kind;
   std::string text = {};               ///< as written, for messages
-  const PovSetting* setting = nullptr; ///< null: there is no such switch or setting; or a file
+  const PovSetting* setting = nullptr; ///< null for a file, and for an unknown switch or setting
   bool plus = false;                   ///< the sign of a switch
   std::string value = {};              ///< without quotes around it
-  bool in_quotes = false;              ///< the value was
-  std::string left_out = {};           ///< behind the value in quotes on a line of a file
+  bool in_quotes = false;              ///< the value was quoted
+  std::string left_out = {};           ///< rest of a file's line after a quoted value
 };
 
-/// Splits one argument. A value ends at a blank, but a name of a file or a folder goes on until something
+/// Splits one argument. A value ends at a blank, but the name of a file or a folder continues until something
 /// else begins: the shell's quotes, which held the argument together, are gone. Quotes of both kinds hold
-/// together what is in them. Throws InputError for letters right behind a closing quote.
+/// their contents together. Throws InputError for letters right after a closing quote.
 std::vector<PovEntry> split_argument(std::string_view argument);
 
-/// Splits one line of an INI file. A value of a setting, and the name of a file, reach to the end of the line
-/// or to a comment, which begins with ; or #. What stands behind a value in quotes is left out. Throws
-/// InputError for quotes that are not closed.
+/// Splits one line of an INI file. The value of a setting, and the name of a file, reach to the end of the
+/// line or to a comment, which begins with ; or #. Text after a quoted value is ignored. Throws InputError
+/// for quotes that are not closed.
 std::vector<PovEntry> split_ini_line(std::string_view line);
 
 } // namespace celltrace::cli

@@ -1,4 +1,4 @@
-// PovTranslation: POV-Ray's streams of messages.
+// PovTranslation: POV-Ray's text streams.
 #include <algorithm>
 #include <iterator>
 #include <utility>

@@ -20,7 +20,7 @@ std::size_t sign_length(std::string_view text) {
 }
 
 FrontNumber front_number(std::string_view text, std::size_t length) {
-  const std::string digits(text.substr(0, length)); // strtod() needs a 0 at the end
+  const std::string digits(text.substr(0, length)); // strtod() needs a NUL at the end
   return {std::strtod(digits.c_str(), nullptr), trimmed(text.substr(length))};
 }
 

@@ -10,17 +10,18 @@ namespace celltrace::cli {
 /// A number at the front of a text.
 struct FrontNumber {
   double value;
-  std::string_view rest; ///< behind the number; blanks around it are left out
+  std::string_view rest; ///< text after the number, without leading blanks
 };
 
-/// Reads a whole number: blanks, a sign, decimal digits, whatever follows. None: no digit is there.
+/// Reads an integer: blanks, a sign and decimal digits; any text may follow. Returns nothing if there is no
+/// digit.
 std::optional<FrontNumber> read_whole(std::string_view text);
 
-/// Reads a number as strtod() does in the C locale, but for words such as "inf": with a fraction, an exponent
-/// or hexadecimal digits. One that is too large is infinite. None: no number is there.
+/// Reads a number as strtod() does in the C locale, except words such as "inf": with a fraction, an exponent
+/// or hexadecimal digits. A number that is too large becomes infinite. Returns nothing if there is no number.
 std::optional<FrontNumber> read_real(std::string_view text);
 
-/// Returns the shortest text that is read as the same number.
+/// Returns the shortest text that reads as the same number.
 std::string number_text(double value);
 
 } // namespace celltrace::cli

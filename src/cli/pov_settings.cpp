@@ -10,7 +10,7 @@ namespace celltrace::cli {
 
 namespace {
 
-constexpr double kMostRegion = 1e9; // pixels
+constexpr double kMostRegion = 1e9; // in pixels
 
 constexpr PovSetting kSettings[] = {
     {"I", "input_file_name", Action::scene},

@@ -27,7 +27,7 @@ bool has_extension(const std::string& file) {
   return path.has_extension() || !path.has_filename();
 }
 
-/// A name of an INI file, and of one of its sections.
+/// The name of an INI file, and of one of its sections.
 struct IniName {
   explicit IniName(const std::string& text) : file(text) {
     const std::size_t bracket = text.find('[');
@@ -50,15 +50,15 @@ public:
 
   void argument(const std::string& text) {
     if (is_own_option(text) || text.empty()) return out_.pass(text);
-    // Blanks are part of the name of a file that is there.
+    // A name with blanks is a single file if there is such a file.
     if (text.find(' ') != text.npos && files_.exists(text)) return file(text);
     for (const PovEntry& entry : split_argument(text))
       apply(entry);
   }
 
-  /// Takes note of a folder of -L.
+  /// Adds a folder of -L.
   void folder(const std::string& name) { folders_.push_back(name); }
-  /// Takes note of the value of -o.
+  /// Records the value of -o.
   void output(const std::string& name) {
     std::error_code ignored;
     output_is_folder_ = ends_with(name, "/") || std::filesystem::is_directory(name, ignored);
@@ -67,7 +67,7 @@ public:
   Translation take() {
     if (!scene_) return out_.take();
     if (output_is_folder_ && plain_scenes_.size() > 1) {
-      // Many pictures have room there. Without a folder the last name counts, as in POV-Ray.
+      // A folder has room for many pictures. Without a folder the last name counts, as in POV-Ray.
       out_.fill(scene_place_, plain_scenes_.front());
       std::for_each(plain_scenes_.begin() + 1, plain_scenes_.end(),
                     [this](const auto& name) { out_.pass(name); });
@@ -76,7 +76,7 @@ public:
     if (plain_scenes_.size() > 1)
       out_.note("of " + std::to_string(plain_scenes_.size()) + " scenes the last one is rendered, " +
                 shown(*scene_) + "; -o DIR/ renders each");
-    // A name without an extension is one with .pov before it is one without.
+    // A name without an extension is first tried with .pov, then without.
     std::string name = *scene_;
     if (std::error_code ignored; std::filesystem::is_directory(name, ignored))
       while (name.size() > 1 && name.back() == '/')
@@ -86,7 +86,7 @@ public:
         has_extension(name) ? Names{name, full_name, dos_name} : Names{full_name, dos_name, name};
     std::optional<std::string> file = found_here(names);
     if (!file && (file = found_in_folders(names)) && !out_.has_any_option({"-o", "--output", "--pov-output"}))
-      out_.option("--pov-output", "./"); // as POV-Ray's, the picture does not go into a library folder
+      out_.option("--pov-output", "./"); // as in POV-Ray, the picture does not go into a library folder
     std::error_code ignored;
     const bool is_complete = has_extension(name) || std::filesystem::is_directory(name, ignored);
     out_.fill(scene_place_, file.value_or(is_complete ? name : full_name));
@@ -94,7 +94,7 @@ public:
   }
 
 private:
-  /// INI files that are open at once.
+  /// Limit on INI files that are open at once.
   static constexpr int kMostIniFiles = 16;
 
   void apply(const PovEntry& entry) {
@@ -129,7 +129,7 @@ private:
     }
   }
 
-  /// A scene, an INI file, or one of celltrace's own options.
+  /// Handles a scene, an INI file, or one of celltrace's own options.
   void file(const std::string& text) {
     if (is_own_option(text)) return out_.pass(text);
     const IniName name(text);
@@ -179,7 +179,7 @@ private:
 
   using Names = std::vector<std::string>;
 
-  /// Returns the first of these files that is there, in the current folder or in a library folder.
+  /// Returns the first of these files that exists, in the current folder or in a library folder.
   std::optional<std::string> found(const Names& names) const {
     const std::optional<std::string> file = found_here(names);
     return file ? file : found_in_folders(names);
@@ -199,11 +199,11 @@ private:
 
   const PovFiles& files_;
   PovTranslation out_;
-  std::vector<std::string> folders_; ///< of -L, so far
+  std::vector<std::string> folders_; ///< folders of -L so far
   std::optional<std::string> scene_;
   std::vector<std::string> plain_scenes_; ///< named without a switch or a setting
   bool output_is_folder_ = false;
-  std::size_t scene_place_ = 0; ///< among the arguments
+  std::size_t scene_place_ = 0; ///< index among the arguments
   int open_ini_files_ = 0;
 };
 

@@ -31,7 +31,7 @@ void check_name(const PovEntry& entry, const std::string& name) {
 } // namespace
 
 void PovTranslation::pass(const std::string& argument) {
-  values_.clear(); // the order counts between celltrace's own options and switches
+  values_.clear(); // celltrace's own options and switches count in their order
   arguments_.push_back(argument);
 }
 
@@ -66,7 +66,7 @@ Translation PovTranslation::take() {
   };
   std::pair<std::size_t, std::vector<std::string>> choices[] = {{sampling_at_, sampling_.options()},
                                                                 {file_at_, file_.options()}};
-  // From the back, so that positions stay what they are.
+  // Inserts from the back, so that earlier positions stay valid.
   std::sort(std::begin(choices), std::end(choices), std::greater<>());
   for (const auto& [at, options] : choices)
     insert(at, options);

@@ -1,4 +1,4 @@
-// Puts POV-Ray's switches and settings, one after the other, into celltrace's options.
+// Translates POV-Ray's switches and settings one by one into celltrace's options.
 #pragma once
 
 #include "cli/pov_choices.hpp"
@@ -15,29 +15,29 @@
 namespace celltrace::cli {
 
 struct Translation {
-  /// Command first ("render" where none was given), in the terms of command_line.hpp.
+  /// The arguments in the terms of command_line.hpp, the command first ("render" by default).
   std::vector<std::string> arguments;
-  /// One line for each switch that has no effect here and does no harm, or counts as something else.
+  /// Notes, one line for each switch that is ignored without harm, or replaced by something else.
   std::vector<std::string> notes;
 };
 
 class PovTranslation {
 public:
-  /// Takes over an argument as it is.
+  /// Appends an argument unchanged.
   void pass(const std::string& argument);
 
-  /// Translates an entry; of what is said more than once the last counts. It is none that names a scene, a
-  /// header, a folder or an INI file. Throws InputError for an entry that is unknown, lacks its value, or
-  /// changes the picture in a way that is not supported.
+  /// Translates an entry; the last of repeated ones counts. It may not name a scene, a header, a folder or an
+  /// INI file. Throws InputError for an entry that is unknown, lacks its value, or changes the picture in a
+  /// way that is not supported.
   void apply(const PovEntry& entry);
 
-  /// Puts an option's value in place of the one that this function gave it before.
+  /// Sets an option; replaces the value that an earlier call gave it.
   void option(std::string_view name, const std::string& value);
   /// Adds an option that may be repeated.
   void add_option(std::string_view name, const std::string& value);
   void note(const std::string& text) { notes_.push_back(text); }
 
-  /// Adds an argument that is to be filled in, and returns its place.
+  /// Appends an argument to be filled in later, and returns its index.
   std::size_t reserve();
   void fill(std::size_t place, const std::string& argument) { arguments_[place] = argument; }
 
@@ -60,13 +60,14 @@ private:
   bool on(const PovEntry& entry);
 
   std::vector<std::string> arguments_, notes_;
-  std::map<std::string, std::size_t, std::less<>> values_; ///< where those of options are in the arguments
+  std::map<std::string, std::size_t, std::less<>> values_; ///< index of each option among the arguments
   std::set<std::string, std::less<>> declared_;
   SamplingChoice sampling_;
   FileChoice file_;
   MessageChoice messages_;
   bool resumes_ = false;
-  std::size_t sampling_at_ = 0, file_at_ = 0; ///< in the arguments: the last entry of these choices
+  std::size_t sampling_at_ = 0,
+              file_at_ = 0; ///< indices of the last entry of each choice among the arguments
 };
 
 } // namespace celltrace::cli

@@ -48,7 +48,7 @@ bool stands_in_for_povray(std::string_view program, const std::vector<std::strin
 }
 
 std::optional<std::string> povray_information(const std::vector<std::string>& arguments) {
-  // Programs look for "POV-Ray" and "Version" with a number behind.
+  // Programs look for "POV-Ray" and "Version" with a number after it.
   const std::string name =
       std::string("celltrace ") + version() + " (understands POV-Ray 3.7 scenes)\nLanguage Version 3.7\n";
   for (const std::string& argument : arguments) {

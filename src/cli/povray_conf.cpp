@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Permissions of a system without POV-Ray.
+/// The permissions on a system without POV-Ray.
 constexpr std::string_view kDefaultConf = "[File I/O Security]\n"
                                           "restricted\n"
                                           "[Permitted Paths]\n"
@@ -40,7 +40,7 @@ constexpr SecurityName kSecurities[] = {{"none", FileSecurity::none},
                                         {"read-only", FileSecurity::read_only},
                                         {"restricted", FileSecurity::restricted}};
 
-/// A line without its comment, which a semicolon begins that is not in quotes.
+/// Returns a line without its comment, which begins with a semicolon outside of quotes.
 std::string_view without_comment(std::string_view line) {
   char quote = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -131,7 +131,7 @@ private:
     conf_.folders.push_back({canonical, known->with_folders_below, known->may_be_written});
   }
 
-  /// None, with a warning: the value names no folder, or none that is sure to be the one that is meant.
+  /// Returns a folder; nothing, after a warning, if the value names no folder, or an ambiguous one.
   std::optional<std::string> folder_of(std::string_view value) {
     if (!value.empty() && (value[0] == '"' || value[0] == '\'')) {
       const std::size_t end = value.find(value[0], 1);
@@ -143,12 +143,12 @@ private:
     }
     std::string folder(value);
     if (!expand(folder, "%INSTALLDIR%", places_.installation) || !expand(folder, "%HOME%", places_.home))
-      return std::nullopt; // a place that there is not
+      return std::nullopt; // refers to a place that does not exist
     if (folder.empty()) return refuse("the folder is missing");
     return folder;
   }
 
-  /// False: the folder needs a place that there is not.
+  /// Expands a word; returns false if the folder refers to a place that does not exist.
   static bool expand(std::string& folder, std::string_view word, const fs::path& place) {
     const std::size_t at = folder.find(word);
     if (at == folder.npos) return true;
@@ -173,7 +173,7 @@ private:
   int line_ = 0;
 };
 
-/// None: there is no such file.
+/// Returns the contents of a file; nothing if there is no such file.
 std::optional<PovrayConf> read_conf(const fs::path& file, const PovrayPlaces& places,
                                     std::vector<std::string>& warnings) {
   std::error_code error;

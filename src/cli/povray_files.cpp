@@ -14,7 +14,7 @@ std::string environment(const char* name) {
   return value == nullptr ? std::string() : value;
 }
 
-/// A folder can be opened, but not read.
+/// Returns whether a file can be read; a folder can be opened, but not read.
 bool can_be_read(const fs::path& file) {
   std::error_code ignored;
   return !fs::is_directory(file, ignored) && std::ifstream(file).is_open();

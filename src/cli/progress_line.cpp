@@ -34,7 +34,7 @@ void TimeToGo::learn(double fraction, double seconds) {
 std::optional<double> TimeToGo::at(double seconds) const {
   if (!end_) return std::nullopt;
   if (fraction_ >= 1) return 0;
-  // It is not over yet, whatever was guessed.
+  // The job is not over yet, whatever the estimate was.
   const double even = seconds * (1 - fraction_) / (fraction_ - *first_);
   return std::max(*end_ - seconds, even / 2);
 }

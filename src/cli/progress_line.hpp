@@ -1,4 +1,4 @@
-// How far a job is, in one line of a terminal.
+// Shows a job's progress in one line of a terminal.
 #pragma once
 
 #include <chrono>
@@ -9,27 +9,27 @@
 
 namespace celltrace::cli {
 
-/// Guesses when a job is done. Between two reports the time to go runs down with the clock, and a report
-/// moves it by a part of what it is off: jobs do not go on evenly.
+/// Estimates when a job is done. Between reports the remaining time runs down with the clock; a report
+/// corrects it by a part of its error, since jobs do not advance evenly.
 class TimeToGo {
 public:
-  /// Takes note of how much is done of the job, 0 to 1, after so many seconds. Where the first report is of
-  /// more than nothing, that was there before.
+  /// Records the fraction of the job, 0 to 1, that is done after this many seconds. If the first report is
+  /// above 0, that part was done before.
   void learn(double fraction, double seconds);
-  /// Returns seconds to go; none before a guess makes sense.
+  /// Returns the remaining seconds; nothing before there is a sensible estimate.
   std::optional<double> at(double seconds) const;
 
 private:
-  std::optional<double> first_; ///< fraction
-  double fraction_ = 0;         ///< last
-  std::optional<double> end_;   ///< seconds
+  std::optional<double> first_; ///< a fraction
+  double fraction_ = 0;         ///< last one reported
+  std::optional<double> end_;   ///< in seconds
 };
 
-/// The line's text: percent, time gone, and time to go.
+/// Returns the text of the line: percent, elapsed time and remaining time.
 std::string progress_text(double fraction, double seconds, std::optional<double> to_go);
 
-/// Rewrites its line at most ten times a second, from `delay` after its making on, and wipes it at the end.
-/// Writes nothing at all if not `visible`. `job` stands in front.
+/// Rewrites its line at most ten times a second, starting after `delay`, and erases it at the end. Writes
+/// nothing unless `visible`. The line begins with `job`.
 class ProgressLine {
 public:
   ProgressLine(std::ostream& out, bool visible, std::string job = {}, std::chrono::milliseconds delay = {});
@@ -38,9 +38,9 @@ public:
   ~ProgressLine();
 
   void update(double fraction);
-  /// What stands in front from now on.
+  /// Sets the beginning of the line.
   void set_job(std::string job) { job_ = std::move(job); }
-  /// Makes room for other text, until the next update.
+  /// Erases the line, until the next update.
   void wipe();
 
 private:
@@ -55,7 +55,6 @@ private:
   TimeToGo to_go_;
 };
 
-/// Whether stderr is a terminal.
 bool stderr_is_terminal();
 
 } // namespace celltrace::cli

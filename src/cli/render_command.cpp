@@ -26,7 +26,7 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Of a still picture, as POV-Ray numbers it.
+/// The frame number of a still picture, as in POV-Ray.
 constexpr int kStill = 0;
 
 ReadScene read_with_progress(const RenderRequest& request) {
@@ -42,17 +42,17 @@ ReadScene read_with_progress(const RenderRequest& request) {
       [&](double fraction) { line.update(fraction); });
 }
 
-/// A picture that was broken off before its scene was ready: it has the rows that are kept.
+/// Saves the kept rows of a picture that was stopped before its scene was ready.
 PictureOutcome save_kept(Renderer& renderer, const RenderRequest& request, const Scene& scene,
                          RowsFile& kept) {
   PartialPicture picture(request.options);
   picture.take(kept);
-  RenderStatistics statistics = renderer.render(scene).statistics; // which is broken off, too
+  RenderStatistics statistics = renderer.render(scene).statistics; // stopped at once, too
   if (!request.output.empty()) save_picture(request, request.output, picture, statistics);
   return {statistics, false, picture.missing_rows()};
 }
 
-/// Renders what is missing of the picture, and writes it. None: there is not a pixel of it.
+/// Renders the missing rows of the picture, and writes it. Returns nothing if no pixel is finished.
 std::optional<PictureOutcome> render_with_progress(const ReadScene& read, const RenderRequest& request,
                                                    RunReports& reports, PovReport& report, RowsFile& kept) {
   const bool visible = !request.quiet && stderr_is_terminal();
@@ -72,7 +72,7 @@ std::optional<PictureOutcome> render_with_progress(const ReadScene& read, const 
   }
   RowCosts costs(height_of(options));
   std::optional<RenderStatistics> preparation;
-  if (visible && request.most_seconds == 0) // else there is no time to lose
+  if (visible && request.most_seconds == 0) // a time limit leaves no time for measuring
     costs = measured_costs(
         renderer, options, [](double) { return !interrupted(); }, preparation);
   ProgressLine line(std::cerr, visible);
@@ -93,14 +93,14 @@ void write_statistics(const std::string& where, const RenderStatistics& statisti
   write_report(where, json.dump(2) + "\n");
 }
 
-/// A still picture on its way from the scene file to its own file, and what an interrupted run left of it.
+/// A still picture from its scene file to its own file, continuing an interrupted run if there is one.
 class StillPicture {
 public:
   explicit StillPicture(const RenderRequest& request)
       : request_(request), state_(request.output, settings_of(request)),
         report_(std::cerr, report_parts(request, stderr_is_terminal())) {}
 
-  /// Loads what an earlier run left. Returns whether that finished the picture.
+  /// Loads the rows of an earlier run. Returns whether the picture is finished.
   bool resume() {
     state_.load();
     std::set<std::filesystem::path> files = state_.files();
@@ -114,7 +114,7 @@ public:
     read_ = read_with_progress(request_);
     return read_.scene && !interrupted();
   }
-  /// Renders and saves the picture. Returns whether there is a pixel of it.
+  /// Renders and saves the picture. Returns whether any pixel is finished.
   bool render() {
     interrupt_after(request_.most_seconds);
     if (!request_.resume) state_.remove();
@@ -133,7 +133,7 @@ public:
     if (outcome_ && outcome_->complete) forget_progress();
     return outcome_.has_value();
   }
-  /// Writes and prints what is to be known of the picture. Returns whether it is complete.
+  /// Writes and prints reports on the picture. Returns whether it is complete.
   bool report() {
     reports_->finish();
     const RenderStatistics& statistics = outcome_->statistics;
@@ -170,7 +170,7 @@ private:
   const RenderRequest& request_;
   ResumeState state_;
   PovReport report_;
-  std::optional<RunReports> reports_; ///< from render() on: a scene that cannot be read leaves none
+  std::optional<RunReports> reports_; ///< from render() on: a scene that cannot be read leaves no reports
   ReadScene read_;
   std::optional<PictureOutcome> outcome_;
 };

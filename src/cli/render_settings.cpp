@@ -65,7 +65,7 @@ Settings settings_of(const RenderRequest& request) {
     add("declare", name + '=' + value);
   for (const auto& folder : request.library_paths)
     add("library", std::filesystem::absolute(folder).string());
-  // A line for each.
+  // Each setting is one line.
   for (auto& [name, value] : settings)
     std::replace(value.begin(), value.end(), '\n', ' ');
   return settings;

@@ -1,4 +1,5 @@
-// Settings that the pixels of a request depend on: a run that goes on with another one's rows has the same.
+// The settings that the pixels of a request depend on: a run may continue with another one's rows if these
+// are equal.
 #pragma once
 
 #include "cli/command_line.hpp"

@@ -38,7 +38,6 @@ std::string name_of(const CacheConfig& shape) {
          policies[static_cast<unsigned>(shape.replacement)];
 }
 
-/// The sum over all traces of what `replay_one` finds.
 template <class ReplayOne> ReplayResult sum(const std::vector<CacheTrace>& traces, ReplayOne replay_one) {
   ReplayResult result;
   for (const CacheTrace& trace : traces)
@@ -46,7 +45,7 @@ template <class ReplayOne> ReplayResult sum(const std::vector<CacheTrace>& trace
   return result;
 }
 
-/// The optimal replacement, each shape once.
+/// The results of optimal replacement, computed once for each shape.
 class Limits {
 public:
   explicit Limits(const std::vector<CacheTrace>& traces) : traces_(traces) {}

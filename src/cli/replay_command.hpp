@@ -5,8 +5,8 @@
 
 namespace celltrace::cli {
 
-/// Prints a table, or JSON, of how caches of the shapes asked for would have done on a recorded trace, all
-/// SPEs together. Returns 0. Throws InputError for a trace that cannot be read.
+/// Prints a table, or JSON, of the hits of caches of the requested shapes on a recorded trace, for all SPEs
+/// together. Returns 0. Throws InputError for a trace that cannot be read.
 int run_replay(const ReplayRequest& request);
 
 } // namespace celltrace::cli

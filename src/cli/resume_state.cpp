@@ -26,7 +26,7 @@ std::string text_of(const Settings& settings) {
   return text + '\n';
 }
 
-/// Takes what text_of() wrote from the front. False: it is not all there.
+/// Reads from the front of a text what text_of() wrote. Returns false if it is not complete.
 bool take_settings(std::string_view& text, Settings& settings) {
   for (;;) {
     const std::size_t end = text.find('\n');
@@ -46,7 +46,7 @@ std::string value_of(const Settings& settings, const std::string& name) {
   return found == settings.end() ? "none" : found->second;
 }
 
-/// Throws InputError, naming the first difference.
+/// Throws InputError, naming the first difference, if settings differ.
 void check_same(const fs::path& path, const Settings& before, const Settings& now) {
   if (before == now) return;
   const auto [a, b] = std::mismatch(before.begin(), before.end(), now.begin(), now.end());
@@ -66,7 +66,7 @@ std::string read_all(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Complete lines "frame N BYTES". A line that is cut off was the last one.
+/// Returns the frames of complete lines "frame N BYTES". A line that is cut off is the last one.
 std::map<int, std::uintmax_t> frames_in(std::string_view text) {
   std::map<int, std::uintmax_t> frames;
   for (std::size_t end = 0; (end = text.find('\n')) != text.npos; text.remove_prefix(end + 1)) {

@@ -11,13 +11,13 @@ namespace celltrace::cli {
 
 namespace {
 
-/// Part of the picture's pixels that are worth the measurement. More tell no more.
+/// The share of the picture's pixels that is worth measuring. More pixels tell no more.
 constexpr double kShare = 0.002;
-/// Other programs may hold up one part, but hardly the same one each time.
+/// The number of measurements: other programs may delay a part, but hardly the same one each time.
 constexpr int kTimes = 2;
 constexpr int kFewestColumns = 4, kMostColumns = 16, kFewestParts = 6, kMostParts = 32;
 
-/// Returns what parts of the region of Renderer::kRowStep rows took.
+/// Returns the costs of the region's parts of Renderer::kRowStep rows.
 std::vector<double> parts_of(const PictureRegion& region, const std::vector<WorkRecord>& work) {
   std::vector<double> parts(static_cast<std::size_t>((region.bottom - region.top) / Renderer::kRowStep));
   for (const WorkRecord& record : work)
@@ -33,7 +33,7 @@ RowCosts::RowCosts(int height, const std::vector<double>& parts) : height_(heigh
   double sum = 0;
   for (const double part : parts)
     sum += part;
-  // Parts that took no time count a little, so that each row moves the share on.
+  // Parts that took no time count a little, so that each row advances the progress.
   const double least = sum > 0 ? 1e-3 * sum / static_cast<double>(parts.size()) : 1;
   sums_ = {0};
   for (const double part : parts)
@@ -68,7 +68,7 @@ RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const 
   const PictureRegion region = region_of(options);
   const int width = region.right - region.left, height = region.bottom - region.top;
   const RowCosts alike(height);
-  // The small picture of a narrow region would be a wide one.
+  // The small picture would not have the shape of a narrow region.
   const bool is_large_part = 4 * width >= options.width && 4 * height >= options.height;
   if (options.backend != Backend::native || options.model != Model::shared || !is_large_part) return alike;
   const double pixels = kShare * width * height, step = Renderer::kRowStep;
@@ -113,7 +113,7 @@ RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const 
     if (!least.empty())
       std::transform(costs.begin(), costs.end(), least.begin(), costs.begin(), std::plus<>());
   };
-  // With antialiasing the map is of the samples alone, which come on top of a ray a pixel.
+  // With antialiasing the work map has the samples alone, which are added to one ray per pixel.
   measure(std::nullopt);
   if (options.antialiasing && is_complete) measure(options.antialiasing);
   renderer.set_picture(options);

@@ -9,16 +9,15 @@
 
 namespace celltrace::cli {
 
-/// Appends finished rows to a file. If that cannot be written, there is one warning, and no more rows are
-/// kept: the picture matters more.
+/// Appends finished rows to a file. If that fails, it prints one warning and keeps no more rows: the picture
+/// matters more.
 class RowKeeper {
 public:
   explicit RowKeeper(RowsFile& file) : file_(file) {}
 
-  /// Appends the new rows of a picture in memory every ten seconds or so, or at once if there will be no
-  /// more.
+  /// Appends the new rows of a picture in memory every ten seconds or so; at once if it is the last call.
   void save(const PartialPicture& picture, bool at_once);
-  /// Calls append(file).
+  /// Calls append(file), unless that has failed before.
   template <class Append> void keep(Append append) {
     if (has_failed_) return;
     try {

@@ -142,7 +142,7 @@ void RowOutput::put_blank(int count) {
 void RowOutput::put(const PictureRows& rows) {
   if (region_.right - region_.left == request_.options.width) return write_rows(*writer_, rows);
   const int count = rows.colours.rgba.empty() ? rows.image.height : rows.colours.height;
-  // Margins stay as they are.
+  // Margins stay blank.
   PictureRows row = blank_;
   for (int y = 0; y < count; ++y) {
     copy_row(rows.image, y, row.image, region_.left);

@@ -17,17 +17,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kTitle = "celltrace rows 2\n";
-/// Limit of a head, whose settings and names of files take less.
+/// The largest head in bytes; settings and names of files take less.
 constexpr std::uint64_t kLongestHead = std::uint64_t{64} << 20;
 
-/// Header of each part in the file.
+/// The header of each part in the file.
 struct PartHead {
   std::int32_t top, bottom;
   std::uint64_t bytes, checksum;
-  std::uint64_t own_checksum; ///< of the members before
+  std::uint64_t own_checksum; ///< of the preceding members
 };
 
-/// Computes Fowler, Noll and Vo's FNV-1a, by words of 8 bytes.
+/// Returns the FNV-1a hash (Fowler, Noll, Vo), by words of 8 bytes.
 std::uint64_t checksum_of(std::string_view bytes) {
   constexpr std::uint64_t kPrime = 0x100000001B3;
   std::uint64_t hash = 0xCBF29CE484222325;
@@ -48,7 +48,7 @@ bool read_exactly(std::FILE* file, void* to, std::size_t bytes) {
   return std::fread(to, 1, bytes, file) == bytes;
 }
 
-/// Reads the head of a file that is at its beginning; leaves the position behind it.
+/// Reads the head of a file from its beginning; leaves the position after the head.
 std::optional<std::string> read_head(std::FILE* file) {
   char title[kTitle.size()];
   std::uint64_t size = 0, checksum = 0;

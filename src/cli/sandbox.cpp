@@ -32,12 +32,12 @@ void add_existing(std::vector<fs::path>& to, const fs::path& path) {
   if (fs::exists(known, ignored)) to.push_back(known);
 }
 
-/// A file that is to take its name when it is finished needs its folder; a stream does not.
+/// Adds the folder of an output: a file that gets its name at the end needs its folder; a stream does not.
 void add_output(std::vector<fs::path>& to, const fs::path& path) {
   if (path.empty() || path == "-") return;
   if (image::is_stream(path)) return add_existing(to, path);
   std::error_code error;
-  const fs::path target = fs::weakly_canonical(path, error); // through links
+  const fs::path target = fs::weakly_canonical(path, error); // resolves links
   add_existing(to, error ? path.parent_path() : target.parent_path());
 }
 
@@ -76,7 +76,7 @@ namespace {
   throw Error("--sandbox: " + what + ": " + std::generic_category().message(error));
 }
 
-/// Landlock's interface, by its number: headers may be older than the kernel.
+/// Landlock's system calls, by number: headers may be older than the kernel.
 namespace landlock {
 
 struct Ruleset {
@@ -88,7 +88,8 @@ struct __attribute__((packed)) PathRule {
 };
 constexpr std::uint64_t kExecute = 1 << 0, kWriteFile = 1 << 1, kReadFile = 1 << 2, kReadFolder = 1 << 3,
                         kRemoveFile = 1 << 5, kMakeFile = 1 << 8, kTruncate = 1 << 14;
-/// The accesses that are denied unless a rule allows them: all that each version of the interface knows.
+/// The accesses that are denied unless a rule allows them, by version of the interface: all that the version
+/// knows.
 constexpr std::uint64_t kFiles[] = {(1 << 13) - 1, (1 << 14) - 1, (1 << 15) - 1, (1 << 15) - 1,
                                     (1 << 16) - 1};
 constexpr std::uint64_t kBindAndConnect = 3, kScopes = 3;
@@ -132,7 +133,7 @@ void restrict_files(const SandboxFiles& files) {
 
 } // namespace landlock
 
-/// Calls that start processes, reach others or the network, or change what the system is.
+/// System calls that start processes, reach other processes or the network, or change the system.
 constexpr const char* kDenied[] = {"execve",
                                    "execveat",
                                    "fork",
@@ -186,8 +187,8 @@ void restrict_calls() {
   };
   for (const char* name : kDenied)
     add(SCMP_ACT_ERRNO(EPERM), seccomp_syscall_resolve_name(name), 0, {});
-  // Threads alone. The flags of clone3 lie in memory, where no filter looks: without it, libraries take
-  // clone.
+  // Allows clone() for threads only. The flags of clone3() are in memory, which filters cannot read: without
+  // clone3(), libraries use clone().
   const scmp_arg_cmp makes_a_process = {0, SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0};
   add(SCMP_ACT_ERRNO(EPERM), seccomp_syscall_resolve_name("clone"), 1, makes_a_process);
   add(SCMP_ACT_ERRNO(ENOSYS), seccomp_syscall_resolve_name("clone3"), 0, {});
@@ -199,7 +200,7 @@ void restrict_calls() {
 } // namespace
 
 void enter_sandbox(const SandboxFiles& files) {
-  tzset(); // reads a file
+  tzset(); // reads a file now
   landlock::restrict_files(files);
   restrict_calls();
 }

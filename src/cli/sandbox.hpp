@@ -1,4 +1,4 @@
-// Limits of the process while it reads and renders a scene that nobody trusts (`--sandbox`).
+// Restricts the process while it reads and renders an untrusted scene (`--sandbox`).
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -8,18 +8,18 @@
 
 namespace celltrace::cli {
 
-/// Files and folders with all below them.
+/// Files, and folders with everything below them.
 struct SandboxFiles {
   std::vector<std::filesystem::path> readable, writable;
 };
 
-/// Returns what a render needs: the scene's folder, the folders of its options and those of POV-Ray's include
-/// files to read, and the folders of its outputs and `--allow-write` to write.
+/// Returns the files that a render needs: for reading, the scene's folder, the folders of its options and
+/// those of POV-Ray's include files; for writing, the folders of its outputs and of `--allow-write`.
 SandboxFiles sandbox_files(const RenderRequest& request);
 
-/// From now on this thread, and those that it starts, can open these files alone, and start no process and
-/// open no socket. What is open stays open. Throws Error where the kernel (Landlock, seccomp) or the build
-/// (libseccomp) cannot do all of that.
+/// Restricts this thread, and the threads that it starts, to these files from now on; they can start no
+/// process and open no socket. Open files stay open. Throws Error if the kernel (Landlock, seccomp) or the
+/// build (libseccomp) cannot enforce all of that.
 void enter_sandbox(const SandboxFiles& files);
 
 } // namespace celltrace::cli

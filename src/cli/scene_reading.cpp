@@ -40,7 +40,7 @@ ParseOptions parse_options(const RenderRequest& request, int frame) {
 
 namespace {
 
-/// Permits what POV-Ray does. Adds the files that the scene then may write to `written`.
+/// Permits what POV-Ray does. Adds the files that the scene may write to `written`.
 void permit(ParseOptions& options, std::set<std::filesystem::path>& written) {
   std::vector<std::string> warnings;
   permit_as_povray(options, povray_places(), warnings);
@@ -70,7 +70,7 @@ ReadScene read_scene(const RenderRequest& request, int frame,
   std::set<std::filesystem::path> written;
   if (request.stands_in_for_povray) permit(options, written);
   options.reads_file = [&](const std::filesystem::path& path) {
-    // What a scene writes itself, it writes anew.
+    // Skips files that the scene itself writes: it writes them anew.
     if (!request.writable_folders.empty() && !read.files.empty()) return;
     std::error_code error;
     if (!written.empty() && written.count(std::filesystem::canonical(path, error)) != 0) return;

@@ -1,4 +1,4 @@
-// Reads a scene as a request to render it says.
+// Reads the scene of a render request.
 #pragma once
 
 #include "celltrace/pov.hpp"
@@ -11,17 +11,17 @@
 
 namespace celltrace::cli {
 
-/// What a request says of reading its scene. `frame`: of the animation, if there is one.
+/// Returns the options for reading a request's scene. `frame` is a frame of the animation, if there is one.
 ParseOptions parse_options(const RenderRequest& request, int frame);
 
 struct ReadScene {
-  std::optional<Scene> scene; ///< none: the user interrupted it
-  Settings files;             ///< that it was read from, with their stamps
+  std::optional<Scene> scene; ///< nothing if the user interrupted the reading
+  Settings files;             ///< files that it was read from, with their stamps
   double seconds = 0;
 };
 
-/// `frame` as for parse_options(). `message` and `progress` are those of ParseOptions, but that
-/// the latter need not look for interrupts. Throws what load_scene() throws.
+/// Reads the scene of a frame, see parse_options(). `message` and `progress` are those of ParseOptions, but
+/// `progress` need not check for interrupts. Throws the exceptions of load_scene().
 ReadScene read_scene(const RenderRequest& request, int frame,
                      const std::function<void(std::string_view)>& message,
                      const std::function<void(double fraction)>& progress);

@@ -43,13 +43,13 @@ Bytes read_program(const std::filesystem::path& path) {
   return elf;
 }
 
-/// Passes an interrupt by the user on to who asks for a stop token.
+/// Forwards an interrupt by the user to code that takes a stop token.
 class InterruptWatch {
 public:
   InterruptWatch() {
     catch_interrupts();
     thread_ = std::jthread([this](const std::stop_token& over) {
-      // A signal handler may not request a stop itself.
+      // Polls, since a signal handler may not request a stop itself.
       while (!over.stop_requested() && !interrupted())
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
       if (interrupted()) source_.request_stop();
@@ -66,7 +66,7 @@ auto writer_to(std::ostream& stream) {
   return [&stream](std::string_view piece) { stream << piece << std::flush; };
 }
 
-/// What there is to read now, but at least a byte before the end; a terminal gives a line.
+/// Returns the input that is available, at least one byte before the end; a terminal provides a line.
 std::string read_piece(int descriptor) {
   std::string piece(65536, '\0');
   ssize_t count = 0;
@@ -99,7 +99,7 @@ bool failed(const SimulatedRun& run) {
                      [](const std::string& error) { return !error.empty(); });
 }
 
-/// The errors that ended the run, each once: the error of an SPE that fails ends the others' too.
+/// Returns the errors that ended the run, each once: the error of one SPE also ends the others.
 std::vector<std::string> errors_of(const SimulatedRun& run) {
   std::vector<std::string> errors;
   for (const std::string& error : run.errors)
@@ -114,7 +114,7 @@ std::vector<std::string> errors_of(const SimulatedRun& run) {
   return firsts;
 }
 
-/// What stopped a program is among the errors.
+/// Prints warnings and errors; the diagnostic that stopped a program is among the errors.
 void print_messages(const SimulatedRun& run, bool quiet) {
   for (const Diagnostic& diagnostic : run.diagnostics)
     if (diagnostic.action == Action::warn && !quiet)
@@ -151,7 +151,7 @@ int run_spu(const SpuRequest& request) {
   const std::chrono::duration<double> seconds = Clock::now() - start;
   trace.finish();
   print_messages(run, request.quiet);
-  // A run that failed has cost something, too.
+  // A run that failed has statistics, too.
   if (!request.stats.empty())
     write_report(request.stats, spu_statistics(run, request.machine, seconds.count()));
   if (!request.profile.empty()) write_profile(request, profile, elf);

@@ -22,7 +22,7 @@ SpeStatistics sum_of(const std::vector<SpeStatistics>& spes) {
   return sum;
 }
 
-/// For all SPEs and for each of them.
+/// Returns the traffic of an SPE, or of all SPEs.
 nlohmann::ordered_json traffic_json(const SpeStatistics& spe) {
   return {{"dma",
            {{"commands", spe.dma_commands},

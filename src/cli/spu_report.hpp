@@ -1,4 +1,4 @@
-// What a run of a program for the SPU cost, as JSON.
+// The statistics of a run of a program for the SPU, as JSON.
 #pragma once
 
 #include "celltrace/simulator.hpp"
@@ -7,7 +7,7 @@
 
 namespace celltrace::cli {
 
-/// What docs/statistics.md describes. `seconds` is the host's time.
+/// Returns the JSON that docs/statistics.md describes. `seconds` is the host's time.
 std::string spu_statistics(const SimulatedRun& run, const MachineConfig& config, double seconds);
 
 } // namespace celltrace::cli

@@ -1,4 +1,4 @@
-// Messages about a file that a command needs and does not get.
+// Messages about a file that a command needs and cannot read.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -9,7 +9,7 @@
 
 namespace celltrace::cli {
 
-/// Returns the error for a file that could not be read, by the words that scenes and pictures have for it.
+/// Returns the error for a file that could not be read, in the words used for scenes and pictures.
 inline InputError unreadable(const std::filesystem::path& path) {
   std::error_code none;
   const std::filesystem::file_status status = std::filesystem::status(path, none);

@@ -19,16 +19,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file, whatever its name.
+/// The identity of a file, whatever its name.
 struct Identity {
   dev_t device = 0;
   ino_t file = 0;
-  fs::path path; ///< where the file is not there yet
+  fs::path path; ///< used if the file does not exist yet
 
   auto operator<=>(const Identity&) const = default;
 };
 
-/// Returns none for what any number of files may be: a device.
+/// Returns the identity; nothing for a device, which may stand for any number of files.
 std::optional<Identity> identity_of(const fs::path& path) {
   struct stat status;
   const bool is_there =
@@ -43,10 +43,10 @@ struct UsedFile {
   fs::path path;
 };
 
-/// Files by their identities.
+/// A set of files by identity.
 class UsedFiles {
 public:
-  /// Returns the file that is the same as this one, which is then not added; none: it is new.
+  /// Adds a file. Returns the file with the same identity if there is one already, which is kept instead.
   std::optional<UsedFile> add(const std::string& what, const fs::path& path) {
     const auto identity = identity_of(path);
     if (!identity) return {};

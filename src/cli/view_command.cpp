@@ -7,7 +7,7 @@
 namespace celltrace::cli {
 
 int run_view(const ViewRequest& request) {
-  // A scene that is wrong may be mended while its window is open; of a name that is wrong nothing comes.
+  // A scene with errors may be corrected while its window is open; a wrong name may not.
   std::error_code none;
   const std::filesystem::path& scene = request.render.scene;
   if (!std::filesystem::exists(scene, none) || std::filesystem::is_directory(scene, none))

@@ -5,7 +5,8 @@
 
 namespace celltrace::cli {
 
-/// Returns the exit code. Throws InputError if this build has no windows, else as viewer::view() does.
+/// Runs the window. Returns the exit code. Throws InputError if this build has no windows, else as
+/// viewer::view() does.
 int run_view(const ViewRequest& request);
 
 } // namespace celltrace::cli

@@ -1,5 +1,5 @@
 // The tree of boxes that POV-Ray puts around a scene's objects: it decides which of two surfaces at one place
-// is seen, as the first one counts that is tested there.
+// is visible, namely the one tested first.
 #pragma once
 
 #include "geometry/extent.hpp"
@@ -10,18 +10,20 @@
 
 namespace celltrace {
 
-/// Built as POV-Ray builds it, in its order and precision. Thread safety: as a standard container.
+/// A tree that is built as POV-Ray builds it, in the same order and precision. Thread safety: as a standard
+/// container.
 class BoundingTree {
 public:
-  /// Of objects in the order of the scene. `lights`: those of the scene, which are objects there, too.
+  /// Builds the tree of objects in the order of the scene. `lights` is the number of lights, which count as
+  /// objects, too.
   BoundingTree(const std::vector<Extent>& objects, std::size_t lights);
 
-  /// Whether a ray that hits both objects at the same distance is tested for `a` first, if nothing else is in
-  /// its way.
+  /// Returns whether a ray that hits both objects at the same distance is tested for `a` first, if no other
+  /// object lies before them.
   bool tests_first(std::size_t a, std::size_t b, const geometry::Ray& ray) const;
 
-  /// Where an object is among the leaves, from left to right: of two that rays reach at the same distance the
-  /// one of lower rank is mostly tested first.
+  /// Returns the index of an object's leaf, from left to right: of two objects that a ray reaches at the same
+  /// distance, the one of lower rank is mostly tested first.
   std::size_t rank(std::size_t object) const { return ranks_[object]; }
 
 private:
@@ -30,8 +32,8 @@ private:
   };
   struct Node {
     Box box;
-    std::size_t object = 0;            ///< of a leaf
-    std::vector<std::size_t> children; ///< none: a leaf
+    std::size_t object = 0;            ///< leaves only
+    std::vector<std::size_t> children; ///< empty for a leaf
   };
 
   void build(std::vector<std::size_t>& nodes);
@@ -42,7 +44,7 @@ private:
   std::vector<Node> nodes_;        ///< the last one is the root
   std::vector<std::size_t> ranks_; ///< by object
   std::vector<bool> is_infinite_;
-  bool is_list_; ///< of so few objects that there is no tree
+  bool is_list_; ///< so few objects that there is no tree
 };
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// The boxes that POV-Ray keeps around objects, as scenes ask for them.
+// The boxes that POV-Ray keeps around objects, and that scenes can query.
 #pragma once
 
 #include "celltrace/transform.hpp"
@@ -7,21 +7,20 @@
 
 namespace celltrace {
 
-/// Not always the tightest box: 1e10 to all sides where there is none.
+/// A bounding box, not always the tightest one: infinite bounds are 1e10 in all directions.
 struct Extent {
   Vec3 min{0, 0, 0}, max{0, 0, 0};
 
   static Extent everywhere();
-  /// At least one point.
+  /// Returns the box around points, at least one.
   static Extent around(const std::vector<Vec3>& points);
 
   bool is_everywhere() const;
   double volume() const;
-  /// Around the box as it is then.
   Extent moved(const Transform& transform) const;
-  /// What is in both, or nothing wide where nothing is.
+  /// Returns the intersection, or an empty box.
   Extent common(const Extent& other) const;
-  /// Around both.
+  /// Returns a box around both boxes.
   Extent joined(const Extent& other) const;
 };
 

@@ -1,5 +1,5 @@
-// From graphs to programs: which values are needed, which operations become one step, and which register each
-// value is in.
+// Compiles graphs to programs: finds the values that are needed, the operations that become one step, and a
+// register for each value.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -17,21 +17,22 @@ using Register = std::uint16_t;
 
 constexpr std::size_t kMostRegisters = std::numeric_limits<Register>::max();
 
-/// One step's operation and what it reads.
+/// The operation of a step, and the values that it reads.
 struct Plan {
   FunctionOp op = FunctionOp::copy;
   unsigned count = 0;
   FunctionValue operands[4] = {};
 };
 
-/// Whether steps can do this operation and another one at once.
+/// Returns whether a step can do this operation together with another one.
 bool is_fusible(FunctionOp op) {
   return op == FunctionOp::add || op == FunctionOp::subtract || op == FunctionOp::multiply;
 }
 
-/// The step for `second` of the result of `first`: its left operand or, if `is_right`, its right one.
+/// Returns the fused operation that applies `second` to the result of `first`, as its left operand or, if
+/// `is_right`, its right one.
 FunctionOp fused(FunctionOp first, FunctionOp second, bool is_right) {
-  // In the order of CELLTRACE_FUSED_OPERATIONS.
+  // Numbers follow the order of CELLTRACE_FUSED_OPERATIONS.
   const auto number = [](FunctionOp op) {
     return op == FunctionOp::add ? 0u : op == FunctionOp::subtract ? 1u : 2u;
   };
@@ -65,7 +66,7 @@ public:
 private:
   // ---- Which values are needed ----
 
-  /// The value whose registers hold it: of a component, the call.
+  /// Returns the value whose registers hold this value: the call if it is a component of one.
   FunctionValue holder(FunctionValue value) const {
     const FunctionNode& node = graph_.nodes[value];
     return node.kind == Kind::component ? node.a : value;
@@ -118,14 +119,14 @@ private:
   // ---- Which operations become one step ----
 
   enum Inner : std::uint8_t {
-    left = 1,     ///< its left operand is part of its step
-    right = 2,    ///< its right one is
-    absorbed = 4, ///< it is part of another one's step
-    placed = 8    ///< its register is that of the select which it is a result of
+    left = 1,     ///< its left operand is computed in its step
+    right = 2,    ///< its right operand is computed in its step
+    absorbed = 4, ///< computed in another value's step
+    placed = 8    ///< shares the register of the select of which it is a result
   };
 
   bool is_step(FunctionValue value) const { return uses_[value] > 0 && (inner_[value] & absorbed) == 0; }
-  /// Whether a value may be part of the step that reads it, in a block.
+  /// Returns whether a value of a block can be computed in the step that reads it.
   bool is_absorbable(FunctionValue value, std::uint32_t block) const {
     const FunctionNode& node = graph_.nodes[value];
     return node.kind == Kind::operation && is_fusible(node.op) && uses_[value] == 1 && inner_[value] == 0 &&
@@ -137,7 +138,7 @@ private:
     const FunctionBlock& block = graph_.blocks[number];
     for (const FunctionValue value : block.values) {
       const FunctionNode& node = graph_.nodes[value];
-      home_[value] = number + 1; // nodes of no block have 0
+      home_[value] = number + 1; // nodes in no block stay 0
       if (node.kind == Kind::operation && is_fusible(node.op))
         fuse(value, node, number + 1);
       else if (node.kind == Kind::select)
@@ -181,7 +182,7 @@ private:
     const FunctionNode& node = graph_.nodes[inner];
     return {fused(node.op, op, is_right), 3, {node.a, node.b, other}};
   }
-  /// The step that adds what a loop's body gives to the loop's own value.
+  /// Returns the step that adds the result of a loop's body to the loop's own value.
   Plan plan_of_sum(FunctionValue loop) const {
     const FunctionNode& node = graph_.nodes[loop];
     const FunctionValue result = graph_.blocks[node.c].result;
@@ -191,7 +192,7 @@ private:
 
   // ---- How long values are needed ----
 
-  /// A loop that is being numbered.
+  /// A loop whose steps are being numbered.
   struct Loop {
     std::uint32_t start;
     std::vector<FunctionValue> used;
@@ -206,7 +207,7 @@ private:
     for (unsigned i = 0; i < plan.count; ++i)
       touch(plan.operands[i]);
   }
-  /// Gives each step a position, in the order of emit().
+  /// Gives each step of a block a position, in the order of emit().
   void number(const FunctionBlock& block) {
     for (const FunctionValue value : block.values) {
       if (!is_step(value)) continue;
@@ -253,7 +254,7 @@ private:
     touch(plan_of_sum(value));
     touch(node.b);
     touch(block.counter);
-    // Whatever the body reads from outside is needed until the last turn.
+    // Values that the body reads from outside are needed until the last iteration.
     Loop loop = std::move(loops_.back());
     loops_.pop_back();
     for (const FunctionValue used : loop.used)
@@ -275,7 +276,7 @@ private:
       program_.constants.push_back(graph_.constants[graph_.nodes[value].a]);
     }
   }
-  /// Sorts the values that get registers for a time by when they are needed last.
+  /// Sorts the values that need registers for a time by their last use.
   void find_expiries() {
     for (FunctionValue value = 0; value < graph_.nodes.size(); ++value) {
       const Kind kind = graph_.nodes[value].kind;
@@ -295,7 +296,7 @@ private:
     next_ += count;
     return static_cast<Register>(next_ - count);
   }
-  /// The register of a value, which it gets here unless a select has given it its own.
+  /// Returns the register of a value, which gets a new one unless it shares a select's.
   Register new_register(FunctionValue value) {
     if ((inner_[value] & placed) == 0) register_[value] = take_register();
     return register_[value];
@@ -305,11 +306,11 @@ private:
     if (node.kind == Kind::component) return static_cast<Register>(register_[node.a] + node.b);
     return register_[value];
   }
-  /// Ends a position: what has been needed last is free.
+  /// Ends a position and frees the registers of values that were last used there.
   void advance() {
     for (; expired_ < expiries_.size() && last_use_[expiries_[expired_]] <= position_; ++expired_) {
       const FunctionValue value = expiries_[expired_];
-      if ((inner_[value] & placed) != 0) continue; // the register is its select's
+      if ((inner_[value] & placed) != 0) continue; // the register belongs to the select
       (results_of(value) > 1 ? free_groups_ : free_).push_back(register_[value]);
     }
     ++position_;
@@ -378,7 +379,7 @@ private:
     program_.steps[step].set_target(operands);
   }
 
-  /// Has the value that a branch ends with go to the select's register at once.
+  /// Makes a branch compute its result directly in the select's register.
   void place_result(FunctionValue value, std::uint32_t block, Register result) {
     if (home_[value] != block + 1 || !is_step(value) || results_of(value) > 1) return;
     register_[value] = result;

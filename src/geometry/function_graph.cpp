@@ -12,10 +12,10 @@ namespace {
 
 using Kind = FunctionNode::Kind;
 
-/// Larger functions are called, and functions that are larger by then call what they call.
+/// Larger functions are called instead of inlined, and a function that has become larger calls all others.
 constexpr std::size_t kMostInlinedValues = 128;
 constexpr std::size_t kMostValuesWithInlined = 2048;
-/// Branches that take no longer than a jump that a processor has not foreseen.
+/// The size of branches that take less time than a mispredicted jump.
 constexpr std::size_t kMostCheapValues = 3;
 
 bool is_cheap(FunctionOp op) {
@@ -74,7 +74,7 @@ FunctionBuilder::FunctionBuilder(std::uint32_t parameters) {
 }
 
 FunctionValue FunctionBuilder::constant(double number) {
-  // Constants are told apart by their bits: 0 and -0 are two.
+  // Constants are equal if their bits are: 0 and -0 differ.
   const auto bits = std::bit_cast<std::uint64_t>(number);
   const FunctionNode key{Kind::constant, FunctionOp::add, static_cast<std::uint32_t>(bits),
                          static_cast<std::uint32_t>(bits >> 32), 1};
@@ -98,7 +98,7 @@ FunctionValue FunctionBuilder::add(const FunctionNode& node, std::size_t level) 
   case Kind::loop:
     open_[level].block.values.push_back(value);
     break;
-  default: // which takes no step
+  default: // takes no step
     break;
   }
   return value;
@@ -113,8 +113,8 @@ FunctionValue FunctionBuilder::find_or_add(const FunctionNode& node, std::size_t
   return value;
 }
 
-/// Where a value belongs whose operands are of level `least` at the most: outside of the loops around, as far
-/// as it does not change in them.
+/// Returns the level for a value whose operands have at most level `least`: outside of all loops in which it
+/// does not change.
 std::size_t FunctionBuilder::outermost_level(std::size_t least) const {
   std::size_t result = level();
   while (open_[result].is_loop && least < result)
@@ -215,7 +215,7 @@ FunctionGraph FunctionBuilder::finish(FunctionValue result) {
   return std::move(graph_);
 }
 
-/// Adds what a function computes to what the builder has.
+/// Adds the graph of a function to the builder's.
 class FunctionBuilder::Inliner {
 public:
   Inliner(FunctionBuilder& builder, const FunctionGraph& graph, std::span<const FunctionValue> arguments)
@@ -282,7 +282,7 @@ private:
 
   FunctionBuilder& builder_;
   const FunctionGraph& graph_;
-  std::vector<FunctionValue> copies_; ///< by the graph's values
+  std::vector<FunctionValue> copies_; ///< by value of the function's graph
 };
 
 FunctionValue FunctionBuilder::call(const FunctionCallee& callee, std::span<const FunctionValue> arguments) {

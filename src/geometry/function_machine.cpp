@@ -10,22 +10,22 @@ namespace celltrace {
 
 namespace {
 
-/// Steps of one run.
+/// Limit on steps in one run.
 constexpr std::uint64_t kMostSteps = 1'000'000'000;
 
 constexpr std::size_t kMostMemoParameters = 8;
 constexpr std::size_t kFirstMemoSlots = 64, kMostMemoSlots = 4096;
-/// Bytes of all memos that have grown.
+/// The largest size in bytes of all memos that grow.
 constexpr std::uint64_t kMostMemoBytes = 64u << 20;
 
 } // namespace
 
-/// Values of a function by its arguments: a table in which each set of arguments has one place.
+/// Remembered values of a function, in a table in which each set of arguments has one slot.
 class FunctionMachine::Memo {
 public:
   explicit Memo(std::size_t parameters) : parameters_(parameters) {}
 
-  /// The value for the same bits; null: there is none.
+  /// Returns the value for the same bits of arguments; null if there is none.
   const double* find(const double* arguments, std::uint64_t epoch) {
     if (epoch != epoch_ || slots_ == 0) return nullptr;
     const std::size_t slot = slot_of(arguments);
@@ -92,7 +92,7 @@ FunctionCode::State& FunctionCode::state() const {
   return *state_;
 }
 
-/// Where a caller goes on.
+/// The place where a caller continues.
 struct FunctionMachine::Return {
   FunctionCode::State* caller;
   const FunctionStep* call;

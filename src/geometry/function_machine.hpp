@@ -1,4 +1,4 @@
-// The machine that runs function programs, and what it keeps for each function.
+// The machine that runs function programs, and the state that it keeps for each function.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace celltrace {
 
-/// A function, for others to inline or call, and for a machine to run. Its program is made when it is first
+/// A function that others can inline or call, and a machine can run. Its program is compiled at the first
 /// run. Belongs to one thread.
 class FunctionCode {
 public:
@@ -22,7 +22,7 @@ public:
 
 private:
   friend class FunctionMachine;
-  /// Program, registers and memo.
+  /// The function's program, registers and memo.
   struct State;
   State& state() const;
 
@@ -30,15 +30,15 @@ private:
   mutable std::unique_ptr<State> state_;
 };
 
-/// Runs one program at a time, without recursion: functions call only those that were declared before, so
-/// that each function needs one set of registers. What functions that are not inlined have given for recent
-/// arguments is not computed again.
+/// Runs one program at a time, without recursion: functions only call functions that were declared before, so
+/// that each function needs one set of registers. The results of functions that are not inlined are
+/// remembered for recent arguments.
 class FunctionMachine {
 public:
   FunctionMachine();
   ~FunctionMachine();
 
-  /// The function's value. Throws FunctionFault.
+  /// Returns the function's value. Throws FunctionFault.
   double run(const FunctionCode& function, const double* arguments, const FunctionContext& context);
 
 private:

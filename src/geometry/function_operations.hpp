@@ -1,5 +1,5 @@
-// What the operations of function programs give: POV-Ray's numbers, also where an operand is no number, is
-// infinite or lies outside of an operation's domain.
+// The operations of function programs, with POV-Ray's results also if an operand is NaN, infinite, or outside
+// of an operation's domain.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@ namespace celltrace {
 
 inline constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
 
-/// POV-Ray's int() and div() make an int of a number, as a PC does it: what is out of range, infinite or no
-/// number becomes the least one.
+/// Converts a number to an int, as POV-Ray's int() and div() do on a PC: numbers out of range, infinity and
+/// NaN become the least int.
 inline double to_int(double number) {
   constexpr double kBound = 2147483648.0;
   const double result = std::trunc(number);
@@ -102,8 +102,8 @@ inline double multiply(double a, double b) {
 inline double divide(double a, double b) {
   return a / b;
 }
-// Comparisons in functions are exact. As in POV-Ray, "greater" is "not less or equal", so that it holds where
-// an operand is no number.
+// Comparisons in functions are exact. As in POV-Ray, "greater" means "not less or equal", so that it is true
+// if an operand is NaN.
 inline double less(double a, double b) {
   return a < b ? 1 : 0;
 }
@@ -128,7 +128,7 @@ inline double both(double a, double b) {
 inline double either(double a, double b) {
   return a != 0 || b != 0 ? 1 : 0;
 }
-// Where an operand is no number, the first one is the maximum and the second one the minimum.
+// If an operand is NaN, the first operand is the maximum and the second one the minimum.
 inline double maximum(double a, double b) {
   return b > a ? b : a;
 }
@@ -157,13 +157,13 @@ inline double pick_zero(double a, double b, double c) {
 
 } // namespace operations
 
-/// How many operands an operation has that is neither fused nor of control.
+/// Returns the number of operands of an operation that is neither fused nor of control.
 inline unsigned operand_count(FunctionOp op) {
   if (op < FunctionOp::add) return 1;
   return op < FunctionOp::pick_negative ? 2 : 3;
 }
 
-/// The result of one that is neither fused nor of control.
+/// Returns the result of an operation that is neither fused nor of control.
 double result_of(FunctionOp op, double a, double b, double c);
 
 } // namespace celltrace

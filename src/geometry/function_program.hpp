@@ -1,5 +1,5 @@
-// A function of numbers as a flat program for a machine with registers. Data alone: a program knows neither
-// the parser nor the place in a scene where it was written.
+// A function of numbers as a flat program for a machine with registers. A program is plain data: it knows
+// neither the parser nor the place in a scene where it was written.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@ namespace celltrace {
 
 class FunctionCode;
 
-/// As many parameters as a function has at the most, which is POV-Ray's number.
+/// Limit on parameters of a function, which is POV-Ray's.
 inline constexpr std::size_t kMostParameters = 56;
 
-/// Operations of numbers, as lists for the compiler, the machine and whoever folds constants. Each gives the
-/// same bits everywhere that function_operations.hpp is compiled.
+/// Operations on numbers, as lists for the compiler, the machine and the folding of constants. Each gives the
+/// same bits wherever function_operations.hpp is compiled.
 #define CELLTRACE_UNARY_OPERATIONS(X)                                                                        \
   X(negate)                                                                                                  \
   X(invert)                                                                                                  \
@@ -63,8 +63,8 @@ inline constexpr std::size_t kMostParameters = 56;
 #define CELLTRACE_TERNARY_OPERATIONS(X)                                                                      \
   X(pick_negative)                                                                                           \
   X(pick_zero)
-/// Two operations in one step: X(first, second) is `second` of `first` of a and b, and of c. `subtract_from`
-/// takes the result of the first one away from c.
+/// Two operations in one step: X(first, second) applies `second` to c and the result of `first` for a and b.
+/// `subtract_from` subtracts that result from c.
 #define CELLTRACE_FUSED_OPERATIONS(X)                                                                        \
   X(add, add)                                                                                                \
   X(add, subtract)                                                                                           \
@@ -82,27 +82,28 @@ inline constexpr std::size_t kMostParameters = 56;
 enum class FunctionOp : std::uint16_t {
 #define CELLTRACE_NAME(name) name,
 #define CELLTRACE_FUSED_NAME(first, second) first##_##second,
-  // Those of function_operations.hpp; registers a, b, c -> result.
+  // Operations of function_operations.hpp; registers a, b, c -> result.
   CELLTRACE_UNARY_OPERATIONS(CELLTRACE_NAME) CELLTRACE_BINARY_OPERATIONS(CELLTRACE_NAME)
       CELLTRACE_TERNARY_OPERATIONS(CELLTRACE_NAME) CELLTRACE_FUSED_OPERATIONS(CELLTRACE_FUSED_NAME)
 #undef CELLTRACE_NAME
 #undef CELLTRACE_FUSED_NAME
-  // Products of a and b, and of c and d.
+  // Sum and difference of the products of a and b, and of c and d.
   sum_of_products,
   difference_of_products,
-  // Control; `target` is the number of a step.
+  // Control steps; `target` is the index of a step.
   copy,                 ///< a -> result
-  jump,                 ///< goes on at the target
-  jump_unless_negative, ///< goes on at the target unless a < 0
-  jump_unless_zero,     ///< goes on at the target unless a = 0
-  enter_loop,           ///< goes on at the target unless a <= b
-  repeat,               ///< adds 1 to a; goes on at the target if a <= b then
-  call_code,   ///< calls callees[a]; its arguments are in the registers of `operands` from the target on
-  call_native, ///< the same; its results go to `result` and the registers behind
-  finish,      ///< gives a
+  jump,                 ///< continues at the target
+  jump_unless_negative, ///< continues at the target unless a < 0
+  jump_unless_zero,     ///< continues at the target unless a = 0
+  enter_loop,           ///< continues at the target unless a <= b
+  repeat,               ///< adds 1 to a; continues at the target if a <= b then
+  call_code,   ///< calls callees[a]; its arguments are in the registers of `operands` from index target on
+  call_native, ///< calls a native function in this way; its results go to `result` and the following
+               ///< registers
+  finish,      ///< returns a
 };
 
-/// One step. Registers are numbered from 0; `target` is made of c and d.
+/// A step of a program. Registers are numbered from 0; `target` consists of c and d.
 struct FunctionStep {
   FunctionOp op;
   std::uint16_t result = 0, a = 0, b = 0, c = 0, d = 0;
@@ -114,27 +115,28 @@ struct FunctionStep {
   }
 };
 
-/// What functions depend on besides their arguments.
+/// The state that functions depend on besides their arguments.
 struct FunctionContext {
   int noise_generator = 2;
 
   bool operator==(const FunctionContext&) const = default;
 };
 
-/// Thrown where a function is evaluated that cannot be, or that takes too long.
+/// Thrown if a function cannot be evaluated, or takes too long.
 struct FunctionFault {
   std::string what;
 };
 
-/// A function that is no program: a spline, a pigment, or one of POV-Ray's own.
+/// A function without a program: a spline, a pigment, or a POV-Ray internal function.
 class NativeFunction {
 public:
   static constexpr std::size_t kMostResults = 5;
 
   virtual ~NativeFunction() = default;
 
-  /// Of so many parameters, so many numbers; the rest of `results`, of which there are kMostResults where
-  /// there is more than one, is 0. Gives the same for the same arguments and context. Throws FunctionFault.
+  /// Evaluates the function: reads as many arguments as it has parameters, and writes its results. If there
+  /// are several, `results` has kMostResults places, and those that are left become 0. Equal arguments and
+  /// context give equal results. Throws FunctionFault.
   virtual void evaluate(const double* arguments, const FunctionContext& context, double* results) const = 0;
 
   std::size_t parameters() const { return parameters_; }
@@ -152,9 +154,10 @@ using FunctionCallee =
 
 struct FunctionProgram {
   std::vector<FunctionStep> steps;
-  std::uint32_t parameters = 0;  ///< in the first registers, which no step writes to
-  std::vector<double> constants; ///< in the registers behind, likewise
-  std::uint32_t registers = 0;   ///< in all
+  std::uint32_t parameters =
+      0; ///< number of parameters, which are in the first registers; no step writes to them
+  std::vector<double> constants; ///< in the following registers; no step writes to them
+  std::uint32_t registers = 0;   ///< number of all registers
   std::vector<std::uint16_t> operands;
   std::vector<FunctionCallee> callees;
 };

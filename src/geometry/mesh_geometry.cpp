@@ -11,7 +11,8 @@ namespace celltrace::geometry {
 
 namespace {
 
-/// Where a ray crosses a triangle: at a corner + u of the way to the next + v of the way to the third.
+/// The place where a ray crosses a triangle: the first corner plus u times the side to the second and v times
+/// the side to the third.
 struct Place {
   double t, u, v;
 };

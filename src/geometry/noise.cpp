@@ -16,7 +16,7 @@ using kernel::noise::kHash;
 using kernel::noise::kLattice;
 using kernel::noise::kPeriod;
 
-/// Beyond, numbers of lattice points overflow in POV-Ray.
+/// The largest coordinate for which POV-Ray's lattice numbers do not overflow.
 constexpr double kFarthestInteger = 2147483647.0;
 
 double near_enough(double coordinate) {
@@ -26,8 +26,8 @@ double near_enough(double coordinate) {
 /// The cell around a point.
 struct Cell {
   std::uint32_t lattice[3][2];
-  double from[3][2];   ///< distance from the lattice planes below and above
-  double weight[3][2]; ///< of them
+  double from[3][2];   ///< distances from the lattice planes below and above
+  double weight[3][2]; ///< weights of these planes
 
   Cell(const Vec3& p, double offset, std::uint32_t period) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -44,14 +44,14 @@ struct Cell {
   }
 };
 
-/// Where in the table the numbers of a corner of the cell are.
+/// Returns the index in the table of the numbers at a corner of the cell.
 std::uint32_t place(const Cell& cell, int x, int y, int z) {
   const std::uint32_t in_row = kHash.entry[cell.lattice[0][x]];
   const std::uint32_t in_column = kHash.entry[in_row ^ cell.lattice[1][y]];
   return kHash.entry[in_column ^ cell.lattice[2][z]] & 255u;
 }
 
-/// kLattice has six significant digits; in double precision they are decimal.
+/// Returns a number of kLattice, which has six significant digits, rounded as a decimal in double precision.
 double table_value(std::uint32_t entry) {
   const double value = kLattice[entry];
   if (value == 0) return 0;
@@ -76,7 +76,7 @@ double corner(const Cell& cell, int x, int y, int z, std::uint32_t first) {
          (t[m] / 2 + t[m + 1] * cell.from[0][x] + t[m + 2] * cell.from[1][y] + t[m + 3] * cell.from[2][z]);
 }
 
-/// POV-Ray's orders of the corners, so that sums are the same to the last bit.
+/// The orders in which POV-Ray adds the corners, so that sums are equal to the last bit.
 constexpr int kScalarOrder[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
                                     {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
 constexpr int kVectorOrder[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},

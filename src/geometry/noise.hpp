@@ -1,15 +1,16 @@
-// POV-Ray's solid noise in double precision, on the host: what the language computes with it.
+// POV-Ray's solid noise in double precision on the host, for the scene language.
 #pragma once
 
 #include "celltrace/transform.hpp"
 
 namespace celltrace {
 
-/// Three coordinates, about 0.
+/// Returns noise with three components, distributed about 0.
 Vec3 noise_vector(const Vec3& p);
-/// Octaves of it, each `lambda` times finer and `omega` times weaker than the one before.
+/// Returns the sum of octaves of such noise, each `lambda` times finer and `omega` times weaker than the one
+/// before.
 Vec3 turbulence_vector(const Vec3& p, int octaves, double lambda, double omega);
-/// In 0..1. Generators 1 and 2 are POV-Ray's; number 3, its gradient noise, too.
+/// Returns noise from 0 to 1. Generators 1 and 2 are POV-Ray's, and so is generator 3, its gradient noise.
 double noise_value(const Vec3& p, int generator);
 
 } // namespace celltrace

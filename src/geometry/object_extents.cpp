@@ -30,7 +30,8 @@ Extent extent_of(const Csg& csg) {
     Extent extent;
     if (is_limited && plane != nullptr) {
       extent = geometry::half_space(*plane, part.transform, is_inverse);
-      if (!is_finite(extent)) continue; // its transformation is singular: it is refused elsewhere
+      if (!is_finite(extent))
+        continue; // skips objects with a singular transformation, which are rejected elsewhere
     } else if (is_limited && is_inverse) {
       continue;
     } else {
@@ -50,7 +51,7 @@ Extent extent_of(const Object& object, const Transform& around) {
   if (object.inverse) return Extent::everywhere();
   const Transform transform = object.transform.then(around);
   const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
-  // A CSG's box is placed with it, which may be larger than that of the parts as they are placed.
+  // POV-Ray transforms a CSG's box, which may become larger than the box around the transformed parts.
   return csg != nullptr ? extent_of(**csg).moved(transform) : geometry::extent_of(object.shape, transform);
 }
 

@@ -1,4 +1,4 @@
-// The boxes around objects of a scene, CSGs among them.
+// Boxes around objects of a scene, including CSGs.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -6,8 +6,8 @@
 
 namespace celltrace {
 
-/// POV-Ray's box around an object that is placed by `around`, everywhere around an inverse one. What clips it
-/// does not count.
+/// Returns POV-Ray's box around an object that is placed by `around`; infinite if the object is inverse.
+/// Objects that clip it are ignored.
 Extent extent_of(const Object& object, const Transform& around);
 
 } // namespace celltrace

@@ -19,7 +19,7 @@ namespace {
 class ShortRandom {
 public:
   explicit ShortRandom(std::uint32_t seed) : state_(seed) {}
-  /// 15 bits.
+  /// Returns 15 bits.
   std::uint32_t operator()() {
     state_ = state_ * 1812433253u + 12345u;
     return state_ >> 16 & 0x7FFF;
@@ -41,8 +41,8 @@ GradientTables make_gradient_tables() {
     } while (square > 1 || square == 0);
     gradient /= std::sqrt(square);
   }
-  // Not quite a permutation: there is one number more, which is 0, every second one is moved, and then the
-  // last one is dropped.
+  // The table is not quite a permutation: POV-Ray adds a 0, swaps every second number, and then drops the
+  // last number.
   std::array<std::uint32_t, kGradients + 1> next{};
   for (std::uint32_t i = 0; i < kGradients; ++i)
     next[i] = i;
@@ -52,7 +52,7 @@ GradientTables make_gradient_tables() {
   return tables;
 }
 
-/// The vector of noise at the lattice point (x, 0, 0), twice as long.
+/// Returns the vector of noise at the lattice point (x, 0, 0), times two.
 void lattice_noise(std::uint32_t x, double (&v)[3]) {
   const auto number = [](std::uint32_t from, std::uint32_t coordinate) {
     return noise::kHash.entry[(from ^ (coordinate + 10000)) & (noise::kPeriod - 1)];

@@ -10,7 +10,7 @@
 
 namespace celltrace {
 
-/// Of noise generator 3: by how much its vectors count, and these.
+/// The scale of the vectors of noise generator 3, and the vectors.
 constexpr double kGradientStrength = 0.795;
 struct GradientTables {
   std::array<Vec3, kernel::kGradients> gradient; ///< of unit length
@@ -19,7 +19,7 @@ struct GradientTables {
 const GradientTables& gradient_tables();
 
 std::vector<kernel::FeatureRecord> make_features();
-/// gradient_tables() times their strength.
+/// Returns the vectors of gradient_tables() times their scale.
 std::vector<kernel::GradientRecord> make_gradients();
 std::vector<kernel::WaveRecord> make_waves(int count);
 

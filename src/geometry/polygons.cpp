@@ -21,7 +21,8 @@ template <class Visit> void for_each_point(const Polygon& polygon, Visit visit) 
       visit(point);
 }
 
-/// The normal of the first corner that is not flat, for the size of all. Zero: there is none.
+/// Returns the normal of the first corner that is not flat, compared with the polygon's size; zero if there
+/// is none.
 Vec3 normal_of(const Polygon& polygon) {
   constexpr double kFlat = 1e-12;
   std::optional<Vec3> start;
@@ -71,9 +72,10 @@ std::optional<Transform> frame_of(const Polygon& polygon) {
 }
 
 Mesh triangles_of(const Polygon& polygon, const Transform& to_world) {
-  // Thin triangles around one corner of many are tested in vain more often than a polygon is.
+  // Limits the corners: rays that test the thin triangles around one of many corners miss more often than
+  // rays that test a polygon.
   constexpr std::size_t kMostCorners = 8;
-  constexpr double kFlat = 1e-6; // of the extent
+  constexpr double kFlat = 1e-6; // as a share of the extent
   if (polygon.loops.size() != 1 || polygon.loops[0].size() < 3 || polygon.loops[0].size() > kMostCorners)
     return {};
   const std::optional<Transform> frame = frame_of(polygon);
@@ -88,7 +90,7 @@ Mesh triangles_of(const Polygon& polygon, const Transform& to_world) {
     const Vec3 ab = corners[b] - corners[a], ac = corners[c] - corners[a];
     return ab.x * ac.y - ab.y * ac.x;
   };
-  // Of a star with five points all corners turn to one side, but not all triangles.
+  // Rejects stars: in a star with five points all corners turn to one side, but not all triangles do.
   const std::size_t count = corners.size();
   const double side = turn(0, 1, 2);
   for (std::size_t i = 0; i < count; ++i)

@@ -1,4 +1,4 @@
-// Polygons in the planes that they lie in, and as triangles.
+// Polygons in their own planes, and as triangles.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -7,13 +7,13 @@
 
 namespace celltrace {
 
-/// From the space of the kernel's polygon to this one: its square from -1 to 1 in x and y is just around the
-/// points, its z axis is the normal, which is that of the first corner that is one: (b - a) x (c - a).
-/// Nothing if the polygon has no area.
+/// Returns the transformation from the space of the kernel's polygon: the square from -1 to 1 in x and y
+/// becomes the box just around the points, and the z axis the normal, which is (b - a) x (c - a) of the first
+/// corner that is not flat. Returns nothing if the polygon has no area.
 std::optional<Transform> frame_of(const Polygon& polygon);
 
-/// Makes triangles of a polygon, transformed to the world; none if the polygon is not convex, has many
-/// corners or its points lie beside the plane.
+/// Returns the triangles of a polygon, transformed to the world; none if the polygon is not convex, has many
+/// corners, or has points off its plane.
 Mesh triangles_of(const Polygon& polygon, const Transform& to_world);
 
 } // namespace celltrace

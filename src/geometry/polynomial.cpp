@@ -17,7 +17,7 @@ double polynomial(const std::vector<double>& c, double t) {
 
 std::vector<double> roots(const std::vector<double>& c, double from, double to) {
   if (c.size() < 2) return {};
-  // Between the roots of the derivative there is at most one each.
+  // Between two roots of the derivative there is at most one root.
   std::vector<double> derivative;
   for (std::size_t i = 1; i < c.size(); ++i)
     derivative.push_back(static_cast<double>(i) * c[i]);

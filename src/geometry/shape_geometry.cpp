@@ -20,14 +20,14 @@ namespace celltrace::geometry {
 
 namespace {
 
-/// Round things have POV-Ray's box of the box around them on their own axes: which way these are turned about
-/// the round one's axis. That box is placed, not one around it.
+/// Returns POV-Ray's box of a round shape: the box of a box around the shape, along the shape's own axes,
+/// after placing it. The way those axes are turned about the shape's axis is POV-Ray's.
 Extent round_extent(const Vec3& base, const Vec3& cap, double radius, const Transform& transform) {
   const Vec3 d = glm::normalize(cap - base);
   const double square = d.x * d.x + d.y * d.y;
   Vec3 across{1, 0, 0}, along{0, 1, 0};
   if (square > 0) {
-    // The shortest turn of z to the axis, after one about z.
+    // The axes come from the shortest turn of z to the shape's axis, after a turn about z.
     const Vec3 x = Vec3(1, 0, 0) - (d + Vec3(0, 0, 1)) * (d.x / (1 + d.z));
     const Vec3 y = Vec3(0, 1, 0) - (d + Vec3(0, 0, 1)) * (d.y / (1 + d.z));
     const double cosine = 2 * d.x * d.y / square, sine = (d.y * d.y - d.x * d.x) / square;
@@ -41,7 +41,7 @@ Extent round_extent(const Vec3& base, const Vec3& cap, double radius, const Tran
   return Extent::around(corners);
 }
 
-// cross(), contains() and extent() of each shape; of round ones that are placed.
+// Overloads of cross(), contains() and extent() for each shape; round shapes have an extent in their place.
 
 void cross(const Sphere& s, const Ray& ray, Crossings& found) {
   const Vec3 o = ray.origin - s.centre;
@@ -173,12 +173,11 @@ bool contains(const Cone& any_cone, const Vec3& p) {
 }
 Extent extent(const Cone& any_cone, const Transform& transform) {
   const Cone cone = with_positive_radii(any_cone);
-  // From its wide end, as it were.
+  // POV-Ray starts at the wide end.
   return cone.base_radius >= cone.cap_radius ? round_extent(cone.base, cone.cap, cone.base_radius, transform)
                                              : round_extent(cone.cap, cone.base, cone.cap_radius, transform);
 }
 
-/// A cylinder is a cone, too.
 Cone as_cone(const Cylinder& c) {
   return {c.base, c.cap, c.radius, c.radius, c.open};
 }
@@ -197,17 +196,17 @@ double torus_value(const Torus& torus, const Vec3& p) {
   return ring * ring + p.y * p.y - torus.minor_radius * torus.minor_radius;
 }
 void cross(const Torus& torus, const Ray& ray, Crossings& found) {
-  // From where the ray is nearest to the centre, for precision.
+  // Distances are measured from the point of the ray nearest to the centre, for precision.
   const double length = glm::length(ray.direction);
   const Vec3 d = ray.direction / length;
   const double middle = -glm::dot(ray.origin, d);
   const Vec3 o = ray.origin + d * middle;
-  // A little farther than it reaches: roots at the ends of where they are looked for may be missed.
+  // Searches a little beyond the torus: roots at the ends of a range may be missed.
   const double reach = 1.001 * (std::fabs(torus.major_radius) + std::fabs(torus.minor_radius));
   if (glm::dot(o, o) > reach * reach) return;
   const double R = torus.major_radius * torus.major_radius, r = torus.minor_radius * torus.minor_radius;
   const double k = glm::dot(o, o) + R - r;
-  // (t^2 + k)^2 = 4 R (x^2 + z^2)
+  // Coefficients of (t^2 + k)^2 = 4 R (x^2 + z^2)
   const std::vector<double> c = {k * k - 4 * R * (o.x * o.x + o.z * o.z), -8 * R * (o.x * d.x + o.z * d.z),
                                  2 * k - 4 * R * (d.x * d.x + d.z * d.z), 0, 1};
   for (const double t : roots(c, -reach, reach)) {
@@ -251,7 +250,7 @@ void cross(const Quadric& q, const Ray& ray, Crossings& found) {
 bool contains(const Quadric& q, const Vec3& p) {
   return quadric_value(q, p) < 0;
 }
-/// Of an ellipsoid along the axes.
+/// Returns the box of an ellipsoid along the axes; other quadrics are infinite.
 Extent extent(const Quadric& q) {
   const bool is_ellipsoid = q.mixed == Vec3(0) && q.square.x > 0 && q.square.y > 0 && q.square.z > 0;
   if (!is_ellipsoid) return Extent::everywhere();
@@ -262,7 +261,8 @@ Extent extent(const Quadric& q) {
   return {centre - half, centre + half};
 }
 
-/// 1 on the surface, less inside; in proportion to the distance from the centre.
+/// Returns the size of a point relative to the surface: 1 on the surface, less inside, and in proportion to
+/// the distance from the centre.
 double superellipsoid_size(const Superellipsoid& s, const Vec3& p) {
   const auto [across, along] = powers_of(s);
   const auto norm = [](double a, double b, double exponent) {
@@ -281,8 +281,8 @@ Vec3 superellipsoid_slope(const Superellipsoid& s, const Vec3& p) {
   return {factor * term(p.x, across), factor * term(p.y, across), term(p.z, along)};
 }
 void cross(const Superellipsoid& s, const Ray& ray, Crossings& found) {
-  // A little more than the box that it is in, parted between the octants: in each part its size turns once at
-  // most.
+  // Searches a little beyond the bounding box, in parts that lie in one octant each: in a part the size has
+  // at most one extremum.
   constexpr double kReach = 1.001;
   double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
   std::vector<double> places;
@@ -371,7 +371,7 @@ Extent extent(const std::shared_ptr<const Polygon>& polygon) {
     points.insert(points.end(), loop.begin(), loop.end());
   return Extent::around(points);
 }
-/// As POV-Ray has flat ones.
+/// Gives flat boxes a thickness, as POV-Ray does.
 Extent thickened(Extent extent) {
   constexpr double kFlat = 1e-6, kThickness = 0.001;
   for (int axis = 0; axis < 3; ++axis) {
@@ -391,7 +391,8 @@ Extent extent(const std::shared_ptr<const Csg>&) {
   return Extent::everywhere();
 }
 
-/// Of a sphere that only turns and grows along the axes, the tightest one.
+/// Returns the tightest box of a sphere that is only turned and scaled along its axes; nothing for other
+/// transformations.
 std::optional<Extent> ellipsoid_extent(const Sphere& sphere, const Transform& transform) {
   const Vec3* rows = transform.rows;
   Vec3 column[3];

@@ -1,5 +1,5 @@
-// Shapes in double precision, on the host, each in its own space: what the language asks of objects, and how
-// a point's media are found. The kernel's primitives say the same in single precision.
+// Shapes in double precision on the host, each in its own space, for queries of the scene language and to
+// find the media that a point is in. The kernel's primitives have the same surfaces in single precision.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -9,9 +9,9 @@
 
 namespace celltrace {
 
-/// Levels of CSG and clipping that a shape may be in: in a Scene, in the object of a pattern, and in what the
-/// language makes. Whatever walks such a tree calls itself once a level, on a thread's stack of unknown size,
-/// and a hundred is far more than scenes have.
+/// The deepest nesting of CSG and clipping around a shape: in a Scene, in the object of a pattern, and in
+/// objects of the language. Functions that walk such a tree recurse once per level, on a thread's stack of
+/// unknown size, and a hundred levels are far more than scenes have.
 inline constexpr int kDeepestCsg = 100;
 
 } // namespace celltrace
@@ -23,32 +23,34 @@ struct Ray {
   Vec3 at(double t) const { return origin + direction * t; }
 };
 
-/// Where a ray goes through a surface, `t` times its direction away.
+/// A point where a ray crosses a surface, `t` times the ray's direction away.
 struct Crossing {
   double t;
-  Vec3 normal; ///< outwards, of any length
+  Vec3 normal; ///< points outwards; of any length
 };
 using Crossings = std::vector<Crossing>;
 
 using Shape = decltype(Object::shape);
 
-/// The powers in a superellipsoid's equation.
+/// The exponents in a superellipsoid's equation.
 struct Powers {
   double across; ///< of x and y
   double along;  ///< of z
 };
 Powers powers_of(const Superellipsoid& superellipsoid);
 
-/// Appends all of them, in any order, also those behind the origin. None of a CSG.
+/// Appends all crossings, in any order, including those behind the origin. A CSG has none.
 void find_crossings(const Shape& shape, const Ray& ray, Crossings& found);
 
-/// Flat shapes have half-spaces inside; a mesh has an inside if it has an inside vector. Never in a CSG.
+/// Returns whether a point is inside. Flat shapes have half-spaces as their inside; a mesh has an inside if
+/// it has an inside vector. Always false for a CSG.
 bool is_inside(const Shape& shape, const Vec3& point);
 
-/// POV-Ray's box around a shape that is placed; everywhere of a CSG.
+/// Returns POV-Ray's box around a shape that is placed; infinite for a CSG.
 Extent extent_of(const Shape& shape, const Transform& transform);
 
-/// That of the half-space of a plane which is a part of an intersection: smaller if it is along an axis.
+/// Returns the box of a plane's half-space that is part of an intersection: smaller than infinite if the
+/// plane is at right angles to an axis.
 Extent half_space(const Plane& plane, const Transform& transform, bool is_inverse);
 
 } // namespace celltrace::geometry

@@ -1,5 +1,5 @@
-// A BVH over the triangles of one mesh, in double precision: for what the language asks of meshes, a ray at a
-// time. Rays of pictures have their own, of the whole scene.
+// A BVH over the triangles of one mesh, in double precision, for queries of the scene language with one ray
+// at a time. Rays of pictures use the BVH of the whole scene.
 #pragma once
 
 #include "geometry/shape_geometry.hpp"
@@ -9,20 +9,21 @@
 
 namespace celltrace::geometry {
 
-/// Refers to triangles by their index, so that a copy of the mesh has the same tree. Thread safety: as a
+/// A BVH that refers to triangles by index, so that it also serves copies of the mesh. Thread safety: as a
 /// standard container.
 class TriangleTree {
 public:
   explicit TriangleTree(const Mesh& mesh);
 
-  /// Indices of those that the line of a ray may cross, ahead or behind, in ascending order.
+  /// Returns the indices of the triangles that the line of a ray may cross, ahead or behind, in ascending
+  /// order.
   std::vector<std::uint32_t> along(const Ray& ray) const;
 
 private:
   struct Node {
     Vec3f min, max;
-    std::uint32_t begin, end; ///< of a leaf, in order_
-    std::uint32_t right;      ///< the left child is next; 0: a leaf
+    std::uint32_t begin, end; ///< of a leaf: indices in order_
+    std::uint32_t right;      ///< index of the right child, the left one is next; 0: a leaf
   };
 
   std::uint32_t build(const Mesh& mesh, const std::vector<Vec3>& centres, std::uint32_t begin,
@@ -30,7 +31,7 @@ private:
 
   std::vector<std::uint32_t> order_; ///< all triangles, leaf by leaf
   std::vector<Node> nodes_;          ///< the first one is the root
-  double size_ = 0;                  ///< the largest coordinate
+  double size_ = 0;                  ///< largest coordinate
 };
 
 } // namespace celltrace::geometry

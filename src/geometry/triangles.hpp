@@ -1,4 +1,4 @@
-// What is asked of a mesh's vertices and of its triangles one by one.
+// Queries about a mesh's vertices and single triangles.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -15,8 +15,9 @@
 
 namespace celltrace {
 
-/// The greatest magnitude of a coordinate; not finite if one of them is not. Word by word, of which vectors
-/// take several: magnitudes are in the order of their bits, above which are infinity and what is no number.
+/// Returns the greatest magnitude of a coordinate; not finite if one of them is not. The loop goes over
+/// words, so that it can be vectorised: the bits of magnitudes are ordered as the numbers are, with infinity
+/// and NaN above them.
 inline float greatest_magnitude(std::span<const Vec3f> vectors) {
   static_assert(sizeof(Vec3f) == 3 * sizeof(std::int32_t));
   constexpr std::int32_t kMagnitude = 0x7FFFFFFF;
@@ -30,7 +31,8 @@ inline float greatest_magnitude(std::span<const Vec3f> vectors) {
   return std::bit_cast<float>(greatest);
 }
 
-/// In double precision it is right; where single precision leaves no doubt, that is faster.
+/// Returns whether a triangle has an area. Double precision decides; single precision is faster where it
+/// leaves no doubt.
 inline bool has_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   const Vec3f u = b - a;
   const Vec3f v = c - a;
@@ -46,20 +48,21 @@ inline bool same(const Index (&index)[3]) {
   return index[0] == index[1] && index[0] == index[2];
 }
 
-/// Whether its normals bend it.
+/// Returns whether a triangle's normals differ, so that it looks bent.
 inline bool is_smooth(const Mesh::Triangle& triangle) {
   return triangle.normal[0] != kNoIndex && !same(triangle.normal);
 }
 
-/// A normal at unit length; what has none gets some direction.
+/// Returns a normal of unit length; one without a direction becomes some unit vector.
 inline Vec3 unit_normal(const Vec3f& normal) {
   const Vec3 n(normal);
   const double length = glm::length(n);
   return length > 0 ? n / length : Vec3(0, 0, 1);
 }
 
-/// Takes unit normals of a mesh to the world: the inverse transpose, worked out once. Normals are of unit
-/// length before, not after it: the blend of a triangle's normals is that of the mesh's own space.
+/// Transforms unit normals of a mesh to the world by the inverse transpose, which is computed once. Normals
+/// have unit length before, but not after this, since a triangle's normals are interpolated in the mesh's own
+/// space.
 class NormalTransform {
 public:
   explicit NormalTransform(const Transform& transform)

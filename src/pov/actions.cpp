@@ -14,13 +14,14 @@ namespace celltrace::pov {
 
 namespace {
 
-/// Of objects inside one another, as loops make them that add to a union. A level takes 1.3 KB of the stack.
+/// Limit on objects nested in each other, as by a loop that adds to a union. A level takes 1.3
+/// KB of the stack.
 constexpr int kDeepestObject = 1000;
 
-constexpr std::size_t kMostKnots = 20000; // of a spline
-constexpr int kMostType = 8;              // of what is counted of a fractal
+constexpr std::size_t kMostKnots = 20000; // in a spline
+constexpr int kMostType = 8;              // of a fractal's interior and exterior types
 
-/// The number that leads a list.
+/// Returns the number at the head of a list.
 double list_count(Session& session, const std::vector<ListEntry>& list, const Location& where) {
   const ListEntry& count = list.front();
   if (!count.is_float) session.fail(where, "expected a float, found a vector");
@@ -28,7 +29,7 @@ double list_count(Session& session, const std::vector<ListEntry>& list, const Lo
   return count.v.x;
 }
 
-/// Exporters write meshes whose triangles are all degenerate.
+/// Warns if no triangle is left: exporters write meshes whose triangles are all degenerate.
 void warn_if_empty(Session& session, const Mesh& mesh, const Location& where) {
   if (mesh.triangles.empty())
     session.diagnostics.warn_once(where,
@@ -84,7 +85,7 @@ Quantity divided(Session& session, const Quantity& a, const Quantity& b, const L
 
 namespace {
 
-/// POV-Ray makes a scale by 1 of a column that is zero, as exporters write it for flat parts.
+/// Replaces columns of zeros, which exporters write for flat parts, by a scale of 1, as POV-Ray does.
 void replace_zero_columns(double (&values)[12], Session& session, const Location& where) {
   constexpr double kZero = 1e-10;
   for (std::size_t column = 0; column < 3; ++column) {
@@ -481,7 +482,7 @@ void settle(Session& session, Fog& fog, const Location& where) {
 }
 
 std::shared_ptr<RainbowDefinition> new_rainbow() {
-  // POV-Ray takes its default for radians.
+  // The default angle of POV-Ray, which takes it for radians.
   constexpr double kEndless = 360 * 180 / std::numbers::pi;
   constexpr double kFarthest = 1e7;
   auto rainbow = std::make_shared<RainbowDefinition>();
@@ -520,7 +521,7 @@ void ReflectionDefinition::set(const Vec3& first, const Vec3& second) {
 }
 
 void ReflectionDefinition::apply(Finish& finish) const {
-  // A single colour is the whole range, except that Fresnel's law needs one.
+  // A single colour is the whole range, but Fresnel's law needs a lower end.
   finish.reflection_min = has_min || is_fresnel.value_or(false) ? min : max;
   finish.reflection_max = max;
   finish.reflection_falloff = falloff.value_or(finish.reflection_falloff);
@@ -532,10 +533,10 @@ void ReflectionDefinition::apply(Finish& finish) const {
 void set_diffuse(FinishDefinition& finish, bool is_albedo, double before, double behind) {
   finish.value.diffuse = before;
   finish.value.diffuse_behind = behind;
-  finish.diffuse_is_albedo |= is_albedo; // as POV-Ray has it, also if it is said again without
+  finish.diffuse_is_albedo |= is_albedo; // as in POV-Ray, stays set if a later diffuse has no albedo
 }
 
-/// The formulas are POV-Ray's.
+/// Applies POV-Ray's formulas.
 void settle_albedos(FinishDefinition& finish) {
   Finish& value = finish.value;
   if (finish.diffuse_is_albedo) {
@@ -556,7 +557,7 @@ void set_reflection(Finish& finish, const Vec3& colour) {
 }
 
 double roughness(Session& session, double value, const Location& where) {
-  // As in POV-Ray, where it becomes an exponent of 0.
+  // Stands for an exponent of 0, which POV-Ray uses in this case.
   constexpr double kSameEverywhere = 1e30;
   if (value > 0) return value;
   session.diagnostics.warn_once(where, value == 0 ? "with a roughness of 0 the highlight is everywhere"
@@ -565,7 +566,7 @@ double roughness(Session& session, double value, const Location& where) {
 }
 
 double exponent(Session& session, double value, const Location& where) {
-  // The colour's power is its inverse.
+  // The exponent of the colour is the inverse of this value.
   constexpr double kNothingBelowWhite = 1e-6;
   if (value != 0) return value;
   session.diagnostics.warn_once(where, "with an exponent of 0 nothing but white is reflected");
@@ -639,7 +640,8 @@ void append_argument(Session& session, WrittenShape& written, const ShapeArgumen
 
 namespace {
 
-/// Makes a cone with a radius below 0 the two that meet in its apex, or one with radii above.
+/// Splits a cone with one radius below 0 into two that meet in their apex; two negative radii become
+/// positive.
 void split_cone(Session& session, ObjectDefinition& object, const Cone& cone, const Location& where) {
   const double base = std::fabs(cone.base_radius), cap = std::fabs(cone.cap_radius);
   if (std::max(cone.base_radius, cone.cap_radius) < std::max(base, cap))
@@ -674,7 +676,7 @@ std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& wr
   return object;
 }
 
-/// Whether a union is nothing but its parts, placed with it.
+/// Returns whether a union is nothing but its parts, placed with it.
 bool is_mere_union(const ObjectDefinition& object) {
   const auto* const compound = std::get_if<std::shared_ptr<const Compound>>(&object.shape);
   return compound != nullptr && (*compound)->operation == Csg::Operation::union_ &&
@@ -685,10 +687,10 @@ bool is_mere_union(const ObjectDefinition& object) {
          object.role == ObjectDefinition::Role::none;
 }
 
-/// Takes the parts of unions that nest deeply in place of these: scenes make long rows of objects by loops
-/// in which each round makes a union of all rounds before and one object more.
+/// Replaces unions that nest deeply by their parts: scenes make long rows of objects by loops in which each
+/// round adds an object to the union of all earlier rounds.
 void flatten(std::vector<ObjectPtr>& parts) {
-  constexpr int kDeep = 500; // sooner the copies are not worth it
+  constexpr int kDeep = 500; // below this depth, the copies are not worth it
   if (std::none_of(parts.begin(), parts.end(), [](const ObjectPtr& part) { return part->depth >= kDeep; }))
     return;
   std::vector<ObjectPtr> flat;
@@ -821,7 +823,7 @@ std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& defin
   try {
     mesh = make_mesh(std::move(definition), session.tokens);
   } catch (const SceneError&) {
-    throw; // has its place
+    throw; // the message has a place already
   } catch (const InputError& error) {
     session.fail(where, error.what());
   }

@@ -1,4 +1,4 @@
-// What the grammar's rules do, where it takes more than a line.
+// Actions of the grammar's rules that take more than a line.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace celltrace::pov {
 
-/// Adds to a list of the scene's, which a loop must not make endless.
+/// Adds to a list of the scene; fails if a loop would make the list endless.
 template <class T, class A, class U = T>
 void append(Session& session, std::vector<T, A>& list, U&& element, const Location& where) {
   if (list.size() >= session.options.limits.list_entries)
@@ -24,58 +24,60 @@ void append(Session& session, std::vector<T, A>& list, U&& element, const Locati
 
 // ---- Numbers ----
 
-/// Whether there is a component of this number (Names::Entry::component).
+/// Returns whether a quantity has the component with this number (Names::Entry::component).
 bool has_component(const Quantity& quantity, int which);
-/// The component a word behind a dot names, as in v.x or c.red.
+/// Returns the component that a word behind a dot names, as in v.x or c.red.
 double component(Session& session, const Quantity& quantity, int which, const Location& where);
-/// Adds one to a vector being read.
+/// Adds a component to a vector that is being read.
 void append_component(Session& session, Quantity& vector, double component, const Location& where);
 Transform scale(Session& session, const Quantity& factors, const Location& where);
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where);
-/// What stands in transform { }.
+/// The contents of transform { }.
 struct WrittenTransform {
   Transform items;
   bool is_inverse = false;
 };
 Transform complete(Session& session, const WrittenTransform& written, const Location& where);
 
-/// Warns of a division by zero, which gives an infinity.
+/// Divides; warns of a division by zero, which gives an infinity.
 Quantity divided(Session& session, const Quantity& a, const Quantity& b, const Location& where);
 
-/// From sRGB to what the scene's colours mean, as its assumed_gamma, which must be known by now, says.
+/// Converts a colour from sRGB to the space of the scene's colours. The scene's assumed_gamma, which sets
+/// that space, must be known by now.
 Quantity decoded(Session& session, const Quantity& colour, const Location& where);
 
 // ---- Arrays (arrays.cpp) ----
 
-/// A deep copy: arrays are values.
+/// Returns a deep copy: arrays are values.
 std::shared_ptr<Array> copy(Session& session, const Array& array, const Location& where);
 Array to_array(const std::vector<Quantity>& numbers);
 std::size_t array_size(Session& session, double size, const Location& where);
-/// An array of the given dimensions from `level` on, without values.
+/// Returns an array of the given dimensions from `level` on, without values.
 std::shared_ptr<Array> make_array(Session& session, const std::vector<std::size_t>& dimensions,
                                   std::size_t level, const Location& where);
-/// The same with the given elements, which must fit it.
+/// Returns an array as make_array() does, with the given elements, which must fit it.
 std::shared_ptr<Array> filled_array(Session& session, const std::vector<std::size_t>& dimensions,
                                     const std::shared_ptr<Array>& elements, const Location& where);
 int dimensions(const Array& array);
-/// 0 of dimensions that it does not have.
+/// Returns the size of a dimension; 0 if the array does not have that dimension.
 double dimension_size(const Array& array, double dimension);
 
 // ---- Functions and splines ----
 
 Quantity call(Session& session, const UserFunction& function, const std::vector<Value>& arguments,
               const Location& where);
-/// The point, or 0; also writes the normal there, or 0, to a name.
+/// Returns the point where a ray hits the object, or 0. Also writes the normal there, or 0, to the name
+/// `normal`.
 Quantity trace(Session& session, const ObjectDefinition& object, const Quantity& origin,
                const Quantity& direction, std::optional<NameId> normal, const Location& where);
 void add(Session& session, Spline& spline, double at, const Quantity& value, const Location& where);
-/// Fails if the spline has no knots.
+/// Returns the spline; fails if it has no knots.
 SplinePtr finished(Session& session, const std::shared_ptr<Spline>& spline, const Location& where);
 
 // ---- Scene ----
 
 void set_assumed_gamma(Session& session, double gamma, const Location& where);
-/// Without a gamma colours are encoded as sRGB. As in POV-Ray, the first one of a scene counts.
+/// Sets how colours are encoded; without a gamma, as sRGB. As in POV-Ray, a scene's first setting counts.
 void set_assumed_gamma(Session& session, std::optional<double> gamma, const Location& where);
 void set_max_trace_level(Session& session, double level, const Location& where);
 void set_noise_generator(Session& session, double number, const Location& where);
@@ -84,7 +86,7 @@ void set_number_of_waves(Session& session, double number, const Location& where)
 
 // ---- Textures ----
 
-/// What a pattern's word or a modifier such as `frequency 2` does to a pattern.
+/// The effect that a pattern's word, or a modifier such as `frequency 2`, has on a pattern.
 using PatternChange = std::function<void(Session&, PatternDefinition&)>;
 
 PatternChange chosen(int number);
@@ -97,89 +99,88 @@ template <class T> PatternChange set(T Turbulence::*member, T value) {
 }
 PatternChange poly_wave(double exponent);
 PatternChange option(int number, const Quantity& value, const Location& where);
-/// `constant`: Julia's, or null for the Mandelbrot set. `magnet`: 0, 1 or 2.
+/// Returns the change to a fractal pattern. `constant` is Julia's, or null for the Mandelbrot set; `magnet`
+/// is 0, 1 or 2.
 PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
                       const Location& where);
-/// Gives a fractal as many iterations as can be counted. With less than 0 POV-Ray has 0.55
+/// Gives a fractal as many iterations as can be counted. For a number below 0, POV-Ray's value is 0.55
 /// everywhere.
 void set_iterations(Session& session, pattern::Fractal& fractal, double number, const Location& where);
-/// Of the magnet's kind, `pattern` being the Mandelbrot set.
+/// Returns the change to the magnet of this kind; `pattern` is the Mandelbrot set.
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
                      const Location& where);
-/// Fails if it has neither a direction nor an altitude.
+/// Returns the change to a slope pattern; fails if the slope has neither a direction nor an altitude.
 PatternChange slope(Session& session, const pattern::Slope& slope, const Location& where);
-/// Sets a range of a slope; without a width it stays the one from 0 to 1.
+/// Sets a range of a slope; if its width would be 0, the range stays 0 to 1.
 void set_range(double& from, double& to, double least, double most);
-/// What only fractals understand; fails unless the number is one of 0 to `most`.
+/// Returns the change of an integer that only fractals have; fails unless the value is 0 to `most`.
 PatternChange set_fractal(int pattern::Fractal::*member, double value, int most, const Location& where);
-/// The power of a fractal: 2, as in POV-Ray, if it is none of 2 to 33.
+/// Returns the change of a fractal's power; as in POV-Ray, the power is 2 if the value is not 2 to 33.
 PatternChange fractal_exponent(double value, const Location& where);
 PatternChange exterior(double type, double factor, const Location& where);
 PatternChange interior(double type, double factor, const Location& where);
-/// The grey of a pigment.
+/// Returns the change to the grey value of a pigment.
 PatternChange grey(const PigmentDefinition& pigment);
 PatternChange unsupported_change(const UnsupportedPtr& unsupported);
 PatternChange warp(const SpaceStep& warp, const Location& where);
-/// A black hole's copies do not reach into one another: they are as far apart as that takes.
+/// Moves a black hole's copies so far apart that they do not overlap.
 void keep_apart(Session& session, warp::BlackHole& hole, const Location& where);
-/// Along the only axis of which `width` is not 0.
+/// Returns a repetition along the only axis for which `width` is not 0.
 warp::Repeat repeat(Session& session, const Vec3& width, const Location& where);
-/// `option`: the word, which has to be "offset".
+/// Returns the offset of a repetition; `option`, the word before it, has to be "offset".
 Vec3 offset(Session& session, int option, const Quantity& value, const Location& where);
-/// Of a pattern's word.
+/// Returns the warp that a pattern's word stands for.
 warp::Mapping mapping(Session& session, int pattern, const Location& where);
-/// Fails unless it has a length.
+/// Returns the value; fails unless it is positive.
 double positive(Session& session, double value, const char* what, const Location& where);
 int octaves(double number);
-/// 0: the scene's.
+/// Returns the number of a noise generator; 0 for the scene's.
 int noise_generator(Session& session, double number, const Location& where);
 
-/// Makes a change, unless the pattern is on surface coordinates.
+/// Applies a change, unless the pattern is on surface coordinates.
 void change(Session& session, PatternDefinition& pattern, const PatternChange& change);
-/// The texture with a change to its pattern, which it must have.
 TexturePtr changed(Session& session, const TexturePtr& texture, const PatternChange& change,
                    const Location& where);
-/// Fails for a texture whose pattern is one of textures, or which is on surface coordinates: it has no
-/// pigment, normal or finish of its own.
+/// Fails for a texture whose pattern is one of textures, or which is on surface coordinates: such a texture
+/// has no pigment, normal or finish of its own.
 void require_plain(Session& session, const TexturePtr& texture, const Location& where);
-/// `given` on `below`, which may be null. Fails for textures that cannot be layers. Up to version 3.1 layers
-/// that are on other ones transmit what they filter.
+/// Returns `given` as a layer on `below`, which may be null. Fails for textures that cannot be layers. Up to
+/// version 3.1, a layer on another one transmits what it filters.
 TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& given, const Location& where);
 TexturePtr transformed(Session& session, const TexturePtr& texture, const Transform& next,
                        const Location& where);
 
 void set_colour(PigmentDefinition& pigment, const Pigment& colour);
-/// What counts alone where the picture is of a quality that low.
+/// Sets the colour that replaces the pigment in pictures of low quality.
 void set_quick_colour(Session& session, PigmentDefinition& pigment, const Pigment& colour);
 
-/// Fails if the pigment depends on a surface: a sky has none.
+/// Adds a layer to the sky; fails if the pigment depends on a surface, which a sky lacks.
 void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
                const Location& where);
-/// Moves the pigments that it has got.
+/// Moves the pigments that the sky has so far.
 void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where);
 
-/// Whether a fog of this type is one that lies on the ground.
 bool is_ground_fog(Session& session, double type, const Location& where);
-/// A mere number is the distance.
+/// Sets a fog's colour or, from a single number, its distance.
 void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, const Location& where);
-/// As in POV-Ray, only the direction of its heights turns.
+/// Transforms a fog; as in POV-Ray, only its up direction turns.
 void transform(Fog& fog, const Transform& next);
-/// 0 if it has no direction.
+/// Sets the up direction of a fog; 0 if the vector has no direction.
 void set_up(Fog& fog, const Vec3& up);
-/// Makes a complete fog black where POV-Ray divides by zero for it.
+/// Makes a complete fog black where POV-Ray would divide by zero.
 void settle(Session& session, Fog& fog, const Location& where);
 
 // Textures as they were before version 3.0 (old_textures.cpp)
 
-/// A mere number is how grainy the texture is.
+/// Returns the texture with a colour; a single number is the texture's graininess.
 TexturePtr with_old_colour(Session& session, const TexturePtr& texture, const Quantity& colour);
-/// Gives the texture's normal, or else its pigment, the pattern of a word. `number`: what stands behind it,
-/// as the depth of bumps.
+/// Gives the texture's normal, or else its pigment, the pattern of a word. `number` is the number after the
+/// word, such as the depth of bumps.
 TexturePtr with_old_pattern(Session& session, const TexturePtr& texture, int pattern,
                             std::optional<double> number);
-/// Changes the pattern of the texture's pigment.
+/// Returns the texture with a change to the pattern of its pigment.
 TexturePtr with_old_pattern(Session& session, const TexturePtr& texture, const PatternChange& change);
-/// Changes the waves of the texture's normal.
+/// Returns the texture with a change to the waves of its normal.
 TexturePtr with_old_waves(Session& session, const TexturePtr& texture, const PatternChange& change);
 TexturePtr with_old_finish(const TexturePtr& texture, const std::function<void(FinishDefinition&)>& change);
 
@@ -194,21 +195,22 @@ void add(Session& session, TextureMap& map, double position, const TexturePtr& t
 void add(Session& session, PigmentMap& map, double position, const Pigment& colour, const Location& where);
 void add_colour(Session& session, PigmentMap& map, double position, const Quantity& colour,
                 const Location& where);
-/// The entries of another one, behind its own.
+/// Appends the entries of another map.
 void add(Session& session, PigmentMap& map, const PigmentMap& entries, const Location& where);
 
 void add(Session& session, std::vector<SlopePoint>& map, double position, const Vec3& height_and_slope,
          const Location& where);
-/// With positions as maps have them.
+/// Returns the map with positions as maps have them: ascending.
 std::vector<SlopePoint> ascending(std::vector<SlopePoint> map);
 
 void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where);
-/// As before version 3.0 the pattern may follow the map.
+/// Sets the map; its pattern may follow, as before version 3.0.
 void set_old_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where);
 void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where);
 TexturePtr with_map(Session& session, const TexturePtr& texture, const TextureMap& map,
                     const Location& where);
-/// Gives a list to a pattern that takes one. Where it is too short, POV-Ray's colours or the defaults follow.
+/// Gives a list to a pattern that takes one. If the list is too short, POV-Ray's colours or the defaults
+/// follow.
 void set_colours(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
                  const Location& where);
 void set_list(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
@@ -217,21 +219,22 @@ void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap
 TexturePtr with_pattern(Session& session, const TexturePtr& texture, const PatternChange& pattern);
 TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, TextureMap list,
                      const Location& where);
-/// Of the checker pattern: where that has its first colour, `second` is, as in POV-Ray.
+/// Returns a texture in the checker pattern; as in POV-Ray, `second` takes the places of checker's first
+/// colour.
 TexturePtr with_tiles(Session& session, const TexturePtr& texture, const TexturePtr& first,
                       const TexturePtr& second, const Location& where);
 
-/// Of the pattern of an object.
+/// Returns a texture in the pattern of an object.
 TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit& object, TextureMap list,
                        const Location& where);
 
-// Fail if a pattern lacks what it needs.
+// Fails if a pattern lacks something that it needs.
 void check(Session& session, const PigmentDefinition& pigment, const Location& where);
-/// Also settles what an `accuracy` of 0 comes to.
+/// Fails as above, and resolves an `accuracy` of 0.
 void check(Session& session, NormalDefinition& normal, const Location& where);
 void check(Session& session, const TexturePtr& texture, const Location& where);
 
-/// The inside of reflection { }. What it does not say stays as the finish has it.
+/// The contents of reflection { }; the finish keeps all properties that are not given here.
 struct ReflectionDefinition {
   Vec3 min{0, 0, 0};
   Vec3 max{0, 0, 0};
@@ -244,58 +247,58 @@ struct ReflectionDefinition {
   void apply(Finish& finish) const;
 };
 
-/// The old form, one colour.
+/// Sets the old form of reflection, one colour.
 void set_diffuse(FinishDefinition& finish, bool is_albedo, double before, double behind);
-/// Makes of albedos, the shares of light that are sent on to all sides together, what the formulas take.
+/// Converts albedos, the shares of light that a surface scatters in all directions together, to the factors
+/// of the shading formulas.
 void settle_albedos(FinishDefinition& finish);
 void set_reflection(Finish& finish, const Vec3& colour);
 double roughness(Session& session, double value, const Location& where);
 double exponent(Session& session, double value, const Location& where);
-/// 1 for 0, as in POV-Ray; negative ones are taken.
+/// Returns an index of refraction: 1 for 0, as in POV-Ray; negative values are accepted.
 double ior(Session& session, double value, const Location& where);
-/// Nothing unless it is positive.
+/// Returns the index of refraction; nothing unless it is positive.
 std::optional<double> ior_of_finish(Session& session, double value, const Location& where);
 
 // ---- Objects ----
 
-/// Counts `part` as one that is inside `object`.
+/// Counts `part` as nested in `object`.
 void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& part, const Location& where);
-/// The texture that an object's pigment, normal or finish changes.
+/// Returns the texture that an object's pigment, normal or finish changes.
 TexturePtr texture_of(Session& session, const ObjectDefinition& object);
-/// The same, for one that has a pigment, normal and finish of its own.
+/// Returns the same texture; fails unless it has a pigment, normal and finish of its own.
 TexturePtr plain_texture_of(Session& session, const ObjectDefinition& object, const Location& where);
 void set_texture(ObjectDefinition& object, const TexturePtr& texture);
 void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
-/// Puts an object's textures on its surface coordinates. Fails if it has one already.
+/// Puts an object's textures on its surface coordinates. Fails if the object has a texture already.
 void set_uv_mapping(Session& session, ObjectDefinition& object, const Location& where);
-/// Parts of an intersection or difference without a texture look like those that they cut
+/// Gives parts of an intersection or difference without a texture the texture of the parts that they cut
 /// (cutaway_textures.cpp).
 void set_cutaway_textures(Session& session, ObjectDefinition& object, const Location& where);
-/// Adds a layer to what the object looks like from inside.
+/// Adds a layer to the texture of the object's inside.
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
-/// What an object has to have when it ends.
+/// Fails if a complete object lacks something that it needs.
 void check(Session& session, const ObjectDefinition& object, const Location& where);
-/// What POV-Ray makes of a colour among an object's modifiers.
+/// Warns that a colour among an object's modifiers is ignored, as in POV-Ray.
 void ignore_colour(Session& session, const Location& where);
-/// Adds what stands behind other arguments without a comma: that may also be the name of a colour, which is
-/// such a modifier where the shape is complete.
+/// Adds an argument that follows others without a comma. A colour after a complete shape counts as an object
+/// modifier, which is ignored.
 void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
-/// With POV-Ray's defaults: no direction, as far away as can be, and an arc without an end.
+/// Returns a rainbow with POV-Ray's defaults: no direction, the greatest distance, and a full arc.
 std::shared_ptr<RainbowDefinition> new_rainbow();
 void set_colours(Rainbow& rainbow, const PigmentMap& map);
-/// What a rainbow has to have.
+/// Fails if a rainbow lacks something that it needs.
 void check(Session& session, const Rainbow& rainbow, const Location& where);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
-/// Of a light group.
+/// Sets whether the global lights shine on a light group.
 void set_global_lights(ObjectDefinition& object, bool are_on);
-/// What a name stands for that is given to an object.
+/// Returns the object that a name stands for, once the object gets a name.
 ObjectPtr declared(const ObjectPtr& object);
-/// An object that other ones can be limited by.
+/// Returns an object by which others can be limited; fails if they cannot.
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where);
-/// What a pattern takes the inside of; `object` has been moved.
+/// Returns a pattern of an object's inside; `object` has been moved to its place.
 pattern::Inside inside_of(Session& session, const Limit& object, const Location& where);
-/// Adds to one of the object's own lists of limits.
 void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
            const std::vector<Limit>& added, const Location& where);
 void apply(Session& session, const std::shared_ptr<const MaterialDefinition>& material,
@@ -307,23 +310,23 @@ std::shared_ptr<ObjectDefinition>
 lone_triangle(Session& session, std::shared_ptr<TriangleDefinition> triangle, const Location& where);
 void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,
                   const Location& where);
-/// Fails unless they are three.
+/// Sets a triangle's textures; fails unless there are three.
 void set_textures(Session& session, TriangleDefinition& triangle, const std::vector<TexturePtr>& textures,
                   const Location& where);
-/// Fails unless they are finite.
+/// Sets a triangle's surface coordinates; fails unless they are finite.
 void set_coordinates(Session& session, TriangleDefinition& triangle, const std::array<Vec3, 3>& uv,
                      const Location& where);
-/// Fails unless it is finite.
+/// Returns the inside vector; fails unless it is finite.
 Vec3 inside_vector(Session& session, const Quantity& vector, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& definition, const Location& where);
-/// Checks the count that leads a list of mesh2.
+/// Fails unless the count at the head of a list of mesh2 is right.
 void check_count(Session& session, double announced, std::size_t found, const Location& where);
-/// The list without the count that leads it, which must be right.
+/// Returns the list without the count at its head, which must be right.
 CountedList counted(Session& session, std::vector<ListEntry>& list, const Location& where);
-/// The same for face_indices, where only the vectors count.
+/// Returns such a list of face_indices, where the count is the number of vectors.
 CountedList faces(Session& session, std::vector<ListEntry>& list, const Location& where);
-/// The same where every entry must be finite.
+/// Returns such a list in which every entry must be finite.
 CountedList vectors(Session& session, std::vector<ListEntry>& list, const Location& where);
 
 // ---- What is not supported ----
@@ -331,16 +334,17 @@ CountedList vectors(Session& session, std::vector<ListEntry>& list, const Locati
 std::string quoted(Session& session, NameId name);
 std::string quoted_pattern(int pattern);
 UnsupportedPtr make_unsupported(const std::string& what, const Location& where);
-/// Passes over what belongs to it, too.
+/// Returns a mark for a feature, and skips the feature's arguments.
 UnsupportedPtr unsupported_feature(Session& session, const std::string& what, const Location& where);
-/// Null for zero.
-/// Whether the picture will have what POV-Ray renders from quality 9 on: media, photons and radiosity.
+/// Returns whether the picture includes effects that POV-Ray renders from quality 9 on: media, photons and
+/// radiosity.
 bool renders_media(const Session& session);
-/// A word with a block in braces, which is not passed over; nothing if it means nothing at the picture's
-/// quality.
+/// Returns the mark of a word with a block in braces, which is not skipped; nothing if the block has no
+/// effect at the picture's quality.
 UnsupportedPtr unsupported_block(Session& session, NameId word, const Location& where);
+/// Returns the mark of a feature with this value; null for 0.
 UnsupportedPtr unless_zero(const std::string& what, double value, const Location& where);
-/// An object that is left out, or refused, where it is placed.
+/// Returns an object that is left out, or an error, where it is placed.
 ObjectPtr unsupported_object(const std::string& what, const Location& where);
 
 } // namespace celltrace::pov

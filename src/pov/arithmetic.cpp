@@ -16,10 +16,10 @@ namespace {
 using Number = Parser::token;
 
 constexpr unsigned kDeepestNesting = 64;
-constexpr std::size_t kMostStreams = 64; ///< that are worth to be saved
+constexpr std::size_t kMostStreams = 64; ///< that are worth saving
 
-/// Reads one expression. Its rules are the grammar's; once something is not understood, there is nothing more
-/// to read.
+/// Reads an expression by the rules of the grammar; after something that it does not understand, it reads
+/// nothing more.
 class Expression {
 public:
   Expression(Session& session, const TokenSpan& tokens)
@@ -48,7 +48,7 @@ public:
     return is_true(chooser) ? chosen : other;
   }
 
-  /// Behind <.
+  /// Reads a vector after its <.
   Quantity vector() {
     Quantity result;
     result.count = 0;
@@ -65,16 +65,17 @@ public:
     ++at_;
     return true;
   }
-  /// The token in front; that of the end where there is none.
+  /// Returns the next token; kEnd if there is none.
   const Token& next() const { return at_ != end_ ? *at_ : kEnd; }
 
-  /// Where what follows has been read, and can be no part of it.
+  /// Returns the result if everything was understood and the tokens that follow cannot belong to the
+  /// expression.
   std::optional<Quantity> finish(const Quantity& result, TokenSpan& tokens, bool is_complete) {
     if (is_complete && understands_) {
       tokens.begin = at_;
       return result;
     }
-    // The grammar begins anew.
+    // Restores the streams, since the grammar evaluates the expression again.
     if (streams_) session_.random_streams = std::move(*streams_);
     return std::nullopt;
   }
@@ -162,7 +163,7 @@ private:
     const auto* function = std::get_if<FunctionPtr>(value);
     return function != nullptr ? called(**function, word.where) : give_up();
   }
-  /// A function of the scene, whose arguments need no room of their own.
+  /// Calls a function of the scene; its arguments need no memory on the heap.
   Quantity called(const UserFunction& function, const Location& where) {
     double arguments[kMostParameters];
     std::size_t count = 0;
@@ -175,7 +176,7 @@ private:
     if (!take(')') || !understands_ || count != function.parameters) return give_up();
     return call_function(session_, function, arguments, count, where);
   }
-  /// Behind [.
+  /// Returns an array's element, after its [.
   const Value* element(const Array& array) {
     const double subscript = number(sum());
     if (!take(']') || !(subscript > -1) || !(subscript < static_cast<double>(array.elements.size())))
@@ -183,7 +184,7 @@ private:
     return &array.elements[static_cast<std::size_t>(subscript)];
   }
 
-  /// ( numbers and vectors )
+  /// Reads ( numbers and vectors )
   bool take_arguments() {
     std::vector<Value> arguments;
     if (!take('(')) return false;
@@ -243,7 +244,7 @@ private:
     return {};
   }
 
-  /// What a call of rand() or seed() changes.
+  /// Saves the state that a call of rand() or seed() changes.
   void save_streams() {
     if (streams_) return;
     if (session_.random_streams.size() > kMostStreams)
@@ -259,7 +260,7 @@ private:
   const Token* end_;
   unsigned depth_ = 0;
   bool understands_ = true;
-  std::vector<Value> arguments_; ///< of the call that is next
+  std::vector<Value> arguments_; ///< of the next call
   std::optional<std::vector<std::uint32_t>> streams_;
 };
 

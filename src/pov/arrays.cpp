@@ -12,7 +12,7 @@ const Array* as_array(const Value& value) {
   return array ? array->get() : nullptr;
 }
 
-/// What a copy may still cost: arrays inside arrays could grow without end.
+/// The depth and the number of elements that a copy may still have: arrays in arrays could grow without end.
 struct Budget {
   int depth;
   std::uint64_t elements;

@@ -13,16 +13,17 @@ namespace {
 
 constexpr int kRaysAlongSide = 5;
 constexpr std::uint64_t kRays = 6 * kRaysAlongSide * kRaysAlongSide;
-/// Tests of shapes that all objects of a scene may take: a few milliseconds.
+/// Limit on shape tests for all objects of a scene, which take a few milliseconds.
 constexpr std::uint64_t kMostTests = 20'000;
-/// Share of the way from the middle of its bounds at which a point may be out of them.
+/// A point counts as outside of the bounds if it is still outside at this share of its distance from their
+/// middle.
 constexpr double kMargin = 0.99;
-/// How many times as large as its bounds an object without an extent is tried.
+/// The size of the region in which an object without an extent is tested, as a multiple of its bounds.
 constexpr double kReach = 3;
-/// Extents that are larger than this are none.
+/// Extents that are larger count as infinite.
 constexpr double kEndless = 1e9;
 
-/// Whether POV-Ray asks the bounds of such an object, and rays may be traced to it.
+/// Returns whether POV-Ray tests the bounds of such an object, and rays can be traced to it.
 bool can_be_tried(const ObjectDefinition& object) {
   if (object.missing || object.light() || is_singular(object.transform)) return false;
   if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&object.shape))
@@ -38,7 +39,7 @@ Vec3 middle_of(const Extent& extent) {
   return (extent.min + extent.max) * 0.5;
 }
 
-/// Around what is tried of an object.
+/// Returns the region in which an object is tested.
 Extent tried_extent(const Extent& own, const Extent& bounds) {
   Extent tried = own;
   const Vec3 middle = middle_of(bounds), reach = (bounds.max - bounds.min) * (kReach / 2);
@@ -49,7 +50,7 @@ Extent tried_extent(const Extent& own, const Extent& bounds) {
   return tried;
 }
 
-/// Calls `visit(point)` with where rays along the axes come to an object first, until it returns true.
+/// Calls `visit(point)` with the first hit of each ray along the axes, until it returns true.
 template <class Visit>
 bool any_surface_point(Session& session, const ObjectDefinition& object, const Extent& extent,
                        const Location& where, const Visit& visit) {

@@ -1,5 +1,5 @@
-// Whether objects keep within what bounds them: POV-Ray does not look for them where rays miss that, and this
-// program ignores it.
+// Tells whether objects keep within what bounds them. POV-Ray does not look for an object if a ray misses its
+// bounds; this program ignores bounds.
 #pragma once
 
 #include "pov/object.hpp"
@@ -8,8 +8,8 @@ namespace celltrace::pov {
 
 struct Session;
 
-/// Whether an object reaches out of its `bounded_by`, as far as rays from all sides show it and few objects of
-/// the scene have been tried before.
+/// Returns whether an object reaches out of its `bounded_by`, as far as rays from all sides show it; false if
+/// many objects of the scene have been tested before.
 bool reaches_out_of_bounds(Session& session, const ObjectDefinition& object, const Location& where);
 
 } // namespace celltrace::pov

@@ -23,7 +23,7 @@ struct CameraKind {
   Camera::Kind kind;
 };
 
-/// But for cylinders, whose word is a shape's.
+/// All kinds but cylinders, whose word is a shape's.
 constexpr CameraKind kKinds[] = {
     {"perspective", Camera::Kind::perspective}, {"orthographic", Camera::Kind::orthographic},
     {"spherical", Camera::Kind::spherical},     {"ultra_wide_angle", Camera::Kind::ultra_wide_angle},
@@ -48,19 +48,19 @@ void set_flat_angle(Camera& camera, double degrees) {
   camera.direction *= width / (2 * std::tan(degrees * kRadiansPerDegree / 2)) / length;
 }
 
-/// Of these the angle is that of a picture at the distance of direction's length.
+/// Returns whether the camera projects onto a plane: its angle is then that of a picture at the distance of
+/// the direction's length.
 bool is_flat(Camera::Kind kind) {
   return kind == Camera::Kind::perspective || kind == Camera::Kind::orthographic;
 }
 
-/// The sky says nothing then about what is sideways.
+/// Returns whether the camera looks along the sky, so that the sky does not tell what is sideways.
 bool looks_along_sky(const Vec3& location, const Vec3& look_at, const Vec3& sky) {
   const double distance = glm::distance(look_at, location);
   return distance >= kTiny && glm::length(glm::cross(sky, (look_at - location) / distance)) < kTiny;
 }
 
-/// Turns the camera towards a point; the sky says which way is up, and lengths and handedness stay as they
-/// were.
+/// Turns the camera towards a point, with the sky as up; lengths and handedness stay as they are.
 void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
   const Vec3 line_of_sight = look_at - camera.location;
   const double distance = glm::length(line_of_sight);
@@ -80,8 +80,8 @@ void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
 
 constexpr double kVersionOfFixedOrder = 3.5;
 
-/// An orthographic camera whose picture has no size of its own takes that of a perspective one at the
-/// looked-at point.
+/// Gives an orthographic camera whose picture has no size of its own the size that a perspective one has at
+/// the point looked at.
 void scale_orthographic(Camera& camera, double distance) {
   const double depth = glm::length(camera.direction);
   camera.right *= distance / depth;
@@ -117,8 +117,9 @@ void warn_of_sky(Session& session, const CameraDefinition& camera) {
                                   "this camera looks along its 'sky': it keeps the 'right' that it has");
 }
 
-/// Whether its rays have one, in a camera's place. Those of a camera without a `direction` have that of the
-/// picture's points: one that is next to nothing leaves them and makes the picture's middle no exception.
+/// Returns whether the camera's rays have a direction, and makes it explicit. Rays of a camera without a
+/// `direction` go towards the points of the picture: a tiny direction hardly changes them, and gives one to
+/// the ray through the picture's middle.
 bool has_direction(Camera& camera) {
   constexpr double kNextToNothing = 1e-6;
   if (!is_finite(camera.location) || !is_finite(camera.direction) || !is_finite(camera.right) ||
@@ -223,7 +224,7 @@ void transform(CameraDefinition& camera, const Transform& next) {
 }
 
 void check(Session& session, const CameraDefinition& camera, const Location& where) {
-  constexpr double kLeast = 1e-5; // where POV-Ray has its bound
+  constexpr double kLeast = 1e-5; // POV-Ray's bound
   if (camera.acts_at_once || !camera.look_at) return;
   if (glm::distance(*camera.look_at, camera.location) < kLeast)
     session.fail(where, "the camera's 'location' and 'look_at' are the same point");
@@ -270,7 +271,7 @@ std::optional<Camera> CameraDefinition::finish() const {
     move(camera, transform);
   }
   if (!has_direction(camera)) return std::nullopt;
-  // A picture that is a line or a point; a Scene's cameras have axes that are not 0.
+  // Replaces zero axes, which make the picture a line or a point: a Scene's cameras may not have them.
   constexpr double kNearlyNothing = 1e-300;
   for (Vec3* axis : {&camera.right, &camera.up})
     if (*axis == Vec3(0)) axis->x = kNearlyNothing;

@@ -31,7 +31,7 @@ unsigned first_code(std::string_view text) {
   const unsigned first = byte(0);
   if (first >= kTwoBytes && first < kThreeBytes && follows(byte(1))) {
     const unsigned code = (first & ~kThreeBytes) << kPayloadBits | (byte(1) & kPayload);
-    if (code >= kLatin1End) return code; // shorter ones are bytes here
+    if (code >= kLatin1End) return code; // lower codes are single bytes here
   }
   if (first >= kThreeBytes && first < kFourBytes && follows(byte(1)) && follows(byte(2)))
     return (first & ~kFourBytes) << 2 * kPayloadBits | (byte(1) & kPayload) << kPayloadBits |

@@ -1,4 +1,4 @@
-// Characters of the scene language's strings, which are bytes; those past Latin-1 are in UTF-8.
+// Characters of the scene language's strings, which are bytes; characters past Latin-1 are in UTF-8.
 #pragma once
 
 #include <string>
@@ -6,10 +6,11 @@
 
 namespace celltrace::pov {
 
-/// The character with a code of at most 65535: one byte up to 255, UTF-8 from there on. Nothing for 0.
+/// Returns the character with a code of at most 65535: one byte up to 255, UTF-8 from there on. Code 0 gives
+/// an empty string.
 std::string character(unsigned code);
 
-/// The code of the first character; 0 of an empty text.
+/// Returns the code of the first character; 0 for an empty text.
 unsigned first_code(std::string_view text);
 
 } // namespace celltrace::pov

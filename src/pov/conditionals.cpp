@@ -1,4 +1,4 @@
-// TokenStream: #if, #switch and what belongs to them.
+// TokenStream: #if, #switch and their branches.
 #include <cmath>
 
 #include "pov/session.hpp"
@@ -15,8 +15,7 @@ bool separates_branches(Directive kind) {
 
 } // namespace
 
-/// Passes over what is not wanted, up to the #end that leaves `depth` blocks or to an #else or #case between
-/// them.
+/// Skips tokens up to the #end that closes `depth` blocks, or to an #else or #case of this block.
 Token TokenStream::skip_branch(unsigned depth) {
   for (;;) {
     const Token token = read();
@@ -35,7 +34,7 @@ Token TokenStream::skip_branch(unsigned depth) {
   }
 }
 
-/// `where`: the directive that it belongs to.
+/// Reads a condition's value; `where` is the place of the directive.
 double TokenStream::condition_value(Location where) {
   return session_.any_number(std::get<Quantity>(evaluate(Start::condition)), where);
 }
@@ -49,7 +48,7 @@ void TokenStream::obey_if(const Token& directive, bool holds) {
   if (!holds) choose_else();
 }
 
-/// Passes over branches of the #if on top until one is to be read.
+/// Skips branches of the innermost #if until one is to be read.
 void TokenStream::choose_else() {
   for (;;) {
     const Token directive = skip_branch(0);
@@ -60,7 +59,7 @@ void TokenStream::choose_else() {
   }
 }
 
-/// An #else met while reading ends the branch before it; in a #switch one falls through.
+/// Handles an #else that ends the branch before it; in a #switch, that branch falls through.
 void TokenStream::obey_else(const Token& directive, Directive kind) {
   auto& conditionals = session_.input.top().conditionals;
   if (conditionals.empty()) session_.fail(directive.where, "#else without #if");
@@ -92,7 +91,7 @@ bool TokenStream::case_holds(const Token& directive, double value) {
   return value >= bounds[0] - kComparisonTolerance && value <= bounds[1] + kComparisonTolerance;
 }
 
-/// A #case met while reading falls through.
+/// Handles a #case at the end of a branch, which falls through.
 void TokenStream::obey_case(const Token& directive) {
   const auto& conditionals = session_.input.top().conditionals;
   if (conditionals.empty() || !conditionals.back().is_switch)

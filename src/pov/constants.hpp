@@ -1,4 +1,4 @@
-// The words that stand for a value of the language itself.
+// Words that stand for a value of the language itself.
 #pragma once
 
 #include "pov/session.hpp"
@@ -10,8 +10,8 @@ enum class Constant { x, y, z, u, v, t, pi, on, off, clock, clock_delta, now, ve
 
 Value value_of(Constant constant, const Session& session);
 
-/// Declares what a scene may declare anew: image_width and the like, and ParseOptions::declares. Throws
-/// InputError for a name that cannot be declared.
+/// Declares the names that a scene may declare anew: image_width and the like, and ParseOptions::declares.
+/// Throws InputError for a name that cannot be declared.
 void declare_predefined(Session& session);
 
 } // namespace celltrace::pov

@@ -1,4 +1,4 @@
-// cutaway_textures: faces that CSG cuts look like what they are cut from.
+// cutaway_textures: gives faces that CSG cuts the texture of the object that is cut.
 #include "pov/actions.hpp"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace {
 
 using Operation = Csg::Operation;
 
-/// A texture of parts, and where it counts: where a point is in one of `solids`, or anywhere.
+/// A texture of parts, for points in one of `solids`, or for all points.
 struct CutTexture {
   TexturePtr texture;
-  Transform transform; ///< of the texture, to the space of the CSG
+  Transform transform; ///< from the texture's space to that of the CSG
   bool is_everywhere;
   std::vector<ObjectPtr> solids;
 
@@ -41,8 +41,9 @@ bool has_texture(const ObjectDefinition& object) {
                                   [](const ObjectPtr& part) { return has_texture(*part); }));
 }
 
-/// As POV-Ray has it, a point on a face that has no texture takes those of all textured shapes that it is in,
-/// in equal shares, but of none that others are without. In unions all shapes have one.
+/// Collects the textures for faces without one. As in POV-Ray, a point on such a face takes the textures of
+/// all textured shapes that contain it, in equal shares. A shape without a texture adds none, except in a
+/// union, where it has the default texture.
 class CutTextures {
 public:
   CutTextures(Session& session, const Compound& whole) : session_(session) {
@@ -52,13 +53,14 @@ public:
   const std::vector<CutTexture>& all() const { return textures_; }
 
 private:
-  /// What a part has from the CSG around it.
+  /// Properties that a part gets from the CSG around it.
   struct Around {
-    TexturePtr texture;             ///< null: none
-    Transform texture_transform;    ///< to the space of the whole
-    Transform transform;            ///< likewise
-    std::vector<ObjectPtr> in = {}; ///< where a point must be to be in the part; the part itself last,
-    bool is_last_itself = false;    ///< if it is one of a union
+    TexturePtr texture;          ///< null: none
+    Transform texture_transform; ///< to the space of the whole
+    Transform transform;         ///< to the space of the whole
+    std::vector<ObjectPtr> in =
+        {};                      ///< objects that contain all points of the part; the part itself comes last,
+    bool is_last_itself = false; ///< if it is part of a union
   };
 
   void add(const ObjectDefinition& object, const Around& around) {
@@ -75,13 +77,13 @@ private:
       if (own.texture) add_texture(own);
       return;
     }
-    // What is in one of its parts is in a union.
+    // A point in a part of a union is in the union.
     if (own.is_last_itself && joins((*compound)->operation)) own.in.pop_back();
     own.is_last_itself = false;
     add_parts(**compound, own);
   }
 
-  /// A point in an intersection is in all of its parts, one in a difference in the first.
+  /// A point in an intersection is in all of its parts, a point in a difference in the first one.
   void add_parts(const Compound& compound, const Around& around) {
     const bool is_union = joins(compound.operation);
     for (const ObjectPtr& part : compound.parts) {
@@ -108,7 +110,7 @@ private:
         known.solids.insert(known.solids.end(), found.solids.begin(), found.solids.end());
         return;
       }
-    // Beyond that it is an error in any case.
+    // With more textures, the result is an error in any case.
     if (textures_.size() <= std::size_t{kMostMapEntries}) textures_.push_back(std::move(found));
   }
 
@@ -116,7 +118,7 @@ private:
   std::vector<CutTexture> textures_;
 };
 
-/// What is seen of a face that takes none: nothing shines on it.
+/// Returns the look of a face without any texture: black.
 TexturePtr no_texture() {
   auto texture = std::make_shared<TextureDefinition>();
   Finish& finish = texture->finish.own().value;
@@ -125,7 +127,7 @@ TexturePtr no_texture() {
   return texture;
 }
 
-/// In equal shares.
+/// Returns the mean of textures.
 TexturePtr average(Session& session, const std::vector<TexturePtr>& textures, const Location& where) {
   if (textures.empty()) return no_texture();
   if (textures.size() == 1) return textures.front();
@@ -137,7 +139,7 @@ TexturePtr average(Session& session, const std::vector<TexturePtr>& textures, co
   return with_map(session, result, map, where);
 }
 
-/// `inside` where a point is in one of `solids`, elsewhere `outside`.
+/// Returns a texture that is `inside` at points in one of `solids`, and `outside` elsewhere.
 TexturePtr by_place(Session& session, std::vector<ObjectPtr> solids, const TexturePtr& inside,
                     const TexturePtr& outside, const Location& where) {
   TextureMap list;
@@ -149,7 +151,7 @@ TexturePtr by_place(Session& session, std::vector<ObjectPtr> solids, const Textu
 
 using Textures = std::vector<CutTexture>::const_iterator;
 
-/// Where a point is in those of `chosen`, and of [next, end) is not known.
+/// Returns the texture of points that are in all of `chosen` and may be in any of [next, end).
 TexturePtr all_of(Session& session, Textures next, Textures end, const std::vector<TexturePtr>& chosen,
                   const Location& where) {
   if (next == end) return average(session, chosen, where);
@@ -160,7 +162,7 @@ TexturePtr all_of(Session& session, Textures next, Textures end, const std::vect
   return by_place(session, next->solids, inside, all_of(session, next + 1, end, chosen, where), where);
 }
 
-/// One of [begin, end) that a point is in, which it is in some.
+/// Returns the texture of points that are in at least one of [begin, end): one that contains the point.
 TexturePtr one_of(Session& session, Textures begin, Textures end, const Location& where) {
   if (end - begin == 1) return transformed(begin->texture, begin->transform);
   const Textures middle = begin + (end - begin) / 2;
@@ -178,13 +180,14 @@ void set_cutaway_textures(Session& session, ObjectDefinition& object, const Loca
   if (compound == nullptr ||
       ((*compound)->operation != Operation::intersection && (*compound)->operation != Operation::difference))
     session.fail(where, "'cutaway_textures' is for intersections and differences alone");
-  if (object.size > session.options.limits.objects) return; // and it is refused where it is placed
-  if (!has_texture(object)) return;                         // they all have the default one
+  if (object.size > session.options.limits.objects) return; // rejected where it is placed
+  if (!has_texture(object)) return;                         // all parts have the default texture
   std::vector<CutTexture> textures = CutTextures(session, **compound).all();
-  if (textures.size() == 1) textures.front().is_everywhere = true; // a point on a face is in what is cut
-  // Maps inside one another are as deep as there are textures that count in places only, and twice as many
-  // for each, if where several of them are each takes its share; but only as deep as these are halved if one
-  // does.
+  if (textures.size() == 1)
+    textures.front().is_everywhere = true; // a point on a face is in the object that is cut
+  // If all textures at a point share it, each texture with a limited place adds one level of nested maps, and
+  // doubles their number. If one of the textures is chosen instead, the maps nest only as deep as the
+  // textures can be halved.
   constexpr std::ptrdiff_t kMostShared = kDeepestMap - 2;
   constexpr std::size_t kMost = std::size_t{1} << (kDeepestMap - 2);
   const auto is_everywhere = [](const CutTexture& texture) { return texture.is_everywhere; };

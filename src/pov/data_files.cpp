@@ -1,4 +1,4 @@
-// TokenStream: the files that a scene reads and writes itself, with #fopen, #read, #write and #fclose.
+// TokenStream: files that a scene reads and writes itself with #fopen, #read, #write and #fclose.
 #include "pov/data_files.hpp"
 
 #include <algorithm>
@@ -31,11 +31,11 @@ Token DataFile::next() {
   return token;
 }
 
-/// Values stand between commas. What is there instead of one POV-Ray passes over, whatever it is.
+/// Values stand between commas. POV-Ray skips whatever stands in place of a comma.
 bool DataFile::pass_over_comma() {
   const Token token = next();
   if (token.kind == Token::Kind::vector) {
-    // Only its < counts.
+    // Only the < of a vector stands there; its other tokens are still to be read.
     Token part = token;
     part.kind = Token::Kind::punctuation;
     for (int i = 2; i >= 0; --i) {
@@ -135,7 +135,7 @@ void TokenStream::forget_data_file(const std::shared_ptr<DataFile>& file, NameId
   session_.symbols.declare(name, std::monostate());
 }
 
-/// One that is not open is let be, as in POV-Ray, since reading to the end closes a file.
+/// Closes a file. As in POV-Ray, a file that is not open is ignored, since reading to the end closes a file.
 void TokenStream::close_data_file() {
   const Token name = expect_name("of a file");
   const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
@@ -148,7 +148,8 @@ void TokenStream::close_data_file() {
   file->close(name.where);
 }
 
-/// At the end of the file the name of the file and what is still to be read stay as they are, or undeclared.
+/// Reads values into names. At the end of the file, the file's name becomes undeclared, and the remaining
+/// names stay as they are.
 void TokenStream::read_data() {
   expect('(', "after #read");
   Token name;

@@ -18,21 +18,21 @@ struct Session;
 
 class DataFile {
 public:
-  /// To be read: `text` is what is in it.
+  /// Opens a file for reading; `text` is its contents.
   DataFile(Session& session, const Location& opened_at, std::string text, const std::string& name);
-  /// To be written. Throws InputError if it cannot be.
+  /// Opens a file for writing. Throws InputError if that fails.
   DataFile(Session& session, const Location& opened_at, const std::filesystem::path& path,
            const std::string& name, bool append);
 
   const Location& opened_at() const { return opened_at_; }
   bool is_read() const { return scanner_ != nullptr; }
 
-  /// The next number, vector or string; nothing at the end.
+  /// Reads the next number, vector or string; nothing at the end.
   std::optional<Value> read();
-  /// Behind a value. False at the end.
+  /// Skips a comma behind a value. Returns false at the end.
   bool pass_over_comma();
 
-  // Faults are the scene's, at `where`.
+  // Writes text; errors are reported as the scene's, at `where`.
   void write(std::string_view text, const Location& where);
   void close(const Location& where);
 
@@ -45,7 +45,7 @@ private:
   Location opened_at_;
   std::string name_;
   std::unique_ptr<Scanner> scanner_;
-  std::vector<Token> put_back_; ///< the next one last
+  std::vector<Token> put_back_; ///< in reverse order
   std::unique_ptr<TextWriter> writer_;
 };
 

@@ -83,7 +83,7 @@ void Diagnostics::warn_once(const Location& where, const std::string& what) {
 
 bool Diagnostics::supports(const UnsupportedPtr& unsupported, const Location& used_at) {
   if (!unsupported) return true;
-  std::vector<const Unsupported*> all; // from the last to the first
+  std::vector<const Unsupported*> all; // in reverse order
   for (const Unsupported* one = unsupported.get(); one; one = one->others.get())
     all.push_back(one);
   for (auto one = all.rbegin(); one != all.rend(); ++one)
@@ -107,7 +107,7 @@ void Diagnostics::require_supported() const {
   if (errors_ != 0) refuse();
 }
 
-/// The last error, which may be another thing than a missing feature, is always told.
+/// Throws the errors. The last one is always included, as it may be more than a missing feature.
 void Diagnostics::refuse() const {
   std::vector<const Finding*> errors;
   for (const Finding& finding : findings_)
@@ -127,7 +127,7 @@ void Diagnostics::refuse() const {
 }
 
 std::vector<std::string> Diagnostics::stack() const {
-  // A file that includes itself, or a macro that calls itself, is one line.
+  // A run of equal entries, as of a file that includes itself or a macro that calls itself, is one line.
   struct Entry {
     std::string text;
     int times;

@@ -1,4 +1,4 @@
-// How a fault of the scene is reported.
+// Reports errors, warnings and notes about the scene.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 
 namespace celltrace::pov {
 
-/// What a scene calls a file or the like, in quotes, as a message can show it: not too long, and in one line.
+/// Returns a name from a scene, such as a file's, in quotes, shortened and made a single line for a message.
 std::string quoted_name(std::string_view name);
 
-/// Throws SceneError for a scene that cannot be read, or has nothing in it.
+/// Throws SceneError for a scene that cannot be read, or is empty.
 [[noreturn]] void refuse_scene(const std::string& name, const std::string& what, const ParseOptions& options);
 
 class Diagnostics {
@@ -27,11 +27,11 @@ public:
   Diagnostics(const Sources& sources, const Names& names, const Input& input, const ParseOptions& options)
       : sources_(sources), names_(names), input_(input), options_(options) {}
 
-  /// "file:line:column"
+  /// Returns "file:line:column".
   std::string place(const Location& where) const;
 
-  /// Throws SceneError: what was not supported so far, then the place, the text and how it was reached.
-  /// `details`: further lines about the fault.
+  /// Throws SceneError: the unsupported features so far, then the place, the text and the chain of files and
+  /// macros that led there. `details` are further lines about the error.
   [[noreturn]] void fail(const Location& where, const std::string& what,
                          const std::vector<std::string>& details = {}) const;
 
@@ -39,18 +39,19 @@ public:
   [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::*limit, const std::string& who,
                            const std::string& unit) const;
 
-  /// Says "place: warning: text", or another kind of message.
+  /// Reports "place: warning: text", or another kind of message.
   void warn(const Location& where, const std::string& what) const {
     say(Finding::Severity::warning, where, what);
   }
-  /// The same, but no more than one warning a place, however often loops and macros come there.
+  /// Warns, but only once for each place, however often loops and macros return there.
   void warn_once(const Location& where, const std::string& what);
   void note(const Location& where, const std::string& what) const {
     say(Finding::Severity::note, where, what);
   }
 
-  /// Whether all is supported that something at `used_at` needs; nothing at all for null. What is not has to
-  /// be left out: each feature is noted for the error at the end, or warned of in lenient reading, once.
+  /// Returns whether everything that something at `used_at` needs is supported; null needs nothing.
+  /// Unsupported things have to be left out: each feature is noted once, for the error at the end, or warned
+  /// of in lenient reading.
   bool supports(const UnsupportedPtr& unsupported, const Location& used_at);
   /// Throws SceneError if anything was noted.
   void require_supported() const;
@@ -67,10 +68,10 @@ private:
   const Names& names_;
   const Input& input_;
   const ParseOptions& options_;
-  std::set<std::string> unsupported_;                ///< the features noted or warned of
-  std::set<std::array<std::uint32_t, 3>> warned_at_; ///< by warn_once()
-  mutable std::vector<Finding> findings_;            ///< so far, of a parser that may be const
-  mutable std::size_t remarks_ = 0;                  ///< notes and warnings among them
+  std::set<std::string> unsupported_;                ///< features that have been noted or warned of
+  std::set<std::array<std::uint32_t, 3>> warned_at_; ///< places of warn_once()
+  mutable std::vector<Finding> findings_;            ///< of a parser that may be const
+  mutable std::size_t remarks_ = 0;                  ///< number of notes and warnings among them
   mutable std::size_t errors_ = 0;
 };
 

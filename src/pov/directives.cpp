@@ -1,4 +1,4 @@
-// TokenStream: the directives that define, include and say something.
+// TokenStream: directives that define names, include files and print messages.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,8 @@ namespace celltrace::pov {
 
 namespace {
 
-/// Whether a file's path ends with the name it was asked for, but for what separates folders.
+/// Returns whether the name of a file ends as the scene has spelled it; case counts, the kind of slashes does
+/// not.
 bool is_spelled(const std::string& path, const std::string& wanted) {
   return path.ends_with(portable_path(wanted).filename().string());
 }
@@ -94,8 +95,8 @@ void TokenStream::expect(char punctuation, const char* purpose) {
     session_.fail(token.where, std::string("expected '") + punctuation + "' " + purpose);
 }
 
-/// Whether there was one. Also where the one that includes a file has it behind the file's last declaration:
-/// people write #include "file.inc";
+/// Skips a semicolon if there is one, and returns whether there was. The semicolon of a file's last
+/// declaration may also stand behind the #include: people write #include "file.inc";
 bool TokenStream::skip_semicolon() {
   const Token token = read();
   skips_semicolon_ = token.kind == Token::Kind::end;
@@ -103,7 +104,7 @@ bool TokenStream::skip_semicolon() {
   return token.is(';');
 }
 
-/// From version 3.5 on a number, vector or colour that is declared needs one.
+/// Fails without a semicolon, which a declared number, vector or colour needs from version 3.5 on.
 void TokenStream::expect_semicolon(const Token& declared) {
   if (skip_semicolon() || session_.builder.is_before(3.5)) return;
   lacks_semicolon_ = declared;
@@ -145,7 +146,7 @@ Value& TokenStream::element(Value& array, const std::vector<std::size_t>& subscr
   return *found;
 }
 
-/// `deprecated once "message"` in front of a name.
+/// Skips `deprecated once "message"` in front of a name.
 void TokenStream::skip_deprecation() {
   const auto is_word = [this](const Token& token, std::string_view text) {
     return token.kind == Token::Kind::word && session_.names.text(token.name) == text;
@@ -167,10 +168,10 @@ void TokenStream::declare(bool is_local) {
   const std::size_t depth = session_.input.depth();
   Value value = evaluate(Start::value);
   const bool has_semicolon = skip_semicolon();
-  leave_finished_macros(depth); // the semicolon may be a macro's
+  leave_finished_macros(depth); // a macro may end with the semicolon
   if (std::holds_alternative<Quantity>(value)) {
     if (has_semicolon)
-      skip_semicolon(); // POV-Ray takes two behind numbers
+      skip_semicolon(); // POV-Ray accepts two behind numbers
     else
       expect_semicolon(name);
   }
@@ -188,7 +189,7 @@ void TokenStream::declare(bool is_local) {
   }
 }
 
-/// Also of an array's element, which then has no value.
+/// Handles #undef of a name, or of an array's element, which then has no value.
 void TokenStream::undefine() {
   const Token name = expect_name("to forget");
   const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
@@ -213,12 +214,13 @@ bool TokenStream::is_defined() {
   if (name.kind != Token::Kind::word) session_.fail(name.where, "expected a name");
   const std::vector<std::size_t> subscripts = read_subscripts();
   expect(')', "after a name");
-  if (session_.names[name.name].token != 0) return false; // as in POV-Ray, words of its own are not declared
+  if (session_.names[name.name].token != 0)
+    return false; // as in POV-Ray, reserved words do not count as declared
   const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
   return slot && !std::holds_alternative<std::monostate>(element(slot->value, subscripts, name.where));
 }
 
-/// `unofficial` may stand in front of the number: patched versions of POV-Ray had it.
+/// Handles #version; the number may follow `unofficial`, which patched versions of POV-Ray had.
 void TokenStream::set_version(const Token& directive) {
   const Token first = read();
   if (first.kind != Token::Kind::word || session_.names.text(first.name) != "unofficial")
@@ -234,12 +236,12 @@ void TokenStream::set_version(const Token& directive) {
   session_.builder.set_version(version);
 }
 
-/// A string behind a directive.
+/// Reads the string behind a directive.
 std::string TokenStream::read_file_name(Location& where) {
   const Token name = read();
   where = name.where;
   if (name.kind == Token::Kind::string)
-    return session_.names.text(name.name); // backslashes of Windows paths are no escapes
+    return session_.names.text(name.name); // backslashes of Windows paths are not escapes
   session_.input.unread(name);
   return std::get<std::string>(evaluate(Start::text));
 }
@@ -257,7 +259,7 @@ void TokenStream::fail_to_find(const std::string& what, const std::string& wante
   session_.diagnostics.fail(where, "cannot find the " + what + ' ' + quoted_name(wanted), details);
 }
 
-/// The file that the scene calls `wanted`: where it is, and its text.
+/// Returns the path and the text of the file that the scene calls `wanted`.
 std::pair<std::filesystem::path, std::string>
 TokenStream::read_file(const std::string& what, const std::string& wanted, const Location& where) {
   if (session_.options.file) {

@@ -22,7 +22,7 @@ bool is_macro(const Value* value) {
   return value != nullptr && std::holds_alternative<std::shared_ptr<const Macro>>(*value);
 }
 
-/// The number of tokens of the condition that a loop begins with; 0 if it has no end.
+/// Returns the number of tokens in the condition at the beginning of a loop; 0 if the condition does not end.
 std::size_t condition_length(const TokenRange& loop) {
   unsigned depth = 0;
   for (std::size_t i = loop.begin; i < loop.end; ++i) {
@@ -33,7 +33,7 @@ std::size_t condition_length(const TokenRange& loop) {
   return 0;
 }
 
-/// What a condition depends on; nothing if its value may change by itself.
+/// Returns the values that a condition depends on; nothing if it may change by itself.
 std::optional<Values> dependencies(const Session& session, const TokenRange& condition) {
   Values values;
   for (std::size_t i = condition.begin; i < condition.end; ++i) {
@@ -49,14 +49,14 @@ std::optional<Values> dependencies(const Session& session, const TokenRange& con
   return values;
 }
 
-/// Looks for what may change one of some values, or leave the loop.
+/// Looks for tokens that may change one of some values, or leave the loop.
 class Search {
 public:
   Search(const Session& session, Values values) : session_(session), values_(std::move(values)) {}
 
-  /// In a loop's body or, with `macro`, in that of a macro.
+  /// Searches a loop's body or, with `macro`, the body of that macro.
   bool may_end(const TokenRange& body, const Macro* macro = nullptr) {
-    Directive writer = Directive::none; // to the next name
+    Directive writer = Directive::none; // applies to the next name
     for (std::size_t i = body.begin; i < body.end; ++i) {
       const Token& token = (*body.tokens)[i];
       if (token.kind == Token::Kind::directive) {
@@ -64,10 +64,10 @@ public:
         if (!is_known(writer)) return true;
       } else if (token.kind == Token::Kind::word) {
         const Names::Entry& name = session_.names[token.name];
-        if (name.token == Number::T_TRACE) return true; // which writes to a name
+        if (name.token == Number::T_TRACE) return true; // trace() writes to a name
         if (name.token != 0) continue;
         const Value* const value = session_.symbols.value_of(token.name);
-        if (value == nullptr && name.directive != Directive::none) return true; // without its #
+        if (value == nullptr && name.directive != Directive::none) return true; // a directive without its #
         if (writes(writer) && changes(token.name, value, writer, macro)) return true;
         if (is_macro(value) && may_end_by(*std::get<std::shared_ptr<const Macro>>(*value))) return true;
         if (name.text != "deprecated") writer = Directive::none;
@@ -83,7 +83,8 @@ private:
     return seen_.size() > kMostMacros || may_end(macro.body, &macro);
   }
 
-  /// A macro's own names are not those outside of it; its parameters may be.
+  /// Returns whether a write to a name changes a value. A macro's own names differ from those outside of the
+  /// macro, but its parameters may not.
   bool changes(NameId name, const Value* value, Directive writer, const Macro* macro) const {
     if (macro != nullptr) {
       const auto& parameters = macro->parameters;
@@ -96,7 +97,7 @@ private:
     return directive == Directive::declare || directive == Directive::local ||
            directive == Directive::undef || directive == Directive::for_;
   }
-  /// Whether a directive does no more than to choose, to repeat, to say something, or to write to a name.
+  /// Returns whether a directive only branches, repeats, prints, or writes to a name.
   static bool is_known(Directive directive) {
     switch (directive) {
     case Directive::if_:

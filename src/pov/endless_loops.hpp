@@ -1,4 +1,4 @@
-// Loops that cannot end: found by what they consist of, long before they have run as often as they may.
+// Finds loops that cannot end from their contents, long before they reach the limit on iterations.
 #pragma once
 
 #include "pov/input.hpp"
@@ -7,8 +7,8 @@ namespace celltrace::pov {
 
 struct Session;
 
-/// How often a loop that is running will go on at least: infinity if it cannot end, 0 if that cannot be told,
-/// as where it includes files or reads data. Cheap enough for once in a thousand iterations.
+/// Returns how many more iterations a running loop does at least: infinity if it cannot end, 0 if that is
+/// unknown, as for a loop that includes files or reads data. Cheap enough to call every thousand iterations.
 double least_iterations(const Session& session, const Frame& loop);
 
 } // namespace celltrace::pov

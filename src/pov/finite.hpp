@@ -1,4 +1,4 @@
-// Whether the numbers of vectors and transformations are finite: scripts of scenes divide by zero.
+// Tests whether the numbers of vectors and transformations are finite: scenes' scripts divide by zero.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Reads functions of the scene: their expressions are of floats only, and not values yet, so that the
-// grammar's rules for numbers are of no use.
+// Reads functions of the scene: their expressions consist of floats, and have no values yet, so that the
+// grammar's rules for numbers cannot be used.
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -19,7 +19,7 @@ namespace {
 using tokens = Parser::token;
 constexpr int kDeepestCalls = 1000;
 
-/// The language's functions that functions may call.
+/// A function of the language that a scene's functions may call.
 struct CalledFunction {
   std::string_view name;
   FunctionOp op;
@@ -45,7 +45,7 @@ public:
     advance();
     read_parameters();
     require('{', "around a function's body");
-    // Names of parameters stand for themselves, whatever they are declared as outside.
+    // A parameter's name stands for the parameter, whatever it is declared as outside.
     session_.symbols.enter_scope();
     for (const Variable& variable : variables_)
       if (session_.names[variable.name].token == 0)
@@ -81,7 +81,7 @@ private:
     require(punctuation, purpose);
     advance();
   }
-  /// The word that the terminal was made of.
+  /// Returns the word from which the terminal was made.
   std::optional<NameId> word() const {
     const Token& token = session_.tokens.last_token();
     if (token.kind != Token::Kind::word) return std::nullopt;
@@ -113,7 +113,7 @@ private:
   void add_parameter(NameId name) {
     variables_.push_back({name, static_cast<FunctionValue>(variables_.size())});
   }
-  /// u and v are other names of x and y.
+  /// Returns the variable of a name: u and v are other names of x and y.
   NameId variable_of(NameId name) const {
     const std::string& text = session_.names.text(name);
     if (text == "u") return session_.names.intern("x");
@@ -156,7 +156,7 @@ private:
     expect(')', "after the number");
   }
 
-  /// Has the grammar read a pigment, or a pattern as if it were one.
+  /// Lets the grammar read a pigment, or a pattern as if it were a pigment.
   void read_texture(bool is_pigment) {
     const Location where = terminal_.where;
     Token word = session_.tokens.last_token();
@@ -171,7 +171,7 @@ private:
     advance();
   }
 
-  /// Has the grammar read a transformation or spline.
+  /// Lets the grammar read a transformation or spline.
   void read_value() {
     session_.tokens.unread_last();
     const Value value = session_.tokens.evaluate(Start::value);
@@ -200,7 +200,6 @@ private:
     function_->body = std::move(code);
   }
   auto find(NameId name) const {
-    // The innermost one of that name.
     return std::find_if(variables_.rbegin(), variables_.rend(),
                         [name](const Variable& variable) { return variable.name == name; });
   }
@@ -210,7 +209,7 @@ private:
     return builder_->apply(op, a, b);
   }
 
-  /// In functions, and there alone, & binds tighter than |.
+  /// Reads a logical expression. In functions, and nowhere else, & binds tighter than |.
   FunctionValue read_logic() {
     FunctionValue result = read_both();
     while (take('|'))
@@ -315,7 +314,7 @@ private:
     }
   }
 
-  /// A coordinate that is no parameter, in place of the vector that it is elsewhere.
+  /// Reads a coordinate that is no parameter; outside of functions the name is a vector.
   FunctionValue read_missing(NameId name) {
     session_.diagnostics.warn_once(terminal_.where, "'" + session_.names.text(name) +
                                                         "' is no parameter of this function: it is 0 here");
@@ -379,7 +378,7 @@ private:
     return function;
   }
 
-  FunctionValue read_call(const FunctionPtr callee) { // a copy: the terminal moves on
+  FunctionValue read_call(const FunctionPtr callee) { // a copy, since the terminal moves on
     const Location where = terminal_.where;
     advance();
     const std::vector<FunctionValue> arguments = read_arguments();
@@ -397,7 +396,8 @@ private:
     return read_component([&](std::uint32_t which) { return builder_->component(result, which); });
   }
 
-  /// The component of a vector or colour that stands behind it. `component` gives each by its number.
+  /// Reads the component that follows a vector or colour. `component` returns the value of each by its
+  /// number.
   template <class Component> FunctionValue read_component(Component component) {
     if (!is(tokens::T_COMPONENT)) fail_unexpected("one of the vector's components");
     const int which = terminal_.detail;
@@ -419,7 +419,7 @@ private:
     }
   }
 
-  /// A coordinate of a transformed point, by the operations of Transform::point().
+  /// Returns a coordinate of a transformed point, by the operations of Transform::point().
   FunctionValue coordinate(const Transform& transform, const std::vector<FunctionValue>& point,
                            std::uint32_t which) {
     if (which > 2) return builder_->constant(0);
@@ -433,7 +433,7 @@ private:
     return apply(FunctionOp::add, turned, builder_->constant(transform.rows[3][axis]));
   }
 
-  /// Only what is chosen is evaluated, unless it takes no time.
+  /// Reads select(). Only the chosen argument is evaluated, unless evaluation is cheap.
   FunctionValue read_select() {
     const Location where = terminal_.where;
     advance();
@@ -451,7 +451,7 @@ private:
     return builder_->select(chooser, branches);
   }
 
-  /// sum(i, first, last, expression), and the product.
+  /// Reads sum(i, first, last, expression), or a product.
   FunctionValue read_series(bool is_sum) {
     advance();
     expect('(', is_sum ? "after 'sum'" : "after 'prod'");
@@ -466,7 +466,7 @@ private:
     expect(',', "after the first number");
     const FunctionValue last = read_logic();
     require(',', "after the last number");
-    // As in POV-Ray, what is named like a coordinate is still the parameter.
+    // As in POV-Ray, a counter named as a coordinate does not hide the parameter.
     variables_.push_back({is_coordinate(*name) ? kNoName : *name, builder_->open_loop()});
     advance();
     const std::uint32_t body = builder_->close(read_logic());
@@ -482,8 +482,8 @@ private:
   Terminal terminal_;
   std::shared_ptr<UserFunction> function_ = std::make_shared<UserFunction>();
   std::optional<FunctionBuilder> builder_;
-  std::vector<Variable> variables_;                        ///< the parameters, then what is counted with
-  std::vector<std::pair<SplinePtr, FunctionPtr>> splines_; ///< that are called by their own names
+  std::vector<Variable> variables_; ///< the parameters, followed by the counters of sums and products
+  std::vector<std::pair<SplinePtr, FunctionPtr>> splines_; ///< functions of splines that are called by name
 };
 
 } // namespace

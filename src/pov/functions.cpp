@@ -18,7 +18,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// The arguments of one call, already of the types the function's signature asks for.
+/// The arguments of a call, already of the types in the function's signature.
 class Call {
 public:
   Call(Session& session, const std::vector<Value>& arguments, const Location& where)
@@ -58,7 +58,7 @@ template <class Better> Quantity best(const Call& call, Better better) {
   return result;
 }
 
-/// Of the arguments as ints, from the first to the last.
+/// Combines the arguments as ints, from the first to the last.
 template <class Combine> Quantity bitwise(const Call& call, Combine combine) {
   auto result = static_cast<std::int32_t>(to_int(call.number(0)));
   for (std::size_t i = 1; i < call.count(); ++i)
@@ -96,10 +96,10 @@ Quantity value_of(const Call& call) {
   return value;
 }
 
-/// v turned about an axis by an angle in degrees: Rodrigues' formula.
+/// Returns v turned about an axis by an angle in degrees: Rodrigues' formula.
 Quantity rotate_about(const Call& call) {
   const Vec3 v = call.vector(0);
-  const double length = glm::length(call.vector(1)); // of 0: as in POV-Ray, the result is no number
+  const double length = glm::length(call.vector(1)); // for a length of 0, the result is NaN as in POV-Ray
   const Vec3 axis = call.vector(1) / length;
   const double angle = call.number(2) / kDegreesPerRadian;
   return Quantity::vector(v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
@@ -112,11 +112,11 @@ Quantity normalize(const Call& call) {
   return Quantity::vector(length == 0 ? Vec3(0, 0, 0) : v / length);
 }
 
-/// Characters that a number takes at the most.
+/// Limit on characters in a number.
 constexpr int kMostDigits = 254;
 
 std::string format(double value, int width, int digits, std::chars_format notation) {
-  char buffer[1024]; // 309 digits, the point and kMostDigits more
+  char buffer[1024]; // room for 309 digits, the point and kMostDigits more
   const int precision = digits < 0 ? 6 : std::min(digits, 2 * kMostDigits);
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, notation, precision);
   std::string text(buffer, result.ptr);
@@ -128,10 +128,10 @@ std::string format(double value, int width, int digits, std::chars_format notati
   return text;
 }
 
-/// As printf's f in the C locale, whatever the application's, or as its g if that is too long: a negative
-/// width pads with zeros, a negative precision stands for 6 digits.
+/// Formats a number as printf's f in the C locale, whatever the application's locale, or as its g if the
+/// result is too long: a negative width pads with zeros, a negative precision stands for 6 digits.
 std::string format(double value, double width, double digits) {
-  constexpr const char* kTooLong = "<invalid>"; // POV-Ray's word
+  constexpr const char* kTooLong = "<invalid>"; // POV-Ray's text
   width = to_int(width);
   if (std::fabs(width) > kMostDigits) return kTooLong;
   const int columns = static_cast<int>(width), precision = static_cast<int>(to_int(digits));
@@ -146,7 +146,7 @@ std::string number_text(const Call& call) {
 
 std::string vector_text(const Call& call) {
   const int count = std::clamp(call.whole(0, -1e9, 1e9), 2, 5);
-  const Quantity& vector = call.quantity(1); // what a float or a shorter vector lacks is 0
+  const Quantity& vector = call.quantity(1); // missing components of a float or a shorter vector are 0
   std::string result;
   for (int i = 0; i < count; ++i)
     result += (i > 0 ? call.text(2) : std::string()) +
@@ -186,12 +186,13 @@ std::string in_case(std::string text, bool upper) {
 Quantity turbulence(const Call& call) {
   constexpr double kMostOctaves = 10;
   const auto octaves = static_cast<int>(std::clamp(call.number(2), 1.0, kMostOctaves));
-  // As in POV-Ray, whose precision here is single.
+  // Uses single precision where POV-Ray does.
   const auto lambda = static_cast<float>(call.number(0)), omega = static_cast<float>(call.number(1));
   return Quantity::vector(turbulence_vector(call.vector(3), octaves, lambda, omega));
 }
 
-/// Of the first characters in which texts differ, an end counting as 0; 0 if they are the same.
+/// Returns the difference of the first characters in which texts differ, an end counting as 0; 0 if the texts
+/// are equal.
 double difference(const std::string& a, const std::string& b) {
   const auto [at, other] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   const auto code = [](const std::string& text, std::string::const_iterator i) {
@@ -200,11 +201,11 @@ double difference(const std::string& a, const std::string& b) {
   return code(a, at) - code(b, other);
 }
 
-/// Since the year 2000, in universal time.
+/// The beginning of the year 2000, in seconds of Unix time.
 constexpr double kSecondsTo2000 = 946684800;
 constexpr double kSecondsPerDay = 86400;
 
-/// As strftime() has it.
+/// Formats a date as strftime() does.
 std::string date_text(const Call& call) {
   const double seconds = call.number(0) * kSecondsPerDay + kSecondsTo2000;
   call.require(std::fabs(seconds) < 1e11, "this date is out of range");
@@ -234,8 +235,8 @@ double square_root(const Call& call) {
   return std::sqrt(call.number(0));
 }
 
-/// The signature: n a float, v a vector, s a string; a trailing + repeats the last one, a trailing ? makes it
-/// optional.
+/// A function and its signature: n is a float, v a vector, s a string; a trailing + repeats the last one, a
+/// trailing ? makes it optional.
 struct Function {
   const char* name;
   const char* signature;
@@ -318,7 +319,7 @@ const char* type_name(char type) {
   return type == 's' ? "a string" : type == 'v' ? "a vector" : "a float";
 }
 
-/// The types of so many arguments. Fails if the function does not take them.
+/// Returns the types of this many arguments. Fails if the function takes another number.
 std::string argument_types(Session& session, const Function& function, std::size_t count,
                            const Location& where) {
   std::string types = function.signature;

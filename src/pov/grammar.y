@@ -1,9 +1,9 @@
 // The grammar of the POV-Ray scene language. Values are computed while they are read; TokenStream has
-// already obeyed the directives. It can be entered for a whole scene or for one value (see Start):
-// entered for a value it finishes as soon as the value is complete, whatever follows, because every state
-// that could end a value reduces by default. Actions that move on in the token stream themselves
+// already executed the directives. The grammar can be entered for a whole scene or for one value (see Start):
+// entered for a value, it finishes as soon as the value is complete, whatever follows, because every state
+// that could end a value reduces by default. Actions that read from the token stream themselves
 // (take_literals, take_arguments, take_name, skip_group, skip_arguments) belong to rules that are reduced without
-// looking ahead.
+// lookahead.
 
 %require "3.8"
 %language "c++"
@@ -16,10 +16,11 @@
 %define parse.error custom
 %locations
 %param { celltrace::pov::Session& session }
-// After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
-// longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
-// with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
-// rule for what comes before. Among an object's modifiers a colour's name is one only where no number can be.
+// Reasons for the expected conflicts: after a value, a sign or a colour's channel continues the value, although it
+// could also begin the next one, since commas are optional. A number at the front of an entry of a pigment_map is the
+// entry's weight. A name at the beginning of CSG stands for the whole CSG, not for its first part. A texture that is a
+// name alone, or begins with one, needs no rule for the parts before it. A colour's name among an object's modifiers
+// is a modifier only where no number can stand.
 %expect 356
 
 %code requires {
@@ -35,7 +36,7 @@
 %code {
 #define YYLLOC_DEFAULT(Current, Rhs, N) ((Current) = (N) ? YYRHSLOC(Rhs, 1) : YYRHSLOC(Rhs, 0))
 
-// Ends an entry for a value.
+// Ends an entry into the grammar for a value.
 #define FINISH(...) \
   do { \
     session.tokens.finish(__VA_ARGS__, !yyla.empty()); \
@@ -45,9 +46,9 @@
 namespace celltrace::pov {
 int yylex(Parser::semantic_type* value, Location* where, Session& session);
 
-/// bison's own makes an empty symbol, moves it onto the stack, destroys it and moves the value after it. Each of
-/// these is a jump on the symbol's kind that no CPU can foresee: without the first three a scene of many small
-/// objects takes a tenth less time.
+/// Replaces bison's own push, which makes an empty symbol, moves it onto the stack, destroys it and moves the value
+/// after it. Each of these steps is a jump on the symbol's kind that CPUs mispredict: without the first three, a scene
+/// of many small objects takes a tenth less time.
 template <>
 inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_type&& symbol) {
   seq_.emplace_back(std::move(symbol));
@@ -55,7 +56,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 }
 }
 
-// One for each Start.
+// Tokens that select the construct to read, one for each Start.
 %token START_SCENE START_CONDITION START_LIST START_EXPRESSION START_TEXT START_VALUE START_DEFAULTS
 
 %token <Quantity> QUANTITY
@@ -81,14 +82,14 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token <FunctionPtr> FUNCTION_ID
 %token <SplinePtr> SPLINE_ID
 %token UNDECLARED_ID
-%token ARGUMENTS // of a shape, which have been taken
+%token ARGUMENTS // a shape's arguments that have been read already
 
 %token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE OPTION_SHAPE CSG CAMERA_KIND
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN PATTERN_OPTION PATTERN_FLAG WAVE
 %token <NameId> UNSUPPORTED UNSUPPORTED_ARGUMENT UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT READ_APART
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
-%token OLD_PLUS OLD_MINUS // of a value of its own: before version 1.5 they join no two
+%token OLD_PLUS OLD_MINUS // signs of a new value: before version 1.5 they do not join two values
 
 %left '+' '-'
 %left '*' '/'
@@ -202,7 +203,7 @@ scene
   | scene fog                       { session.builder.add_fog(*$2, @2); }
   | scene rainbow                   { session.builder.add_rainbow(*$2, @2); }
   | scene GLOBAL_SETTINGS '{' settings '}'
-  | scene MAX_TRACE_LEVEL number    { set_max_trace_level(session, $3, @3); } // as before version 3
+  | scene MAX_TRACE_LEVEL number    { set_max_trace_level(session, $3, @3); } // syntax before version 3
   | scene MAX_INTERSECTIONS number
   | scene UNSUPPORTED_BLOCK         {
       session.diagnostics.supports(unsupported_block(session, $2, @2), @2);
@@ -262,7 +263,7 @@ defaults
 
 // ---- Numbers ----
 
-// One symbol for sums and products, told apart by precedence: a lone number goes through no long chain of rules.
+// One symbol for sums and products, distinguished by precedence, so that a lone number needs no long chain of rules.
 quantity
   : operand
   | signs operand         { $$ = $1.apply($2); }
@@ -294,7 +295,7 @@ operand
   | DIMENSION_SIZE '(' ARRAY_ID optional_comma number ')' { $$ = dimension_size(*$3, $5); }
   ;
 
-variable // to write to, whatever it is by now
+variable // a name to write to, whatever its current value
   : %empty { $$ = session.tokens.take_name(); }
   ;
 
@@ -322,11 +323,11 @@ vector_items
   | vector_items component         { $$ = $1; append_component(session, $$, $2, @2); }
   ;
 
-component // which may be infinite: what uses the vector knows whether it takes that
+component // may be infinite: the user of the vector checks whether that is allowed
   : quantity                       { $$ = session.any_number($1, @1); }
   ;
 
-// Comparisons and the like exist inside parentheses only: elsewhere < and > enclose vectors.
+// Comparisons and logical operators exist inside parentheses only: elsewhere < and > enclose vectors.
 value_in_brackets
   : logic
   | logic '?' value_in_brackets ':' value_in_brackets { $$ = is_true(session.any_number($1, @1)) ? $3 : $5; }
@@ -369,16 +370,16 @@ number
   : quantity               { $$ = session.number($1, @1); }
   ;
 
-number_or_0 // if it is not finite
+number_or_0 // 0 if it is not finite
   : quantity               { $$ = session.number_or_0($1, @1); }
   ;
 
-optional_number // 1 if not there
+optional_number // 1 if missing
   : %empty                 { $$ = 1; }
   | number
   ;
 
-flag // on if not there
+flag // on if missing
   : optional_number        { $$ = is_true($1) ? 1 : 0; }
   ;
 
@@ -396,7 +397,7 @@ text
 
 // ---- Colours ----
 
-colour // with a keyword: distinct from a mere number
+colour // with a keyword, unlike a number
   : named_colour
   | COLOUR_MODEL choice          { $$ = make_colour(ColourModel($1), $2); }
   | srgb_model choice            { $$ = decoded(session, make_colour($1, $2), @1); }
@@ -412,7 +413,7 @@ named_colour
   | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
   ;
 
-repeated_colour // as POV-Ray takes one in a fog: with the keyword more than once
+repeated_colour // a fog's colour: POV-Ray accepts the keyword more than once
   : COLOUR named_colour            { $$ = $2; }
   | COLOUR repeated_colour         { $$ = $2; }
   | repeated_colour CHANNEL number { $$ = with_channel($1, Channel($2), $3); }
@@ -423,14 +424,14 @@ srgb_model
   | SRGB_MODEL { $$ = ColourModel($1); }
   ;
 
-// Behind a colour's keyword POV-Ray takes a whole expression, which has brackets around it elsewhere.
+// Behind a colour's keyword POV-Ray accepts a whole expression, which needs parentheses elsewhere.
 choice
   : bare_choice
   | truth
   | truth '?' choice ':' choice    { $$ = is_true(session.number($1, @1)) ? $3 : $5; }
   ;
 
-bare_choice // no comparison: two vectors can stand side by side
+bare_choice // without comparisons: two vectors can stand side by side
   : joined
   | joined '?' choice ':' choice { $$ = is_true(session.any_number($1, @1)) ? $3 : $5; }
   ;
@@ -476,14 +477,14 @@ colour_value
   | colour
   ;
 
-colour_or_black // a keyword alone is one with black, as in POV-Ray
+colour_or_black // black for a keyword alone, as in POV-Ray
   : %empty       { $$ = Quantity::colour({0, 0, 0}); }
   | colour_value
   ;
 
 // ---- Transformations ----
 
-transformation // may have numbers that are not finite: what is moved by it knows what that makes of it
+transformation // may have numbers that are not finite: the object that it moves handles them
   : TRANSLATE quantity        { $$ = Transform::translate($2.vec3()); }
   | ROTATE quantity           { $$ = Transform::rotate($2.vec3()); }
   | SCALE quantity            { $$ = scale(session, $2, @2); }
@@ -492,7 +493,7 @@ transformation // may have numbers that are not finite: what is moved by it know
   | TRANSFORM '{' transform_items '}' { $$ = complete(session, $3, @1); }
   ;
 
-transform_items // `inverse` is for all of them, wherever it stands
+transform_items // `inverse` applies to all of them, wherever it stands
   : %empty                         { }
   | transform_items transformation { $$ = $1; $$.items = $1.items.then($2); }
   | transform_items TRANSFORM_ID   { $$ = $1; $$.items = $1.items.then($2); }
@@ -501,7 +502,7 @@ transform_items // `inverse` is for all of them, wherever it stands
 
 // ---- Textures ----
 
-from_default // where a pigment, normal or finish of its own starts; any other starts from what it changes
+from_default // start of a new pigment, normal or finish; any other starts from the one that it changes
   : %empty { session.base_texture = session.builder.default_texture; }
   ;
 
@@ -514,7 +515,7 @@ pigment_base
   | pigment_base UV_MAPPING  { $$ = $1; $$->uv_mapping = true; }
   ;
 
-pigment_parts // what it is, and then what changes that
+pigment_parts // its kind, followed by modifiers
   : pigment_base
   | pigment_base colour_value              { $$ = $1; set_colour(*$$, session.surface($2)); }
   | pigment_base pattern                   { $$ = $1; $2(session, $$->pattern); }
@@ -610,7 +611,7 @@ pattern
   | PIGMENT_PATTERN '{' from_default pigment_body '}' { $$ = grey(*$4); }
   ;
 
-pattern_object // of a list, which follows
+pattern_object // pattern with a list, which follows
   : OBJECT '{' object             { $$.object = $3; }
   | pattern_object transformation { $$ = $1; $$.transform = $$.transform.then($2); }
   ;
@@ -633,7 +634,7 @@ facing
     }
   ;
 
-second_number // 0 if not there
+second_number // 0 if missing
   : %empty                  { $$ = 0; }
   | number
   ;
@@ -702,7 +703,7 @@ turbulent_warp
   | turbulent_warp LAMBDA number  { $$ = $1; $$.lambda = $3; }
   ;
 
-colours // there may be a comma behind each entry of a list
+colours // a comma may follow each entry of a list
   : %empty { }
   | colours colour_value optional_comma {
       $$ = std::move($1);
@@ -741,7 +742,7 @@ colour_entries
   | colour_entries colour_entry { $$ = std::move($1); add(session, $$, $2, @2); }
   ;
 
-colour_entry // the old form has both ends of a blend
+colour_entry // the old form has both ends of an interval
   : '[' number optional_comma colour_or_black ']' { add_colour(session, $$, $2, $4, @4); }
   | '[' number optional_comma colour_base optional_comma colour optional_comma colour ']' {
       add_colour(session, $$, $2, $6, @6);
@@ -798,7 +799,7 @@ texture_entries
   | texture_entries entry_start texture_body ']' { $$ = std::move($1); add(session, $$, $2, $3, @3); }
   ;
 
-entry_start // an average's entries need no weight; a number is one, not a colour
+entry_start // an average's entries need no weight; a number is a weight, not a colour
   : '['                       { $$ = 1; }
   | '[' number optional_comma { $$ = $2; }
   ;
@@ -843,12 +844,12 @@ finish_parts
   | finish_parts unsupported                { $$ = $1; mark($$->unsupported, $2); }
   ;
 
-albedo // the number is the share of light that is sent on in all
+albedo // makes the number the share of light that is scattered in all directions together
   : %empty { $$ = false; }
   | ALBEDO { $$ = true; }
   ;
 
-irid_items // of the finish that is being read
+irid_items // set the irid of the finish that is being read
   : %empty
   | irid_items THICKNESS number  { session.irid->irid_thickness = $3; }
   | irid_items TURBULENCE number { session.irid->irid_turbulence = $3; }
@@ -868,11 +869,11 @@ reflection_body
 
 texture
   : TEXTURE '{' texture_body '}' { $$ = std::move($3); }
-  | TEXTURE '{' TEXTURE_ID '}'   { $$ = std::move($3); } // without the rules for parts: what most objects have
+  | TEXTURE '{' TEXTURE_ID '}'   { $$ = std::move($3); } // needs no rules for parts: the most frequent form
   | OLD_TEXTURE '{' old_texture_parts '}' { check(session, $3, @1); $$ = std::move($3); }
   ;
 
-// What pigment, normal and finish consist of may stand in a texture without their braces before version 3.0.
+// Before version 3.0, the parts of pigment, normal and finish may stand in a texture without their braces.
 old_texture_parts
   : %empty                           { $$ = session.builder.default_texture; }
   | old_texture_parts TEXTURE_ID     { $$ = $2; }
@@ -1035,7 +1036,7 @@ rainbow
 
 rainbow_body
   : %empty                          { $$ = new_rainbow(); }
-  | rainbow_body RAINBOW_ID         { // the same again, where POV-Ray 3.7 turns angles twice and forgets the colours
+  | rainbow_body RAINBOW_ID         { // a plain copy; POV-Ray 3.7 converts angles twice and loses the colours
       $$ = std::make_shared<RainbowDefinition>(*$2); }
   | rainbow_body DIRECTION quantity { $$ = $1; $$->value.direction = session.vector($3, @3); }
   | rainbow_body ANGLE number       { $$ = $1; $$->value.angle = $3; }
@@ -1055,7 +1056,7 @@ interior
     }
   ;
 
-interior_body // changes what is there
+interior_body // starts from a copy of session.base_interior
   : %empty                           { if (session.base_interior) $$ = *session.base_interior; }
   | interior_body INTERIOR_ID        { $$ = *$2; }
   | interior_body IOR number         { $$ = $1; $$.ior = ior(session, $3, @3); }
@@ -1067,7 +1068,7 @@ interior_body // changes what is there
       $$ = $1;
       mark($$.unsupported, unless_zero("'dispersion'", $3 - 1, @2));
     }
-  | interior_body REFRACTION number  { $$ = $1; } // no more than a switch before version 3.1
+  | interior_body REFRACTION number  { $$ = $1; } // only switched refraction on before version 3.1
   | interior_body IGNORED_NUMBER colour_value { $$ = $1; }
   | interior_body unsupported        { $$ = $1; mark($$.unsupported, $2); }
   ;
@@ -1162,7 +1163,7 @@ shape_head
   | shape_head ',' quantity  { $$ = std::move($1); append(session, $$.arguments, {$3, @3}, @3); }
   ;
 
-// Of what may be left out behind them the comma may be there.
+// A comma may follow the last argument if optional arguments are missing.
 option_shape_start
   : OPTION_SHAPE '{'         { $$.number = $1; $$.where = @1; session.tokens.take_arguments($$.arguments); }
   ;
@@ -1184,13 +1185,13 @@ light_group_head
   | light_group_head object  { $$ = std::move($1); append(session, $$.parts, $2, @2); }
   ;
 
-light_group // which is no more than its parts: it has no texture and the like of its own
+light_group // has parts, but no texture or other properties of its own
   : light_group_head                { $$ = csg(session, std::move($1), @1); }
   | light_group transformation      { $$ = $1; $$->apply($2); }
   | light_group GLOBAL_LIGHTS flag  { $$ = $1; set_global_lights(*$$, $3 != 0); }
   ;
 
-// A name instead of what an object consists of stands for whatever object it is.
+// A name in place of an object's contents stands for an object of any kind.
 object_body
   : OBJECT '{' object        { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | shape_start OBJECT_ID    { $$ = std::make_shared<ObjectDefinition>(*$2); }
@@ -1202,7 +1203,7 @@ object_body
   | option_shape_start OBJECT_ID { $$ = std::make_shared<ObjectDefinition>(*$2); }
   | option_shape_head        { $$ = shape(session, $1); }
   | option_shape_head ','    { $1.comma = @2; $$ = shape(session, $1); }
-  | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
+  | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as behind any object
   | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }
   | csg_head                 { $$ = csg(session, std::move($1), @1); }
   | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
@@ -1260,11 +1261,11 @@ object_body
       ignore_colour(session, @2);
     }
   | object_body photons                { $$ = std::move($1); $$->is_photon_target = $2; }
-  | object_body RADIOSITY              { $$ = std::move($1); session.tokens.skip_group(); } // of radiosity
+  | object_body RADIOSITY              { $$ = std::move($1); session.tokens.skip_group(); } // for radiosity only
   | object_body unsupported_modifier   { $$ = std::move($1); mark($$->unsupported, $2); }
   ;
 
-photons // whether any are to be aimed at this
+photons // true if photons are to be aimed at the object
   : PHOTONS '{' photon_items '}' { $$ = $3; }
   ;
 
@@ -1283,13 +1284,13 @@ photon_flag
   | AREA_LIGHT
   ;
 
-limits // of where an object is; they can be moved together
+limits // objects that clip or bound another one; they can be moved together
   : object                { $$.push_back({limiting(session, $1, @1), {}}); }
   | limits object         { $$ = std::move($1); append(session, $$, {limiting(session, $2, @2), {}}, @2); }
   | limits transformation { $$ = std::move($1); transform_limits($$, $2); }
   ;
 
-light_body // what comes later applies to what is there by then
+light_body // a modifier applies to everything before it
   : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = light(session, *$3, @3); }
   | LIGHT_SOURCE '{' quantity                             { $$ = light(session, $3.vec3(), Vec3(0)); }
   | LIGHT_SOURCE '{' quantity optional_comma colour_value {
@@ -1393,7 +1394,7 @@ texture_list
   | texture_list TEXTURE_ID  { $$ = std::move($1); append(session, $$, $2, @2); }
   ;
 
-counted_list // the count comes first
+counted_list // begins with its count
   : '{' entries '}'      { $$ = std::move($2); }
   | '{' entries ',' '}'  { $$ = std::move($2); }
   ;
@@ -1404,11 +1405,11 @@ entries
   | entries ',' quantity { $$ = std::move($1); append(session, $$, ListEntry($3), @3); }
   ;
 
-literals // those in front that need no grammar
+literals // leading entries that need no grammar
   : %empty               { session.tokens.take_literals($$); }
   ;
 
-// ---- What names can stand for ----
+// ---- Values of names ----
 
 declarable
   : quantity          { $$ = $1; }
@@ -1484,7 +1485,7 @@ element
   | '{' elements optional_comma '}' { $$ = $2; }
   ;
 
-// ---- What is not supported: what belongs to it is passed over ----
+// ---- Unsupported features, whose arguments are skipped ----
 
 unsupported
   : unsupported_pattern
@@ -1492,13 +1493,13 @@ unsupported
   | PATTERN            { $$ = unsupported_feature(session, quoted_pattern($1), @1); }
   ;
 
-unsupported_pattern // a pigment's, normal's or texture's
+unsupported_pattern // of a pigment, normal or texture
   : unsupported_modifier
   | UNSUPPORTED_OBJECT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   | USER_FUNCTION      { $$ = unsupported_feature(session, "'function'", @1); }
   ;
 
-unsupported_modifier // an object's: in CSG an unsupported object is one of its parts
+unsupported_modifier // of an object: in CSG, an unsupported object is a part instead
   : UNSUPPORTED        { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   | UNSUPPORTED_ARGUMENT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   | UNSUPPORTED_BLOCK  { $$ = unsupported_block(session, $1, @1); session.tokens.skip_arguments(); }

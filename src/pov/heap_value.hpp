@@ -1,5 +1,5 @@
-// Large values that few of many objects have, or that many have in common: apart from these, which stay
-// small.
+// Holders for large values that few of many objects have, or that many objects share, so that the objects
+// stay small.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace celltrace::pov {
 
-/// A value in memory of its own, copied with what it is a part of. One that was moved from has none.
+/// A value in memory of its own, which is copied with its owner. A moved-from holder has none.
 template <class T> class HeapValue {
 public:
   HeapValue(T value) : value_(std::make_unique<T>(std::move(value))) {}
@@ -37,17 +37,17 @@ public:
     return value_ ? *value_ : kNew;
   }
   const T* operator->() const { return &**this; }
-  /// To change it.
+  /// Returns the value for changing, after copying it if it is shared.
   T& own() {
     if (!value_ || value_.use_count() > 1) value_ = std::make_shared<T>(**this);
     return *value_;
   }
 
 private:
-  std::shared_ptr<T> value_; ///< null: as such values are made
+  std::shared_ptr<T> value_; ///< null: a default value
 };
 
-/// A transformation that mostly does nothing.
+/// A transformation that usually is the identity.
 class RareTransform {
 public:
   RareTransform& operator=(const Transform& transform) {
@@ -60,7 +60,7 @@ public:
   }
 
 private:
-  std::shared_ptr<const Transform> value_; ///< null: none
+  std::shared_ptr<const Transform> value_; ///< null: the identity
 };
 
 } // namespace celltrace::pov

@@ -1,4 +1,4 @@
-// The stack of things being read: files, macro bodies and loop bodies.
+// The stack of sources being read: files, macro bodies and loop bodies.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@
 
 namespace celltrace::pov {
 
-/// An #if or #switch whose #end is still to come.
+/// An #if or #switch whose #end has not been read yet.
 struct Conditional {
   bool is_switch = false;
   Location where;
 };
 
-/// What a #for counts with; a #while has none.
+/// The counter of a #for; a #while has none.
 struct Counter {
   NameId name = 0;
   std::shared_ptr<Slot> slot;
@@ -29,32 +29,33 @@ struct Counter {
   double step = 1;
 };
 
-/// An array's element that a macro has as a parameter: it gets the parameter's value when the macro ends.
+/// An array's element that was passed to a macro as a parameter: it gets the parameter's value when the macro
+/// ends.
 struct ElementReference {
   std::shared_ptr<Array> array;
   std::size_t index = 0;
   std::shared_ptr<Slot> slot; ///< of the parameter
-  Value value;                ///< that it had at first
+  Value value;                ///< at the call
 };
 
-/// One thing being read: the scanner of a file, or a recorded range.
+/// A source being read: the scanner of a file, or a recorded range of tokens.
 struct Frame {
   enum class Kind { file, macro, loop };
   Kind kind = Kind::file;
-  Location opened_at; ///< the #include, call or loop
+  Location opened_at; ///< place of the #include, call or loop
   std::unique_ptr<Scanner> scanner;
   std::filesystem::path folder; ///< of the file
   TokenRange range;
   std::size_t position = 0;
   NameId macro_name = 0;
-  std::vector<ElementReference> references; ///< of a macro
+  std::vector<ElementReference> references; ///< macros only
   std::optional<Counter> counter;
-  std::uint64_t iterations = 0; ///< of a loop, so far
+  std::uint64_t iterations = 0; ///< loops only: number so far
   std::vector<Conditional> conditionals;
-  std::vector<Token> put_back; ///< in front of the rest, the next one last
+  std::vector<Token> put_back; ///< read before the rest, in reverse order
 };
 
-/// The frames and the tokens put back in front of theirs. Knows nothing of what the tokens mean.
+/// The stack of frames, with the tokens put back in front of each. Does not know what tokens mean.
 class Input {
 public:
   void push(Frame frame) { frames_.push_back(std::move(frame)); }
@@ -64,15 +65,14 @@ public:
   const std::vector<Frame>& frames() const { return frames_; }
   std::size_t depth() const { return frames_.size(); }
 
-  /// Kind::end, and no further, at the end of the top frame.
+  /// Reads a token; at the end of the top frame, always Kind::end.
   Token read();
-  /// Whether the next token comes from a file.
   bool reads_file() const { return top().put_back.empty() && top().scanner != nullptr; }
-  /// Whether it comes from what has been recorded.
+  /// Returns whether the next token comes from a recording.
   bool reads_record() const { return top().put_back.empty() && top().scanner == nullptr; }
-  /// Whether the top frame is a macro with nothing left to read.
+  /// Returns whether the top frame is a macro with nothing left to read.
   bool is_exhausted() const;
-  /// In the top frame, from which it came.
+  /// Puts a token back in front of the top frame, from which it came.
   void unread(const Token& token) { top().put_back.push_back(token); }
 
 private:

@@ -1,4 +1,4 @@
-// POV-Ray's own functions, function { internal(n) }: those that functions.inc has names for.
+// POV-Ray's internal functions, function { internal(n) }, which functions.inc gives names to.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,7 +10,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// The arguments of a call: three coordinates, and the parameters p[0], p[1], ... behind them.
+/// The arguments of a call: three coordinates, followed by the parameters p[0], p[1], ...
 struct InternalCall {
   const FunctionContext& context;
   double x, y, z;
@@ -21,7 +21,7 @@ struct InternalCall {
 
 struct Internal {
   int parameters;
-  double (*value)(const InternalCall&); ///< null: not supported
+  double (*value)(const InternalCall&); ///< null if the function is not supported
 };
 
 double rounded_box(const InternalCall& c) {
@@ -46,7 +46,7 @@ double noise_at(const InternalCall& c, int generator) {
   return std::isfinite(sum) ? noise_value({c.x, c.y, c.z}, generator) : sum - sum;
 }
 
-/// By its number.
+/// The functions by number.
 constexpr Internal kInternals[] = {
     {5, nullptr}, // f_algbr_cyl1
     {5, nullptr}, // f_algbr_cyl2

@@ -29,7 +29,8 @@ Light moved(Light light, const Transform& next) {
 }
 
 std::vector<Light> lights_at_places(const Light& light) {
-  // Larger: each surface is lit so many times; smaller: half shadows have steps.
+  // Limit on lights along a side. Larger: each surface is lit by more lights; smaller: penumbrae
+  // have steps.
   constexpr int kMostPlaces = 16;
   const LightArea& area = *light.area;
   const int columns = std::min(area.columns, kMostPlaces), rows = std::min(area.rows, kMostPlaces);
@@ -70,7 +71,7 @@ std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition
                                         const Location& where) {
   if (!declared.light()) session.fail(where, "this is not a light source");
   auto object = std::make_shared<ObjectDefinition>(declared);
-  // Where it is by now; what follows, such as point_at, is not moved.
+  // Moves the light to its current place; later modifiers, such as point_at, are not moved.
   object->transform = Transform();
   transform(*object, declared.transform);
   session.lights.push_back(object);
@@ -93,7 +94,7 @@ void set_kind(ObjectDefinition& object, Light::Kind kind) {
   light.radius = is_cylinder ? 0.75 : 30;
   light.falloff = is_cylinder ? 1 : 45;
   light.tightness = 0;
-  // It stays so if `spotlight` follows.
+  // The light stays parallel if `spotlight` follows.
   if (is_cylinder) light.parallel = true;
 }
 
@@ -143,7 +144,7 @@ LightArea& area_of(ObjectDefinition& object) {
 }
 
 void set_adaptive(ObjectDefinition& object, double level) {
-  constexpr double kAlways = 100; // more than any grid can be divided
+  constexpr double kAlways = 100; // more than any grid can be subdivided
   area_of(object).adaptive = static_cast<int>(std::clamp(level, 0.0, kAlways));
 }
 

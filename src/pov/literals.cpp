@@ -11,10 +11,10 @@ namespace celltrace::pov {
 
 namespace {
 
-/// As long as the scanner takes without complaint.
+/// The longest entry that the scanner accepts without an error.
 constexpr std::ptrdiff_t kLongestEntry = 4096;
 
-/// Bytes of the shortest vector with its comma, "<0,0>,".
+/// The length in bytes of the shortest vector with its comma, "<0,0>,".
 constexpr std::ptrdiff_t kShortestVector = 6;
 
 bool is_digit(char c) {
@@ -34,7 +34,7 @@ const char* skip_gap(const char* at) {
   return at;
 }
 
-/// Blanks, line ends and comments up to the end of a line.
+/// Skips blanks, line ends and comments up to the end of a line.
 const char* skip_blanks(const char* at) {
   for (;;) {
     while (*at == ' ' || *at == '\n' || *at == '\r' || *at == '\t')
@@ -45,7 +45,7 @@ const char* skip_blanks(const char* at) {
   }
 }
 
-/// Null if there is no number, or none that a double can hold.
+/// Reads a number; null if there is none, or none that a double can hold.
 const char* read_number(const char* at, const char* end, double& value) {
   const bool plus = *at == '+';
   if (plus) ++at;
@@ -66,7 +66,7 @@ const char* read_vector(const char* at, const char* end, Vec3& vector) {
   return nullptr;
 }
 
-/// What is behind the entry; null if it is no literal.
+/// Reads an entry and returns its end; null if it is no literal.
 const char* read_entry(const char* at, const char* end, ListEntry& entry) {
   const char* behind = nullptr;
   if (*at == '<') {
@@ -83,8 +83,8 @@ bool is_in_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_';
 }
 
-/// Whether a value in front of this is complete, whatever follows. A name that is not reserved may be that of
-/// a macro, which may go on with an operator.
+/// Returns whether a value in front of this is complete, whatever follows. A name that is not reserved may be
+/// that of a macro, which may continue the value with an operator.
 bool ends_value(const char* at, const Names& names) {
   if (*at == ',' || *at == '}') return true;
   const char* end = at;
@@ -93,7 +93,8 @@ bool ends_value(const char* at, const Names& names) {
   return names.is_reserved(std::string_view(at, static_cast<std::size_t>(end - at)));
 }
 
-/// The count in front of a list says how long it will be, as far as the rest of the text can hold that.
+/// Returns how long a list will be: the count at its head, as far as the rest of the text can hold that many
+/// entries.
 std::size_t expected(double count, const char* text, const char* end, std::size_t most) {
   const auto room = static_cast<std::size_t>((end - text) / kShortestVector + 2);
   const std::size_t limit = std::min(room, most);

@@ -1,4 +1,4 @@
-// The maps and lists that patterns make pigments, normals and textures of.
+// Maps and lists of patterns, for pigments, normals and textures.
 #include "pov/actions.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// What every entry adds to its map.
+/// Adds an entry to its map; part of adding any kind of entry.
 template <class T>
 void add(Session& session, MapDefinition<T>& map, double position, const T& value, int depth, bool is_opaque,
          const UnsupportedPtr& unsupported, const Location& where) {
@@ -25,8 +25,7 @@ void add(Session& session, MapDefinition<T>& map, double position, const T& valu
   mark(map.unsupported, unsupported);
 }
 
-/// What two entries make of a number between them, where that is simple: `entry` stays as it is where it is
-/// not.
+/// Sets `entry` to the mean of two entries if that is simple; otherwise leaves it unchanged.
 template <class Entry> void set_between(Entry&, const Entry&, const Entry&, double) {
 }
 void set_between(PatternMap<Pigment>::Entry& entry, const PatternMap<Pigment>::Entry& below,
@@ -37,12 +36,12 @@ void set_between(PatternMap<Pigment>::Entry& entry, const PatternMap<Pigment>::E
                  std::lerp(a.transmit, b.transmit, share)};
 }
 
-/// Positions ascend in a Scene's maps. POV-Ray looks for the first entry that a number has not passed, after
-/// it has looked whether it has passed the last one, and takes the entry before it as it is, even if that
-/// lies further back than where the numbers begin that come here.
+/// Makes positions ascend, as a Scene's maps need. For each value POV-Ray first looks whether it has passed
+/// the last entry; if not, POV-Ray looks for the first entry that the value has not passed, and takes the
+/// entry before that one as written, even if its position is greater than the values that reach it.
 template <class Entries> void make_ascending(Entries& entries) {
   const double last = entries.back().position;
-  auto before = entries.front(); // as it is written
+  auto before = entries.front(); // as written
   double reached = std::min(before.position, last);
   entries.front().position = reached;
   for (std::size_t i = 1; i < entries.size(); ++i) {
@@ -63,13 +62,13 @@ template <class T> std::shared_ptr<const MapDefinition<T>> ascending(MapDefiniti
   return std::make_shared<const MapDefinition<T>>(std::move(map));
 }
 
-/// The weights of an average's entries together.
+/// Returns the sum of the weights of an average's entries.
 template <class T> double total_weight(const MapDefinition<T>& map) {
   return std::accumulate(map.entries.begin(), map.entries.end(), 0.0,
                          [](double sum, const auto& entry) { return sum + entry.position; });
 }
 
-/// The map as `pattern` needs it.
+/// Returns the map in the form that `pattern` needs.
 template <class T>
 std::shared_ptr<const MapDefinition<T>> map_for(Session& session, const PatternDefinition& pattern,
                                                 const MapDefinition<T>& map, const Location& where) {
@@ -80,7 +79,7 @@ std::shared_ptr<const MapDefinition<T>> map_for(Session& session, const PatternD
   return std::make_shared<const MapDefinition<T>>(map);
 }
 
-/// The list of what a map of colours has for the numbers of its entries.
+/// Returns a list of the colours that a map has at the indices of the list's entries.
 PigmentMap list_of(const PigmentMap& map, std::size_t length) {
   auto entries = map.entries;
   make_ascending(entries);
@@ -99,7 +98,7 @@ PigmentMap list_of(const PigmentMap& map, std::size_t length) {
   return list;
 }
 
-/// Numbers the entries of a list.
+/// Returns a list whose entries have their indices as positions.
 template <class T>
 std::shared_ptr<const MapDefinition<T>> list_for(Session& session, const PatternDefinition& pattern,
                                                  MapDefinition<T> list, const Location& where) {
@@ -173,7 +172,7 @@ void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map
     return;
   }
   pigment.map = map_for(session, pigment.pattern, map, where);
-  if (!pigment.map) pigment.value = map.entries.front().value; // of a pattern that is left out
+  if (!pigment.map) pigment.value = map.entries.front().value; // the pattern is unsupported and left out
 }
 
 void set_old_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where) {
@@ -203,7 +202,7 @@ TexturePtr with_map(Session& session, const TexturePtr& texture, const TextureMa
     return std::make_shared<const TextureDefinition>();
   }
   changed->map = map_for(session, texture->pattern, map, where);
-  if (!changed->map) { // of a pattern that is left out
+  if (!changed->map) { // the pattern is unsupported and left out
     *changed = *map.entries.front().value;
     mark(changed->unsupported, texture->pattern.unsupported);
   }

@@ -1,7 +1,6 @@
-// What a parse holds in memory, counted as it is made and dropped, so that no scene can make more than its
-// limit.
+// Counts the memory that a parse holds, as it is allocated and released, so that no scene can pass its limit.
 //
-// A parse and all that it counts belong to one thread.
+// A parse and everything that it counts belong to one thread.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +11,14 @@
 
 namespace celltrace::pov {
 
-/// A limit of the scene has been passed; parse() says where.
+/// Thrown if the scene has passed a limit; parse() adds the place.
 struct LimitPassed {
   std::uint64_t ParseLimits::*limit;
-  const char* who; ///< "the scene's declarations need"
+  const char* who; ///< subject of the message, such as "the scene's declarations need"
   const char* unit;
 };
 
-/// Counts for the calling thread's innermost parse while it lives.
+/// Counts memory for the calling thread's innermost parse while it lives.
 class MemoryCount {
 public:
   explicit MemoryCount(const ParseLimits& limits) : limits_(limits), outer_(current_) { current_ = this; }
@@ -27,11 +26,11 @@ public:
   MemoryCount& operator=(const MemoryCount&) = delete;
   ~MemoryCount() { current_ = outer_; }
 
-  /// Throws LimitPassed.
+  /// Counts bytes. Throws LimitPassed.
   static void take(std::size_t bytes) {
     if (current_) current_->take_bytes(bytes);
   }
-  /// For what cannot fail; the next that can does.
+  /// Counts bytes where nothing may throw; the next call of take() checks the limit.
   static void take_unchecked(std::size_t bytes) noexcept {
     if (current_) current_->bytes_ += bytes;
   }
@@ -63,7 +62,7 @@ private:
   static inline thread_local MemoryCount* current_ = nullptr;
 };
 
-/// As a member: each object of type T counts.
+/// A member that counts each object of type T.
 template <class T> class Counted {
 public:
   Counted() { MemoryCount::take(sizeof(T)); }
@@ -73,7 +72,7 @@ public:
   ~Counted() { MemoryCount::give_back(sizeof(T)); }
 };
 
-/// As a member: counts bytes that are known later.
+/// A member that counts bytes whose number is known later.
 class MemoryShare {
 public:
   MemoryShare() = default;
@@ -90,7 +89,7 @@ private:
   std::size_t bytes_ = 0;
 };
 
-/// For the elements of arrays.
+/// An allocator for the elements of arrays, which counts them.
 template <class T> struct ElementAllocator {
   using value_type = T;
 

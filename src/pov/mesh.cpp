@@ -15,7 +15,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// A face of mesh2 in numbers: its vertices and the textures behind it, 0, 1 or 3 of them.
+/// A face of mesh2 as indices: its vertices and its textures, 0, 1 or 3 of them.
 struct Face {
   Index vertex[3];
   Index texture[3];
@@ -29,31 +29,32 @@ Vec3f to_single(const Vec3& v) {
   return single;
 }
 
-/// Whether a triangle has no area, or a corner that is nowhere.
+/// Returns whether a triangle has no area, or a corner that is not finite.
 bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
   if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return true;
   const Vec3 normal = glm::cross(b - a, c - a);
   return normal.x == 0 && normal.y == 0 && normal.z == 0;
 }
 
-constexpr double kNoNormal = 1e-10; ///< no component of one is as long
+constexpr double kNoNormal = 1e-10; ///< a normal with all components below this counts as zero
 
 bool is_zero(const Vec3& normal) {
   const Vec3 size = glm::abs(normal);
   return std::max({size.x, size.y, size.z}) < kNoNormal;
 }
 
-/// POV-Ray brings vertex normals to length one before it interpolates; zero becomes that along x.
+/// Returns a vertex normal of length one, as POV-Ray makes it before it interpolates; a zero normal becomes
+/// that along x.
 Vec3 unit(const Vec3& normal) {
   return is_zero(normal) ? Vec3(1, 0, 0) : glm::normalize(normal);
 }
 
-/// Whether three unit normals bend a surface.
+/// Returns whether three unit normals make a triangle smooth.
 bool are_smooth(const Vec3& a, const Vec3& b, const Vec3& c) {
   return !(a == b && b == c) && is_finite(a) && is_finite(b) && is_finite(c);
 }
 
-/// All digits of a number that has not too many of them.
+/// Returns all digits of a number if there are not too many.
 std::string whole_text(double number) {
   constexpr double kMost = 1e15;
   return std::fabs(number) < kMost ? std::to_string(static_cast<long long>(number)) : short_text(number);
@@ -73,7 +74,7 @@ void to_indices(const ListEntry& entry, std::size_t count, const char* what, Ind
     indices[i] = to_index(entry.v[i], count, what);
 }
 
-/// Reads the face at `entry`, and moves on past it and the textures behind it.
+/// Reads the face at `entry`, and moves `entry` past the face and its textures.
 Face take_face(const Mesh2Definition& definition, const ListEntry*& entry) {
   if (entry->is_float) throw InputError("mesh2 has a texture index without a face");
   Face face;
@@ -88,8 +89,8 @@ Face take_face(const Mesh2Definition& definition, const ListEntry*& entry) {
   return face;
 }
 
-/// Puts the surface coordinates of face number `face` behind the others: those of its indices or, without
-/// any, those with its vertices' numbers.
+/// Appends the surface coordinates of face number `face`: those of its indices or, if it has none, those with
+/// its vertices' numbers.
 void add_coordinates(const Mesh2Definition& definition, std::size_t face, const Face& of, Mesh& mesh) {
   if (definition.uv_vectors.empty()) return;
   Index indices[3];
@@ -105,7 +106,8 @@ void add_coordinates(const Mesh2Definition& definition, std::size_t face, const 
   }
 }
 
-/// POV-Ray has as many uv_indices as faces, or none where each vertex has its own coordinates.
+/// Checks the number of uv_indices: POV-Ray has one for each face, or none if each vertex has its own
+/// coordinates.
 void check_coordinates(const Mesh2Definition& definition, std::size_t faces) {
   if (definition.uv_vectors.empty()) return;
   if (definition.uv_indices.empty() && definition.uv_vectors.size() != definition.vertex_vectors.size())
@@ -115,7 +117,8 @@ void check_coordinates(const Mesh2Definition& definition, std::size_t faces) {
                      std::to_string(faces) + " faces");
 }
 
-/// The normals of face number `face`: those of its indices or, without any, those with its vertices' numbers.
+/// Finds the normals of face number `face`: those of its indices or, if it has none, those with its vertices'
+/// numbers.
 bool find_normals(const Mesh2Definition& definition, std::size_t face, const Face& of, Index (&normal)[3]) {
   if (definition.normal_vectors.empty()) return false;
   if (definition.normal_indices.empty()) {
@@ -129,7 +132,7 @@ bool find_normals(const Mesh2Definition& definition, std::size_t face, const Fac
                     definition.normal_vectors[normal[2]].v);
 }
 
-/// For so many elements that the memory is new.
+/// Reserves room for so many elements that fresh memory is needed.
 template <class T> void reserve(std::vector<T>& elements, std::size_t count) {
   elements.reserve(count);
   use_huge_pages(elements.data(), count * sizeof(T));
@@ -195,7 +198,7 @@ void MeshBuilder::add(const TriangleDefinition& triangle) {
   }
   mesh.triangles.push_back(result);
   if (!triangle.is_mapped && mesh.coordinates.empty()) return;
-  mesh.coordinates.resize(mesh.triangles.size()); // of those before it 0, as in POV-Ray
+  mesh.coordinates.resize(mesh.triangles.size()); // earlier triangles get 0, as in POV-Ray
   std::copy(triangle.coordinates.begin(), triangle.coordinates.end(), mesh.coordinates.back().corner);
 }
 
@@ -234,7 +237,7 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStrea
     mesh.triangles.push_back(triangle);
     add_coordinates(definition, i, face, mesh);
   }
-  // What has been used gives its memory back by and by, not all at the end.
+  // Frees each list once it has been used, instead of all of them at the end.
   definition.face_indices = {};
   tokens.look();
   reserve(mesh.vertices, vertices.size());

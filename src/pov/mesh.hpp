@@ -1,4 +1,4 @@
-// From triangles and mesh2's lists to a Mesh.
+// Builds a Mesh from triangles and from mesh2's lists.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,12 @@ namespace celltrace::pov {
 
 class TokenStream;
 
-/// Takes triangles one by one. Degenerate ones are dropped; normals that are equal or zero count for nothing.
+/// Takes triangles one by one. Drops degenerate ones, and normals that are all equal or zero.
 class MeshBuilder {
 public:
   void add(const TriangleDefinition& triangle);
   void set_inside_vector(const Vec3& direction) { mesh_->mesh.inside_vector = direction; }
-  /// Whether it has been given none at all.
+  /// Returns whether no triangle has been added.
   bool is_unused() const { return is_unused_; }
   std::shared_ptr<MeshDefinition> finish() { return std::move(mesh_); }
 
@@ -30,12 +30,12 @@ private:
   bool is_unused_ = true;
 };
 
-/// The entries of a list that its count leads. The count stays where it was read: taking it out would move
-/// all entries, which can be a hundred megabytes.
+/// The entries of a list with a count at its head. The count stays where it was read: to remove it would move
+/// all entries, which may take a hundred megabytes.
 class CountedList {
 public:
   CountedList() = default;
-  /// `written` begins with the count.
+  /// Takes a list that begins with its count.
   explicit CountedList(std::vector<ListEntry> written) : written_(std::move(written)) {}
 
   std::size_t size() const { return written_.empty() ? 0 : written_.size() - 1; }
@@ -49,23 +49,22 @@ private:
   std::vector<ListEntry> written_;
 };
 
-/// The lists of a mesh2.
 struct Mesh2Definition {
   CountedList vertex_vectors;
   CountedList normal_vectors;
   std::vector<TexturePtr> textures;
-  CountedList face_indices; ///< a vector for a face, floats for its textures behind it
+  CountedList face_indices; ///< per face a vector, followed by floats for its textures
   CountedList normal_indices;
   CountedList uv_vectors;
   CountedList uv_indices;
   Vec3 inside_vector{0, 0, 0};
 };
 
-/// Without the textures' indices. `tokens` counts the work.
+/// Returns the number of faces, without the textures' indices. `tokens` counts the work.
 std::size_t count_faces(const CountedList& faces, TokenStream& tokens);
 
-/// Throws InputError, without a position, for indices that are out of range or do not belong to a face.
-/// `tokens` counts the work.
+/// Makes the mesh. Throws InputError, without a position, for indices that are out of range or do not belong
+/// to a face. `tokens` counts the work.
 std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStream& tokens);
 
 } // namespace celltrace::pov

@@ -1,4 +1,4 @@
-// The words of a scene, numbered, with what the language means by them.
+// The words of a scene, numbered, with their meaning in the language.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace celltrace::pov {
 
-/// The preprocessor's words, those after a #.
+/// The preprocessor's words, which follow a #.
 enum class Directive : std::uint8_t {
   none,
   break_,
@@ -42,10 +42,10 @@ enum class Directive : std::uint8_t {
   warning,
   while_,
   write_,
-  unsupported, ///< known to POV-Ray only
+  unsupported, ///< POV-Ray's, but not this program's
 };
 
-/// Whether a directive needs an #end.
+/// Returns whether a directive needs an #end.
 bool opens_block(Directive directive);
 
 class Names {
@@ -53,13 +53,13 @@ public:
   struct Entry {
     std::string text;
     int token = 0;      ///< the grammar's token for a reserved word, 0 for a free one
-    int detail = 0;     ///< what the token says apart from its kind: which function, constant or colour model
-    int component = -1; ///< what it means behind a dot: 0 to 4, 5 for grey, -1 nothing
-    bool is_unsupported = false; ///< reserved for what this program lacks
+    int detail = 0;     ///< distinguishes words of one token: which function, constant or colour model
+    int component = -1; ///< meaning behind a dot: component 0 to 4, 5 for grey, -1 for none
+    bool is_unsupported = false; ///< reserved for a feature that this program lacks
     Directive directive = Directive::none;
   };
 
-  /// Knows the reserved words.
+  /// Adds the reserved words.
   Names();
 
   NameId intern(std::string_view text);

@@ -24,8 +24,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
-  // Short words are near to too many, and the distance takes the product of lengths, which a stranger
-  // chooses.
+  // Short words are similar to too many others; a distance takes time in proportion to the product of the
+  // lengths, which the scene's author chooses.
   constexpr std::size_t kShortest = 4, kLongest = 64;
   if (word.size() < kShortest || word.size() > kLongest) return "";
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;

@@ -20,10 +20,10 @@ using geometry::Crossings;
 using geometry::Ray;
 using Operation = Csg::Operation;
 
-/// Nearer crossings are the point that a ray starts at.
+/// Nearer crossings count as the origin of the ray.
 constexpr double kNearest = 1e-6;
 constexpr double kFarthest = 1e7;
-/// Of shapes, in all calls together.
+/// Limit on shape tests in all calls together.
 constexpr std::uint64_t kMostTests = 10'000'000'000;
 
 struct Query {
@@ -42,7 +42,7 @@ const Mesh* mesh_of(const Query& query, const ObjectDefinition& object) {
   return mesh ? &query.session.builder.mesh_of(*mesh) : nullptr;
 }
 
-/// Of the mesh that the object is.
+/// Returns the triangles near a ray in an object's mesh.
 std::vector<std::uint32_t> triangles_along(const Query& query, const ObjectDefinition& object,
                                            const Ray& ray) {
   auto& tree = std::get<std::shared_ptr<MeshDefinition>>(object.shape)->tree;
@@ -62,7 +62,7 @@ const TriangleDefinition* triangle_of(const ObjectDefinition& object) {
   return triangle ? triangle->get() : nullptr;
 }
 
-/// Whether there is a shape to ask.
+/// Returns whether the object is a supported shape and no light.
 bool is_solid(const Query& query, const ObjectDefinition& object) {
   return query.session.diagnostics.supports(object.missing, query.where) && !object.light();
 }
@@ -113,7 +113,7 @@ bool contains(const Query& query, const ObjectDefinition& object, const Vec3& po
 
 void cross(const Query& query, const ObjectDefinition& object, const Ray& ray, Crossings& found);
 
-/// Of the surfaces of all parts, those that are the whole's.
+/// Finds the crossings with the surface of a CSG, among those with its parts.
 void cross(const Query& query, const Compound& compound, const Ray& ray, Crossings& found) {
   const auto& parts = compound.parts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -213,7 +213,7 @@ Extent extent(const Query& query, const ObjectDefinition& object) {
                              object.transform.point(triangle->vertices[2])});
   else if (const auto* shape = std::get_if<Shape>(&object.shape))
     result = geometry::extent_of(*shape, object.transform);
-  // What limits it bounds it, too, if that is smaller.
+  // Objects that clip or bound the object replace its extent if theirs is smaller.
   for (const auto* limits : {&object.clipped_by, &object.bounded_by})
     for (const Limit& limit : *limits) {
       if (limit.object->inverse) continue;
@@ -239,7 +239,7 @@ std::optional<ObjectHit> trace(Session& session, const ObjectDefinition& object,
   if (nearest == found.end()) return std::nullopt;
   const double size = glm::length(nearest->normal);
   const Vec3 normal = size > 0 ? nearest->normal / size : nearest->normal;
-  return ObjectHit{ray.at(nearest->t), normal + Vec3(0)}; // without negative zeros
+  return ObjectHit{ray.at(nearest->t), normal + Vec3(0)}; // turns negative zeros into zeros
 }
 
 bool contains(Session& session, const ObjectDefinition& object, const Vec3& point, const Location& where) {

@@ -1,5 +1,5 @@
-// What the scene can ask about objects that it has declared: trace(), inside(), min_extent() and
-// max_extent(), in double precision.
+// Answers a scene's queries about declared objects, trace(), inside(), min_extent() and max_extent(), in
+// double precision.
 #pragma once
 
 #include <optional>
@@ -11,18 +11,19 @@ namespace celltrace::pov {
 
 struct Session;
 
-/// Where a ray hits an object first.
+/// The first point where a ray hits an object.
 struct ObjectHit {
   Vec3 point;
-  Vec3 normal; ///< of unit length; outwards, on whichever side the ray comes from
+  Vec3 normal; ///< of unit length; points outwards, whichever side the ray comes from
 };
-/// `direction` of any length but 0. What the object lacks support for counts as used.
+/// Returns the first hit of a ray; `direction` has any length but 0. Unsupported features of the object count
+/// as used.
 std::optional<ObjectHit> trace(Session& session, const ObjectDefinition& object, const Vec3& origin,
                                const Vec3& direction, const Location& where);
 
 bool contains(Session& session, const ObjectDefinition& object, const Vec3& point, const Location& where);
 
-/// POV-Ray's bounding box.
+/// Returns POV-Ray's bounding box of an object.
 Extent extent_of(Session& session, const ObjectDefinition& object, const Location& where);
 
 } // namespace celltrace::pov

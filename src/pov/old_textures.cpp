@@ -1,4 +1,4 @@
-// Textures as they were before version 3.0: what belongs to the pigment, the normal and the finish stands in
+// Textures in the style before version 3.0, in which parts of the pigment, the normal and the finish stand in
 // the texture itself.
 #include "pov/actions.hpp"
 
@@ -10,7 +10,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// Patterns that stand for normals there; from version 3.0 on they may be pigments, too.
+/// Patterns that stand for normals in such textures; from version 3.0 on they may be pigments, too.
 constexpr std::string_view kNormals[] = {"bumps", "dents", "ripples", "waves", "wrinkles"};
 
 bool is_normal(int pattern) {
@@ -49,7 +49,7 @@ TexturePtr with_old_pattern(Session& session, const TexturePtr& texture, int pat
     const TexturePtr changed =
         with_old_pattern(session, texture, [pattern](Session&, PatternDefinition& own) {
           choose(own, pattern);
-          own.own().wave = Pattern::Wave::ramp; // also that of marble and wood
+          own.own().wave = Pattern::Wave::ramp; // also replaces the wave of marble and wood
         });
     return number ? with_grain(changed, *number) : changed;
   }

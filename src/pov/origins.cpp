@@ -10,11 +10,11 @@ namespace celltrace::pov {
 
 namespace {
 
-/// By the index in Shape.
+/// Names of shapes, by index in Shape.
 constexpr std::array<const char*, std::variant_size_v<Shape>> kShapes = {
     "sphere", "mesh",  "plane",   "disc",           "box",     "cylinder",
     "cone",   "torus", "quadric", "superellipsoid", "polygon", "union"};
-/// By Csg::Operation.
+/// Names of operations, by Csg::Operation.
 constexpr std::array kOperations = {"union", "merge", "intersection", "difference"};
 
 const char* kind_of(const ObjectDefinition& object) {

@@ -18,8 +18,8 @@ public:
       : options_(options), names_(names), sources_(sources) {}
 
   bool are_wanted() const { return static_cast<bool>(options_.places_object); }
-  /// Calls the application's function. `around` is the name of the innermost object around it that has one,
-  /// and `placed` where the scene places it.
+  /// Calls the application's function. `around` is the name of the innermost named object around the object,
+  /// and `placed` the place where the scene places it.
   void tell(Index index, const ObjectDefinition& object, NameId around, const Location& placed) const;
 
 private:
@@ -28,7 +28,7 @@ private:
   const Sources& sources_;
 };
 
-/// Returns a copy of the object that has the name which it is declared with.
+/// Returns a copy of the object that has the name under which it is declared.
 std::shared_ptr<const ObjectDefinition> named(const std::shared_ptr<const ObjectDefinition>& object,
                                               NameId name);
 

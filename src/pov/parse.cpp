@@ -12,23 +12,24 @@ namespace {
 
 constexpr std::size_t kCopiedAtOnce = 1u << 20;
 
-/// Runs `work`, and has what the library could not allocate for it be an Error.
+/// Runs `work`, and turns a failed allocation of the library into an Error.
 template <class Work> Scene within_memory(Work work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
     throw OutOfMemory();
   } catch (const pov::LimitPassed& passed) {
-    throw InputError(std::string("a limit leaves no room for a scene's beginning: ") + passed.who + " too much");
+    throw InputError(std::string("a limit leaves no room for a scene's beginning: ") + passed.who +
+                     " too much");
   }
 }
 
-/// Asks whether to go on before the first token.
+/// Asks the application before the first token whether to go on.
 void look(const ParseOptions& options, std::uint64_t bytes) {
   if (options.progress && !options.progress(0, bytes)) throw Cancelled();
 }
 
-/// Has the header read before what is open.
+/// Opens the header, so that it is read before the scene.
 void open_header(pov::Session& session, const std::filesystem::path& header) {
   if (header.empty()) return;
   if (session.options.reads_file) session.options.reads_file(header);

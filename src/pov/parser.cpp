@@ -1,4 +1,4 @@
-// What connects the generated parser with the token stream and the diagnostics.
+// Connects the generated parser with the token stream and the diagnostics.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -94,7 +94,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session) {
 
 namespace {
 
-/// Says what an undeclared name, in quotes, may be meant to be.
+/// Returns a guess at the word that an undeclared name, in quotes, was meant to be.
 std::string guess_at(const Session& session, const std::string& quoted) {
   const std::string name = quoted.substr(1, std::max<std::size_t>(quoted.size(), 2) - 2);
   if (const std::string include = include_that_declares(name); !include.empty())
@@ -133,7 +133,8 @@ void Parser::report_syntax_error(const context& ctx) const {
   symbol_kind_type expected[kMost];
   const int count = ctx.expected_tokens(expected, kMost);
   std::string hint;
-  if (expects(expected, count, symbol_kind::S_FUNCTION)) // a mere quantity may be a colour's name only
+  if (expects(expected, count,
+              symbol_kind::S_FUNCTION)) // a quantity alone may only be there as the name of a colour
     hint = ", expected a number";
   else if (expects(expected, count, symbol_kind::S_TEXT))
     hint = ", expected a string";
@@ -145,7 +146,7 @@ void Parser::report_syntax_error(const context& ctx) const {
 }
 
 void run_grammar(Session& session, std::size_t depth) {
-  // A parser's stack is costly to make and can be used again.
+  // Keeps the parser for the next call, since its stack is costly to make.
   if (depth >= session.parsers.size()) session.parsers.resize(depth + 1);
   std::shared_ptr<Parser>& parser = session.parsers[depth];
   if (!parser) parser = std::make_shared<Parser>(session);

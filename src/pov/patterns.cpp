@@ -19,16 +19,16 @@ namespace {
 using Wave = Pattern::Wave;
 using namespace pattern;
 
-/// As many steps of space as a pattern can have: transformations between warps are one.
+/// Limit on steps of space in a pattern: transformations between warps count as one.
 constexpr std::size_t kMostSpaceSteps = 64;
 constexpr double kMostArms = 1e6;
 
 struct Colour {
-  double position; ///< in the default map; the number itself in lists
+  double position; ///< in the default map; the index in lists
   Vec3 rgb;
 };
 
-/// What is behind an option's or a pattern's word, checked and put into the pattern's kind.
+/// The checked argument of an option or a pattern, for the pattern's kind.
 class Argument {
 public:
   Argument(Session& session, const Quantity& value, const Location& where)
@@ -83,7 +83,7 @@ void set_direction(Kind& kind, const Argument& a) {
   kind = nothing;
 }
 
-/// Facets have one of `coords` and `size`: the first if both are said.
+/// Sets `coords` of facets, which replace `size`: the first of the two counts.
 void set_coords(Kind& kind, const Argument& a) {
   auto& facets = std::get<Facets>(kind);
   facets.coords = a.number();
@@ -148,8 +148,8 @@ const Vec3 kBlack{0, 0, 0}, kWhite{1, 1, 1};
 const std::vector<Colour> kGrey{{0, kBlack}, {1, kWhite}};
 const std::vector<Colour> kSix{{0, kRed}, {1, kGreen}, {2, kBlue}, {3, kYellow}, {4, kCyan}, {5, kMagenta}};
 
-/// The word, the pattern, what stands behind the word, the wave and the colours it has by itself, the setter
-/// of its argument, its options, the frequency it has by itself.
+/// All patterns: word, kind, form of the arguments, wave, default colours, setter of the argument, options,
+/// default frequency.
 const PatternEntry kPatterns[] = {
     {"agate",
      make<Agate>,
@@ -163,7 +163,7 @@ const PatternEntry kPatterns[] = {
       {1, {0.6, 0.3, 0}}},
      nullptr,
      {{"agate_turb", [](Kind& kind, const Argument& a) { std::get<Agate>(kind).turbulence = a.number(); }}}},
-    {"average", make<Bozo>}, // of its entries: the pattern means nothing
+    {"average", make<Bozo>}, // has no pattern of its own: it averages its entries
     {"boxed", make<Boxed>},
     {"bozo",
      make<Bozo>,
@@ -311,7 +311,7 @@ std::size_t PatternDefinition::list_length() const {
 }
 
 std::vector<PatternMap<Pigment>::Entry> PatternDefinition::default_colours() const {
-  // Of all fractals Mandelbrot's own alone has colours.
+  // Only the plain Mandelbrot set, of all fractals, has colours of its own.
   const auto* fractal = std::get_if<Fractal>(&value().kind);
   const bool is_other = fractal && (fractal->is_julia || fractal->magnet != 0 || fractal->exponent != 2);
   std::vector<PatternMap<Pigment>::Entry> entries;
@@ -378,7 +378,7 @@ bool is_singular(const Transform& transform) {
 }
 
 Transform spread_point(Session& session, const Location& where) {
-  constexpr double kSize = 1e12, kPlace = 1e-4; // of space, and in it
+  constexpr double kSize = 1e12, kPlace = 1e-4; // size of space, and place in it
   session.diagnostics.warn_once(where, "this pattern is at no finite place: all of it is like one point");
   return Transform::translate(Vec3(-kPlace)).then(Transform::scale(Vec3(kSize)));
 }

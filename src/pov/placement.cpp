@@ -1,4 +1,4 @@
-// SceneBuilder: from objects as declared to the Scene's.
+// SceneBuilder: turns objects as declared into the Scene's.
 #include "pov/scene_builder.hpp"
 #include "pov/token_stream.hpp"
 
@@ -24,9 +24,9 @@ namespace {
 
 using Operation = Csg::Operation;
 
-/// Writes scene-wide indices over a mesh's own.
+/// Replaces a mesh's own material indices by the scene's.
 void replace_materials(Mesh& mesh, const std::vector<Index>& materials, TokenStream& tokens) {
-  if (materials.empty()) return; // then no triangle has one
+  if (materials.empty()) return; // no triangle has a material
   for (Mesh::Triangle& triangle : mesh.triangles) {
     tokens.spend(1);
     for (Index& material : triangle.material)
@@ -39,13 +39,13 @@ const Compound* compound(const ObjectDefinition& object) {
   return compound ? compound->get() : nullptr;
 }
 
-/// Whether an object is no more than its parts.
+/// Returns whether an object is no more than its parts.
 bool is_plain_union(const ObjectDefinition& object) {
   const Compound* parts = compound(object);
   return parts && parts->operation == Operation::union_ && !object.inverse && object.clipped_by.empty();
 }
 
-/// Whether a part shines on the other parts alone.
+/// Returns whether a part is a light that illuminates only the other parts.
 bool is_group_light(const Compound& compound, const ObjectDefinition& part) {
   return compound.is_light_group && part.light();
 }
@@ -64,7 +64,6 @@ const char* name_of(const ObjectDefinition& csg) {
   return csg.inverse ? "an inverse union" : "a clipped union";
 }
 
-/// Whether there is a mesh in it.
 bool has_mesh(const Object& object) {
   if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape)) return true;
   if (object.clipped_by && std::any_of(object.clipped_by->begin(), object.clipped_by->end(), has_mesh))
@@ -73,18 +72,17 @@ bool has_mesh(const Object& object) {
   return csg && std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_mesh);
 }
 
-/// Whether there is any shape in it.
 bool has_shapes(const Object& object) {
   const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
   return !csg || std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_shapes);
 }
 
-/// Bytes of the shortest object in a scene's text, "object{A}".
+/// The length in bytes of the shortest object in a scene's text, "object{A}".
 constexpr std::size_t kShortestObject = 9;
 
-/// Before a list of all objects has to grow: as far as it will, if the rest of the scene is like what has
-/// been read. In a large scene of small objects, moving them each time that their number has doubled takes
-/// an eighth of the time, and memory for both copies of them. Never by more than some times their number: the
+/// Reserves as much room as a list will need if the rest of the scene is like what has been read, before the
+/// list has to grow. In a large scene of small objects, moving them each time that their number has doubled
+/// takes an eighth of the time, and memory for both copies. The list grows by a limited factor at a time: the
 /// rest may be a comment.
 template <class T> void make_room(std::vector<T>& list, const TokenStream& tokens) {
   constexpr std::size_t kFewest = 1024;
@@ -99,7 +97,7 @@ template <class T> void make_room(std::vector<T>& list, const TokenStream& token
   list.reserve(std::max(2 * list.size(), list.size() + more));
 }
 
-/// The radius of a disc, or one that is as good: no ray goes that far.
+/// Returns the radius of a disc, limited to the distance that rays can reach.
 double seen_radius(const Disc& disc, const Transform& transform) {
   constexpr double kFarthest = 1e15;
   const double scale = std::max(
@@ -107,21 +105,21 @@ double seen_radius(const Disc& disc, const Transform& transform) {
   return disc.radius * scale > kFarthest ? kFarthest / scale : disc.radius;
 }
 
-/// Returns a point near a triangle that is so far from the origin, for its size, that single precision is not
-/// enough for its vertices; else 0.
+/// Returns a point near a triangle if the triangle is so far from the origin, compared with its size, that
+/// single precision is not enough for its vertices; else 0.
 Vec3 far_base_of(const TriangleDefinition& triangle) {
   constexpr double kNear = 2048, kFar = 256;
   const auto& [a, b, c] = triangle.vertices;
   const auto largest = [](const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
   const double size = std::max(largest(b - a), largest(c - a)), distance = largest(a);
   if (!triangle.is_finite() || !(size > 0) || distance <= std::max(kNear, kFar * size)) return Vec3(0);
-  // With few digits, so that vertices lose none of theirs.
+  // A point with few digits, so that the vertices lose none of theirs.
   const double step = std::exp2(std::floor(std::log2(size)));
   return glm::round(a / step) * step;
 }
 
-/// Orders the corners so that its outside as a Mesh's is POV-Ray's: where its normals point, or else, by the
-/// axis along which it faces most, to -x, +y or -z.
+/// Orders the corners so that the triangle's outside in a Mesh is POV-Ray's: the side of its normals or, if
+/// it has none, -x, +y or -z, by the axis along which it faces most.
 void turn_outside(TriangleDefinition& triangle) {
   const auto& v = triangle.vertices;
   const Vec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
@@ -142,7 +140,7 @@ void turn_outside(TriangleDefinition& triangle) {
 } // namespace
 
 void SceneBuilder::place(const ObjectPtr& object, const Location& where) {
-  // Before there are so many.
+  // Checks the limit before so many objects are placed.
   if (object->size > limits_.objects - std::min(parts_placed_, limits_.objects)) exceed_objects(where);
   place(*object, Inherited{}, where);
 }
@@ -168,7 +166,7 @@ void SceneBuilder::exceed_objects(const Location& where) const {
   diagnostics_.exceed(where, &ParseLimits::objects, "the scene has", "objects");
 }
 
-/// What the object's own parts inherit from it.
+/// Returns the properties that the object's parts inherit.
 SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, const Inherited& around,
                                               const Location& where) {
   diagnostics_.supports(object.unsupported, where);
@@ -177,7 +175,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
                            "this object reaches out of its 'bounded_by': POV-Ray cuts it off there, this "
                            "program does not");
   has_photon_targets_ = has_photon_targets_ || object.is_photon_target;
-  tokens_.spend(1); // an object that is placed may have many parts
+  tokens_.spend(1); // a placed object may have many parts
   if (++parts_placed_ > limits_.objects) exceed_objects(where);
   Inherited own = around;
   own.transform = object.transform.then(around.transform);
@@ -207,7 +205,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   return own;
 }
 
-/// Nothing if it is a light, is left out, or no ray can hit it.
+/// Returns nothing if the object is a light, is left out, or cannot be hit by any ray.
 std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const Inherited& around,
                                          const Location& where) {
   if (!diagnostics_.supports(object.missing, where)) return std::nullopt;
@@ -268,7 +266,8 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
   return made;
 }
 
-/// The interior of a shape: what it or an object around it has, what all parts of its CSG share, or its own.
+/// Returns the interior of a shape: the one that it or an object around it has, the one that all parts of its
+/// CSG share, or a new one.
 Index SceneBuilder::interior_of(const Inherited& own) {
   Index index = own.interior != kNoIndex ? own.interior : own.csg_interior;
   if (index == kNoIndex) index = add_interior();
@@ -281,7 +280,7 @@ Index SceneBuilder::add_interior() {
   return scene_.add(Interior{});
 }
 
-/// Null if what others are taken from is left out.
+/// Returns null if the first part of a difference is left out.
 std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inherited own,
                                                   const Location& where) {
   enter_solid(own, where);
@@ -299,7 +298,7 @@ std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inhe
   csg->parts.reserve(compound.parts.size());
   csg->operation = compound.operation;
   const bool is_taken_away = own.is_taken_away;
-  // As POV-Ray has it, shapes in unions have the default texture, but not those that are taken away.
+  // As in POV-Ray, shapes in unions have the default texture, unless they are subtracted.
   const TexturePtr cut = own.texture;
   const bool has_default = own.has_cut_texture && joins(compound.operation) != is_taken_away;
   for (const ObjectPtr& part : compound.parts) {
@@ -339,12 +338,12 @@ void SceneBuilder::enter_solid(Inherited& own, const Location& where) const {
     diagnostics_.fail(where, "CSG is nested more than " + std::to_string(kDeepestCsg) + " deep");
 }
 
-/// Which lights shine on the parts of a light group, as POV-Ray 3.7 has it. Lights of the group itself, not
-/// of unions in it, shine on its objects alone. Objects of a group in a group are lit by those of the
-/// innermost one that has any; if that or something around it has a name, which POV-Ray copies, by those of
-/// the outer ones, too. Whether global lights shine on them the outermost group says. What a light of the
-/// group looks like is lit by global lights and those of this group in any case. All objects cast shadows in
-/// all lights.
+/// Finds the lights of a light group's parts, by the rules of POV-Ray 3.7. Lights that belong to the group
+/// itself, and not to a union in it, illuminate only its objects. Objects of nested groups are lit by the
+/// innermost group that has lights; if that group or something around it has a name, so that POV-Ray copies
+/// it, also by the outer groups. The outermost group decides whether global lights illuminate them. The
+/// looks_like of a light in the group is lit by global lights and this group's lights in any case. All
+/// objects cast shadows in all lights.
 void SceneBuilder::enter_light_group(const Compound& group, Inherited& own, const Location& where) {
   if (own.clips) return;
   LightGroup entered;
@@ -415,7 +414,7 @@ std::vector<Index> SceneBuilder::add_light(const LightDefinition& definition, co
 
 std::shared_ptr<const Object> SceneBuilder::make_projector(const ObjectDefinition& projector,
                                                            Inherited around, const Location& where) {
-  around.clips = true; // only where it is matters
+  around.clips = true; // only its inside matters
   around.is_part = false;
   auto parts = std::make_shared<Csg>();
   collect(projector, around, where, parts->parts);
@@ -424,7 +423,7 @@ std::shared_ptr<const Object> SceneBuilder::make_projector(const ObjectDefinitio
   return object;
 }
 
-/// Takes plain unions apart.
+/// Adds an object; takes plain unions apart.
 void SceneBuilder::collect(const ObjectDefinition& object, const Inherited& around, const Location& where,
                            std::vector<Object>& objects) {
   if (!diagnostics_.supports(object.missing, where)) return;
@@ -443,7 +442,7 @@ void SceneBuilder::collect(const ObjectDefinition& object, const Inherited& arou
 std::shared_ptr<const Object> SceneBuilder::make_solid(const ObjectDefinition& object,
                                                        const Location& where) {
   Inherited around;
-  around.clips = true; // only where it is matters
+  around.clips = true; // only its inside matters
   around.inside = "the pattern of an object";
   std::optional<Object> made = make(object, around, where);
   if (made && has_mesh(*made)) {
@@ -451,21 +450,22 @@ std::shared_ptr<const Object> SceneBuilder::make_solid(const ObjectDefinition& o
     made.reset();
   }
   if (!made || !has_shapes(*made)) {
-    // Nothing is in it.
+    // A sphere of radius 0 contains nothing.
     made.emplace();
     made->shape = Sphere{{0, 0, 0}, 0};
   }
   return std::make_shared<const Object>(std::move(*made));
 }
 
-/// What a light looks like casts no shadows and, as in POV-Ray, is not there if the light is in CSG.
+/// Places a light's looks_like, which casts no shadows and, as in POV-Ray, is left out if the light is in
+/// CSG.
 void SceneBuilder::place_look(const LightDefinition& definition, Inherited own, const Location& where) {
   if (!definition.looks_like || own.is_part) return;
   own.no_shadow = true;
   place(*definition.looks_like, own, where);
 }
 
-/// False if no ray can hit it, or it is left out.
+/// Returns false if no ray can hit the object, or it is left out.
 bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& own, Object& made,
                               const Location& where) {
   if (const Shape* shape = std::get_if<Shape>(&object.shape)) {
@@ -475,7 +475,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     if (!geometry::fits_single_precision(made.shape, own.transform)) {
       warn_of_size(object);
       if (!own.inside) return false;
-      // No ray comes to its surface; the scene is inside of it or outside.
+      // No ray reaches its surface: the whole scene is inside of it, or outside.
       const Vec3 at = own.transform.inverse().point(Vec3(0));
       if (geometry::is_inside(*shape, at)) made.inverse = !made.inverse;
       made.shape = Sphere{{0, 0, 0}, 0};
@@ -489,7 +489,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     Vec3 base(0);
     mesh = placed_triangle(**triangle, own, where, base);
     made.transform = base != Vec3(0) ? Transform::translate(base) : Transform();
-    // In a CSG, back from the scene to its space.
+    // Moves a part of a CSG back from the scene to the CSG's space.
     if (own.is_part) made.transform = made.transform.then(own.transform.inverse().then(object.transform));
   } else {
     mesh =
@@ -499,7 +499,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
       mesh = with_inside(mesh, scene_.materials[made.material].inside, where);
   }
   if (!mesh->has_inside()) {
-    // POV-Ray refuses it, too: nothing would be left of what it clips.
+    // POV-Ray rejects this too, since nothing would be left of the clipped object.
     if (own.inside && own.clips) {
       refuse((triangle ? "a triangle in " : "a mesh without 'inside_vector' in ") + std::string(own.inside),
              object, where);
@@ -525,7 +525,8 @@ void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& objec
   diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
 }
 
-/// `base` becomes what its vertices are counted from. Those of meshes are single precision in POV-Ray, too.
+/// Returns a triangle as a mesh; `base` becomes the origin of its vertices. Vertices of meshes are single
+/// precision in POV-Ray, too.
 std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
                                                           const Inherited& own, const Location& where,
                                                           Vec3& base) {
@@ -534,7 +535,7 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
   if (!triangle.is_finite())
     diagnostics_.warn_once(where, "this triangle is left out: a number of it is not finite");
   if (own.inner_texture) turn_outside(placed);
-  // As all shapes without surface coordinates of their own.
+  // Surface coordinates are the position, as for all shapes without coordinates of their own.
   if (own.texture && (own.uv_mapping || own.texture->asks_for_surface())) {
     placed.is_mapped = true;
     for (std::size_t i = 0; i < 3; ++i)
@@ -555,8 +556,8 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
   return std::make_shared<const Mesh>(std::move(builder.finish()->mesh));
 }
 
-/// The object's own interior, else the inherited one. POV-Ray 3.1's ior of a finish makes one where there is
-/// none and changes the one there is, even if it is inherited.
+/// Returns the object's own interior, or else the inherited one. POV-Ray 3.1's ior in a finish creates an
+/// interior if there is none, and changes an existing one even if it is inherited.
 Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherited,
                                    const TextureDefinition& texture, const Location& where) {
   const FinishDefinition& finish = texture.finish;
@@ -581,7 +582,7 @@ Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherit
     made.fade_distance = finish.fade_distance.value_or(made.fade_distance);
     made.fade_power = finish.fade_power.value_or(made.fade_power);
   }
-  // Unlike those, it is always said, but a pattern of textures has no finish.
+  // The refraction always has a value, but a pattern of textures has no finish.
   if (!texture.map) {
     if (index == kNoIndex && finish.refraction != 1) index = scene_.add(Interior{});
     if (index != kNoIndex) scene_.interiors[index].refraction = finish.refraction;
@@ -594,7 +595,7 @@ bool SceneBuilder::PlacedTexture::operator<(const PlacedTexture& other) const {
   return std::memcmp(&transform, &other.transform, sizeof transform) < 0;
 }
 
-/// A texture on surface coordinates, after it has been moved.
+/// Returns a texture on surface coordinates, after it has been moved.
 TexturePtr SceneBuilder::mapped_texture(const TexturePtr& texture, const Transform& transform) {
   const bool is_constant = texture->is_constant();
   const PlacedTexture placed =
@@ -656,7 +657,8 @@ std::shared_ptr<const Material> SceneBuilder::shared_material(const TexturePtr& 
   return shared_materials_[key] = std::make_shared<const Material>(make_material(*texture, where));
 }
 
-/// Every place of a texture with maps has its own copy of them, and its own transformations.
+/// Checks the size of a map in one place: each place of a texture has its own copy of the maps, and its own
+/// transformations.
 void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, const Location& where) {
   for (const SpaceStep& step : pattern.space)
     if (const auto* transform = std::get_if<Transform>(&step); transform && is_singular(*transform))
@@ -666,7 +668,7 @@ void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, co
     diagnostics_.exceed(where, &ParseLimits::map_entries, "the maps of all textures have", "entries");
 }
 
-/// Meshes are shared by their instances, unless their own textures depend on where they are.
+/// Returns a mesh, which instances share unless its own textures depend on the place.
 std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
                                                       const Transform& transform, bool uv_mapping,
                                                       const Location& where) {
@@ -688,8 +690,8 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<Mesh
   return mesh;
 }
 
-/// The object's interior_texture is that of triangles with textures of their own, too. `inside` is a copy:
-/// the scene's materials, one of which it may be part of, move when more are added.
+/// Applies the object's interior_texture to triangles with textures of their own. `inside` is a copy: the
+/// scene's materials, which it may be part of, move when more are added.
 std::shared_ptr<const Mesh> SceneBuilder::with_inside(const std::shared_ptr<const Mesh>& mesh,
                                                       std::shared_ptr<const Material> inside,
                                                       const Location& where) {

@@ -22,7 +22,7 @@ Quantity component_wise(const Quantity& a, const Quantity& b, Operation operatio
   return result;
 }
 
-/// As POV-Ray: what is no number, such as the difference of two infinities, counts as equal to everything.
+/// Compares as POV-Ray does: NaN, such as the difference of two infinities, counts as equal to everything.
 bool holds(Relation relation, double a, double b) {
   const double difference = a - b;
   switch (relation) {
@@ -100,7 +100,7 @@ Quantity make_colour(ColourModel model, const Quantity& value) {
   const auto component = [&](int i) { return is_float ? value.v[0] : value.v[i]; };
   const Vec3 rgb{component(0), component(1), component(2)};
   switch (model) {
-  case ColourModel::rgb: // a longer vector brings its filter and transmit along
+  case ColourModel::rgb: // a longer vector also sets filter and transmit
     return is_float ? Quantity::colour(rgb) : Quantity::colour(rgb, value.v[3], value.v[4]);
   case ColourModel::rgbf:
     return Quantity::colour(rgb, component(3), is_float ? 0 : value.v[4]);

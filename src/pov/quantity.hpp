@@ -9,18 +9,18 @@
 
 namespace celltrace::pov {
 
-/// A number for messages and files, as printf's %g, whatever the locale.
+/// Formats a number for messages and files, as printf's %g, whatever the locale.
 std::string short_text(double number);
 
-/// Relational operators count values closer than this as equal.
+/// The difference below which relational operators count values as equal.
 inline constexpr double kComparisonTolerance = 1e-10;
 
-/// What `.gray` counts as, past the components.
+/// The component number of `.gray`, past those of colours.
 inline constexpr int kGreyComponent = 5;
-/// What `.hf` counts as, the height that a height field would have from a colour; in functions alone.
+/// The component number of `.hf`, the height that a height field would take from a colour; in functions only.
 inline constexpr int kHeightComponent = 6;
 
-/// Components of a colour: red, green, blue, filter, transmit. Those past `count` are zero.
+/// A float, a vector or a colour: red, green, blue, filter, transmit. Components past `count` are zero.
 struct Quantity {
   int count = 1;
   bool is_colour = false;
@@ -35,44 +35,45 @@ struct Quantity {
   double grey() const { return 0.297 * v[0] + 0.589 * v[1] + 0.114 * v[2]; }
   bool is_finite() const;
 
-  /// With `wanted` components: a float fills all of them, a shorter vector is padded with zeros.
+  /// Returns the quantity with `wanted` components: a float fills all of them, a shorter vector is padded
+  /// with zeros.
   Quantity promoted(int wanted) const;
-  /// As a point, direction or the like.
+  /// Returns a point, a direction or the like.
   Vec3 vec3() const;
-  /// As a colour: a float fills filter and transmit too, as in `color 0.5`.
+  /// Returns a colour: a float fills filter and transmit too, as in `color 0.5`.
   Pigment pigment() const;
 };
 
 struct Token;
-/// Of a number or a vector.
+/// Returns the value of a number or vector token.
 Quantity literal_of(const Token& token);
 
-/// What stands behind rgb, rgbf, rgbt and rgbft.
+/// The words rgb, rgbf, rgbt and rgbft, which say what the components of a colour are.
 enum class ColourModel { rgb, rgbf, rgbt, rgbft };
 Quantity make_colour(ColourModel model, const Quantity& value);
 
-/// A colour's channels, as in `red 0.5`.
+/// A channel of a colour, as in `red 0.5`.
 enum class Channel { red, green, blue, filter, transmit };
 Quantity with_channel(const Quantity& colour, Channel channel, double value);
 
-/// Component-wise after promotion; a division by zero gives an infinity, which few things accept.
+/// Component-wise arithmetic after promotion; a division by zero gives an infinity, which few uses accept.
 Quantity operator+(const Quantity& a, const Quantity& b);
 Quantity operator-(const Quantity& a, const Quantity& b);
 Quantity operator*(const Quantity& a, const Quantity& b);
 Quantity operator/(const Quantity& a, const Quantity& b);
 
 enum class Relation { less, less_equal, equal, not_equal, greater_equal, greater };
-/// Component-wise, 1 where it holds.
+/// Compares component-wise; 1 where the relation is true.
 Quantity compare(Relation relation, const Quantity& a, const Quantity& b);
 
 enum class Junction { both, either };
-/// Component-wise, 1 where both or either of them hold.
+/// Joins component-wise; 1 where both, or either of them, are true.
 Quantity join(Junction junction, const Quantity& a, const Quantity& b);
 
-/// Whether a condition holds: no component is zero.
+/// Returns whether a value counts as true: it differs from 0 by more than kComparisonTolerance.
 bool is_true(double value);
 
-/// The prefix operators in front of an operand, - + and !, gathered from the outermost inwards.
+/// The prefix operators in front of an operand, - + and !, from the outermost inwards.
 class Signs {
 public:
   void add(char sign);
@@ -80,7 +81,7 @@ public:
 
 private:
   bool negated_ = false;
-  bool logical_ = false; ///< a ! was seen: what stands further in only matters as true or false
+  bool logical_ = false; ///< a ! was seen: whatever is further in only matters as true or false
   bool inverted_ = false;
 };
 

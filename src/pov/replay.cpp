@@ -1,4 +1,4 @@
-// TokenStream: macros and loops, which are recorded once and read as often as needed.
+// TokenStream: macros and loops, which are recorded once and replayed.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,8 @@
 
 namespace celltrace::pov {
 
-/// Everything up to the #end that closes `opening`, without it. What is being replayed is not recorded again.
+/// Returns all tokens up to the #end that closes `opening`, without that #end. Tokens that are being replayed
+/// are not recorded again.
 TokenRange TokenStream::take_block(const Token& opening) {
   Frame& frame = session_.input.top();
   const bool is_replay = frame.scanner == nullptr;
@@ -34,7 +35,8 @@ TokenRange TokenStream::take_block(const Token& opening) {
   return {std::move(recorded), 0, count};
 }
 
-/// What one of arithmetic.hpp's functions makes of what is being replayed.
+/// Evaluates recorded tokens by one of arithmetic.hpp's functions; nothing if they are not recorded, or not
+/// understood.
 std::optional<Quantity> TokenStream::replay(std::optional<Quantity> (*take)(Session&, TokenSpan&)) {
   if (!session_.input.reads_record() || session_.builder.has_old_signs()) return std::nullopt;
   Frame& frame = session_.input.top();
@@ -61,7 +63,7 @@ std::optional<Quantity> TokenStream::replay_value(Start start) {
   }
 }
 
-/// Makes one token of a vector, if there is one behind the bracket.
+/// Replaces the bracket by a single token if it begins a vector of numbers.
 void TokenStream::replay_vector(Token& bracket) {
   const std::optional<Quantity> vector = replay(take_vector);
   if (!vector) return;
@@ -113,7 +115,7 @@ void TokenStream::leave_frame() {
   session_.input.pop();
 }
 
-/// False if the innermost entry of the grammar has no more to read.
+/// Leaves the top frame at its end; false if the innermost entry of the grammar has no more to read.
 bool TokenStream::leave_frame_at_end() {
   const Frame& frame = session_.input.top();
   const bool is_last = session_.input.depth() <= levels_.back().base_depth;
@@ -182,8 +184,8 @@ void TokenStream::call(const Token& name, const std::shared_ptr<const Macro>& ma
   session_.input.push(std::move(frame));
 }
 
-/// Behind the name of an array: whether its subscripts are all that is there of an argument. They are still
-/// to be read then.
+/// Returns, behind the name of an array, whether the subscripts are all that follows in an argument. Puts the
+/// subscripts back.
 bool TokenStream::is_lone_element() {
   std::vector<Token> passed;
   unsigned depth = 0;
@@ -208,7 +210,7 @@ bool TokenStream::is_lone_element() {
   return is_lone;
 }
 
-/// Obeys directives on the way: an #if can choose what an argument is.
+/// Reads a token and executes directives on the way: an #if can choose an argument.
 Token TokenStream::read_past_directives() {
   Token token = read();
   for (; token.kind == Token::Kind::directive; token = read())
@@ -216,7 +218,8 @@ Token TokenStream::read_past_directives() {
   return token;
 }
 
-/// A lone identifier or element of an array is passed by reference; anything else is evaluated once.
+/// Reads an argument: a name or an array's element alone is passed by reference; anything else is evaluated
+/// once.
 std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call,
                                                  std::vector<ElementReference>& references) {
   const Token first = read_past_directives();
@@ -240,7 +243,7 @@ std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call,
       return references.back().slot;
     }
   }
-  // Most arguments need no grammar.
+  // Most arguments are single tokens, which need no grammar.
   if (first.kind == Token::Kind::number || first.kind == Token::Kind::vector) {
     const Token second = read_past_directives();
     if (second.kind != Token::Kind::end) session_.input.unread(second);
@@ -286,7 +289,7 @@ void TokenStream::start_for(const Token& directive) {
 
 namespace {
 
-/// Whether a #for goes on; counts unless this is the first time.
+/// Advances a #for, unless this is the first time, and returns whether the loop goes on.
 bool advance(Counter& counter, bool is_first) {
   auto* value = std::get_if<Quantity>(&counter.slot->value);
   if (!value || !value->is_float()) return false;

@@ -253,7 +253,7 @@ const DetailedWord kDetailedWords[] = {
     {"green", tokens::T_CHANNEL, detail(Channel::green)},
     {"blue", tokens::T_CHANNEL, detail(Channel::blue)},
     {"filter", tokens::T_CHANNEL, detail(Channel::filter)},
-    {"alpha", tokens::T_CHANNEL, detail(Channel::filter)}, // its name before version 3
+    {"alpha", tokens::T_CHANNEL, detail(Channel::filter)}, // name before version 3
     {"transmit", tokens::T_CHANNEL, detail(Channel::transmit)},
     {"ramp_wave", tokens::T_WAVE, detail(Pattern::Wave::ramp)},
     {"triangle_wave", tokens::T_WAVE, detail(Pattern::Wave::triangle)},
@@ -322,8 +322,8 @@ const DirectiveWord kDirectives[] = {
     {"write", Directive::write_},
 };
 
-// What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
-// block in braces of their own, and the rest.
+// Words that POV-Ray 3.7 reserves for unsupported features: objects, words with a block in braces of their
+// own, and the rest.
 const char* const kUnsupportedObjects[] = {
     "bicubic_patch", "blob", "height_field", "isosurface", "julia_fractal", "lathe",        "ovus",
     "parametric",    "poly", "prism",        "quartic",    "sor",           "sphere_sweep", "text",
@@ -340,7 +340,7 @@ const char* const kUnsupportedFeatures[] = {
     "quaternion", "save_file",         "scattering", "spacing",       "tiling",  "translucency",
 };
 
-// What stands behind others of these words.
+// Words in the arguments of other unsupported words.
 const char* const kUnsupportedArguments[] = {
     "aa_level",
     "aa_threshold",
@@ -406,10 +406,10 @@ const char* const kUnsupportedArguments[] = {
     "water_level",
 };
 
-// Words that directives and functions look for themselves.
+// Words that directives and functions handle themselves.
 const char* const kWordsReadApart[] = {"append", "prod", "sum"};
 
-/// Words with rules of their own by which what they stand for is not supported.
+/// Tokens of words with grammar rules of their own, which mark the feature as unsupported.
 constexpr int kRefused[] = {
     tokens::T_APERTURE, tokens::T_BLUR_SAMPLES, tokens::T_DISPERSION, tokens::T_PHOTONS, tokens::T_RADIOSITY,
 };
@@ -468,7 +468,7 @@ std::vector<ReservedWord> reserved_words() {
         {option.word, option.has_value ? tokens::T_PATTERN_OPTION : tokens::T_PATTERN_FLAG, number++, false});
   number = 0;
   for (const char* kind : camera_kind_names()) {
-    // A word that is a pattern's too is that one's token.
+    // A word that also stands for a pattern is the pattern's token.
     const auto is_kind = [&](const PatternWord& pattern) { return std::string_view(pattern.word) == kind; };
     if (std::none_of(patterns.begin(), patterns.end(), is_kind))
       words.push_back({kind, tokens::T_CAMERA_KIND, number, false});

@@ -1,4 +1,4 @@
-// What the language means by its words.
+// The meaning of the language's words.
 #pragma once
 
 #include <string_view>
@@ -10,15 +10,15 @@ namespace celltrace::pov {
 
 struct ReservedWord {
   const char* text;
-  int token; ///< the grammar's
+  int token; ///< of the grammar
   int detail;
   bool is_unsupported;
 };
 std::vector<ReservedWord> reserved_words();
 
-/// What a word means behind a dot: 0 to 4 a component, 5 the grey value, -1 nothing.
+/// Returns the meaning of a word behind a dot: a component 0 to 4, 5 for the grey value, -1 for none.
 int component_of(std::string_view word);
-/// What a word means behind a #.
+/// Returns the meaning of a word behind a #.
 Directive directive_of(std::string_view word);
 
 } // namespace celltrace::pov

@@ -13,7 +13,7 @@ constexpr std::size_t kLongestWord = 255;
 constexpr std::size_t kLongestString = 1u << 20;
 constexpr std::size_t kLongestNumber = 4096;
 
-/// What a number beyond the range of double comes to: zero or infinity.
+/// Returns the value of a number beyond the range of double: zero or infinity.
 double out_of_range(std::string_view text) {
   long double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

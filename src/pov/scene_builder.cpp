@@ -9,10 +9,10 @@ namespace celltrace::pov {
 
 namespace {
 
-/// What a scene without any #version counts as (3.2 of POV-Ray's gamma rules).
+/// The version of a scene without any #version (3.2 for POV-Ray's gamma rules).
 constexpr double kVersionIfNoneGiven = 3.62;
 constexpr double kVersionOfGamma = 3.7; // and of transparent backgrounds
-constexpr double kVersionOfNoise = 3.5; // that is in range
+constexpr double kVersionOfNoise = 3.5; // default generator in range from here on
 
 bool filters(const Pigment& pigment) {
   if (!pigment.map) return pigment.filter != 0;
@@ -20,7 +20,7 @@ bool filters(const Pigment& pigment) {
   return std::any_of(entries.begin(), entries.end(), [](const auto& entry) { return filters(entry.value); });
 }
 
-/// With all its colours, which is what it sends out if it has no filter.
+/// Multiplies all colours of a pigment, and so its light if it has no filter.
 Pigment multiplied(const Pigment& pigment, const Vec3& factor) {
   Pigment result = pigment;
   result.rgb *= factor;

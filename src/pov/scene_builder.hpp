@@ -1,4 +1,4 @@
-// Collects what a scene places and sets, and makes the Scene of it.
+// Collects the objects and settings of a scene, and builds the Scene.
 #pragma once
 
 #include <map>
@@ -24,89 +24,90 @@ public:
                const Origins& origins)
       : limits_(limits), diagnostics_(diagnostics), tokens_(tokens), origins_(origins) {}
 
-  /// What textures start from and objects without one get: black, with the default finish, until #default
-  /// changes it. It does not move with the objects that get it.
+  /// The texture that others start from, and that objects without one get: black, with the default finish,
+  /// until #default changes it. The default texture does not move with these objects.
   TexturePtr default_texture = std::make_shared<TextureDefinition>();
   CameraDefinition default_camera;
 
-  /// Puts an object into the scene: unions are taken apart unless they are inverse or clipped, meshes shared
-  /// between their instances. A light source in CSG shines on everything and is no part of it. What is not
-  /// supported is left out.
+  /// Places an object in the scene: unions are taken apart unless they are inverse or clipped, and instances
+  /// share their mesh. A light source in CSG shines on everything and is no part of the CSG. Unsupported
+  /// objects are left out.
   void place(const ObjectPtr& object, const Location& where);
 
-  /// An object of which only the inside counts, without meshes.
+  /// Returns an object of which only the inside matters, without meshes.
   std::shared_ptr<const Object> make_solid(const ObjectDefinition& object, const Location& where);
 
-  /// The last camera is the scene's.
+  /// Sets the camera; the last one is the scene's.
   void set_camera(std::shared_ptr<const CameraDefinition> camera) { camera_ = std::move(camera); }
-  /// As if over black, for what it transmits, from version 3.7 on; before, without regard to that.
+  /// Sets the background. From version 3.7 on, it covers black as far as it does not transmit; before,
+  /// transmit is ignored.
   void set_background(const Pigment& colour);
-  /// The last one is the scene's.
+  /// Sets the sky sphere; the last one is the scene's.
   void set_sky_sphere(const SkySphereDefinition& sky, const Location& where);
-  /// They add up.
+  /// Adds a fog; all fogs count together.
   void add_fog(const FogDefinition& fog, const Location& where);
-  /// As many are seen at once as there are.
+  /// Adds a rainbow; all rainbows are visible at once.
   void add_rainbow(const RainbowDefinition& rainbow, const Location& where);
   void set_ambient_light(const Vec3& rgb) { scene_.ambient_light = rgb; }
   void set_max_trace_level(int level) { scene_.max_trace_level = level; }
   void set_noise_generator(int number) { noise_generator_ = number; }
-  /// As it is by now.
+  /// Returns the current noise generator.
   int noise_generator() const;
   void set_number_of_waves(int number) { scene_.number_of_waves = number; }
   void set_irid_wavelength(const Vec3& rgb) { scene_.irid_wavelength = rgb; }
   void set_adc_bailout(double weight) { scene_.adc_bailout = weight; }
-  /// Without a value: `assumed_gamma srgb`.
+  /// Sets the gamma; without a value, `assumed_gamma srgb`.
   void set_assumed_gamma(std::optional<double> gamma);
   bool gamma_is_given() const { return gamma_given_; }
-  /// A channel of a colour in sRGB as the scene's colours have it.
+  /// Converts a channel of an sRGB colour to the space of the scene's colours.
   double from_srgb(double channel) const;
-  /// What there is to say about photons. They matter if any object is a target.
+  /// Sets the mark for photons, which matter if any object is a target.
   void set_photons(UnsupportedPtr photons) { photons_ = std::move(photons); }
   void set_version(double version);
-  /// What `version` says: 3.7 until #version changes it.
+  /// Returns the value of `version`: 3.7 until #version changes it.
   double version() const { return version_.value_or(3.7); }
-  /// Whether it is less than this one. POV-Ray counts in hundredths.
+  /// Returns whether the version is less than this one. POV-Ray compares hundredths.
   bool is_before(double version) const;
-  /// Whether a sign starts a number of its own where no parentheses are around it, as before version 1.5.
+  /// Returns whether a sign outside of parentheses starts a new number, as before version 1.5.
   bool has_old_signs() const { return has_old_signs_; }
-  /// Whether textures may have the parts of pigments, normals and finishes, as before version 3.0.
+  /// Returns whether textures may contain the parts of pigments, normals and finishes, as before version 3.0.
   bool has_old_textures() const { return has_old_textures_; }
 
-  /// As it was declared, whether it has been placed or not.
+  /// Returns a mesh as it was declared, whether it has been placed or not.
   const Mesh& mesh_of(const std::shared_ptr<MeshDefinition>& definition) const;
-  /// Counts towards the limit on triangles.
+  /// Counts triangles towards their limit.
   void count_triangles(std::size_t count, const Location& where);
 
-  /// The finished scene; call once.
+  /// Returns the finished scene; call once.
   Scene finish(const std::string& name);
 
 private:
   // placement.cpp: from objects as declared to the Scene's
 
-  /// What an object takes from the CSG around it.
+  /// Properties that an object inherits from the CSG around it.
   struct Inherited {
     Transform transform; ///< to the scene
     TexturePtr texture;
     Transform texture_transform;  ///< to the scene
     bool uv_mapping = false;      ///< all textures are on surface coordinates
-    bool has_cut_texture = false; ///< the texture is Compound::cut_texture
-    bool is_taken_away = false;   ///< from what has that
+    bool has_cut_texture = false; ///< `texture` is Compound::cut_texture
+    bool is_taken_away = false;   ///< is subtracted from objects with the cut texture
     Index interior = kNoIndex;
-    Index csg_interior = kNoIndex; ///< of the parts that have or inherit none
+    Index csg_interior = kNoIndex; ///< interior of parts that neither have nor inherit one
     bool no_shadow = false;
     bool no_image = false;
     bool no_reflection = false;
     bool is_lit_through = false;
     bool hollow = false;
-    TexturePtr inner_texture;     ///< what it looks like from inside; null: the same
+    TexturePtr inner_texture;     ///< of the inside; null: as outside
     Transform inner_transform;    ///< to the scene
-    bool is_part = false;         ///< placed in the space of a CSG, not of the scene
+    bool is_part = false;         ///< placed in the space of a CSG, not in that of the scene
     bool clips = false;           ///< only its inside matters
-    NameId name = kNoName;        ///< of the innermost object around it that has one
-    int depth = 0;                ///< CSG and clipping around it
-    Index light_group = kNoIndex; ///< whose lights shine on it
-    bool is_copy = false;         ///< it is part of an object that has a name
-    const char* inside = nullptr; ///< in what its inside counts, for messages; null: it does not
+    NameId name = kNoName;        ///< of the innermost named object around it
+    int depth = 0;                ///< levels of CSG and clipping around it
+    Index light_group = kNoIndex; ///< the group whose lights shine on it
+    bool is_copy = false;         ///< is part of a named object
+    const char* inside = nullptr; ///< for messages: what uses its inside; null: nothing
   };
   void place(const ObjectDefinition& object, const Inherited& around, const Location& where);
   [[noreturn]] void exceed_objects(const Location& where) const;
@@ -123,7 +124,7 @@ private:
                                                const Location& where);
   void collect(const ObjectDefinition& object, const Inherited& around, const Location& where,
                std::vector<Object>& objects);
-  /// As one of the scene's, or several.
+  /// Adds a light to the scene, or several, and returns their indices.
   std::vector<Index> add_light(const LightDefinition& definition, const Inherited& own,
                                const Location& where);
   void place_look(const LightDefinition& definition, Inherited own, const Location& where);
@@ -146,7 +147,7 @@ private:
   std::shared_ptr<const Mesh> with_inside(const std::shared_ptr<const Mesh>& mesh,
                                           std::shared_ptr<const Material> inside, const Location& where);
 
-  /// A texture that depends on where it is.
+  /// A texture at a place, on which it depends.
   struct PlacedTexture {
     TexturePtr texture;
     Transform transform;
@@ -155,7 +156,7 @@ private:
 
   void settle_gamma();
   void show_background(const Location& where);
-  /// Empties the scene.
+  /// Removes objects, sky, fogs and rainbows, which leaves the background.
   void leave_background();
 
   const ParseLimits& limits_;
@@ -174,8 +175,9 @@ private:
   std::optional<int> noise_generator_;
   std::uint64_t map_entries_ = 0;
   std::map<PlacedTexture, Index> placed_material_indices_;
-  std::map<PlacedTexture, TexturePtr> mapped_textures_; ///< on surface coordinates
-  std::unordered_map<TexturePtr, std::shared_ptr<const Material>> shared_materials_; ///< layers and entries
+  std::map<PlacedTexture, TexturePtr> mapped_textures_; ///< textures on surface coordinates
+  std::unordered_map<TexturePtr, std::shared_ptr<const Material>>
+      shared_materials_; ///< layers and map entries
   std::unordered_map<std::shared_ptr<MeshDefinition>, std::shared_ptr<const Mesh>> meshes_;
   /// Copies of meshes whose triangles have textures of their own, for objects with an interior_texture.
   std::map<std::pair<std::shared_ptr<const Mesh>, std::shared_ptr<const Material>>,

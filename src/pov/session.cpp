@@ -10,7 +10,7 @@ void require_finite(const Session& session, const Quantity& quantity, const Loca
   if (!quantity.is_finite()) session.fail(where, "this number is not finite");
 }
 
-/// With `most` for infinities.
+/// Replaces infinities by `most`.
 Quantity clamped(const Quantity& quantity, double most) {
   Quantity result = quantity;
   for (double& component : result.v)
@@ -48,12 +48,12 @@ Pigment Session::colour(const Quantity& quantity, const Location& where) const {
 }
 
 Vec3 Session::corner(const Quantity& quantity, const Location& where) const {
-  constexpr double kFarthest = 1e5; // of single precision a hundredth is left there
+  constexpr double kFarthest = 1e5; // single precision resolves a hundredth there
   return vector(clamped(quantity, kFarthest), where);
 }
 
 Pigment Session::light(const Quantity& quantity, const Location& where) {
-  constexpr double kBrightest = 1e20; // so that what a surface makes of it is a number, too
+  constexpr double kBrightest = 1e20; // low enough for finite results of shading
   Quantity colour = clamped(quantity, kBrightest);
   if (colour.is_finite()) return colour.pigment();
   diagnostics.warn_once(where, "this colour is not a number: it counts as black");

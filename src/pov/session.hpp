@@ -1,4 +1,4 @@
-// Everything one parse consists of.
+// The state of one parse.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Session {
         builder(parse_options.limits, diagnostics, tokens, origins) {}
 
   const ParseOptions& options;
-  MemoryCount memory{options.limits}; ///< before all that it counts
+  MemoryCount memory{options.limits}; ///< first member, so that it outlives all that it counts
   Names names;
   Sources sources;
   Input input;
@@ -37,38 +37,38 @@ struct Session {
   Origins origins;
   SceneBuilder builder;
   FunctionMachine functions;
-  std::vector<std::uint32_t> random_streams; ///< what seed() handed out
+  std::vector<std::uint32_t> random_streams; ///< states of seed()'s streams
   std::uint64_t text_bytes = 0;
-  std::uint64_t written_bytes = 0;                   ///< by #write
-  std::vector<std::shared_ptr<DataFile>> data_files; ///< that #fopen has opened and nothing closed
-  std::uint64_t shape_tests = 0;                     ///< of trace() and the like
-  std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
-  TexturePtr base_texture;        ///< what the pigment or finish being read starts from
-  InteriorPtr base_interior;      ///< the same for an interior
-  Finish* irid = nullptr;         ///< the finish whose irid { } is being read
-  std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< being read, in each other
-  std::vector<std::shared_ptr<Parser>> parsers; ///< one for each entry of the grammar, made when first needed
+  std::uint64_t written_bytes = 0;                   ///< written by #write
+  std::vector<std::shared_ptr<DataFile>> data_files; ///< opened by #fopen and not closed
+  std::uint64_t shape_tests = 0;                     ///< of trace() and similar functions
+  std::uint64_t bounds_tests = 0; ///< such tests of objects that are compared with their bounds
+  TexturePtr base_texture;        ///< start of the pigment or finish being read
+  InteriorPtr base_interior;      ///< start of the interior being read
+  Finish* irid = nullptr;         ///< finish whose irid { } is being read
+  std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< lights being read, nested
+  std::vector<std::shared_ptr<Parser>> parsers; ///< one per entry of the grammar, made when first needed
 
   [[noreturn]] void fail(const Location& where, const std::string& what) const {
     diagnostics.fail(where, what);
   }
 
-  // What a number must be where it is used: finite, and a float, a small whole one or a vector.
+  // Checks what a number must be where it is used: finite, and a float, a small integer or a vector.
   double number(const Quantity& quantity, const Location& where) const;
   std::int64_t whole(const Quantity& quantity, const Location& where) const;
   Vec3 vector(const Quantity& quantity, const Location& where) const;
   Pigment colour(const Quantity& quantity, const Location& where) const;
 
-  // And what it may be as well, as POV-Ray has it after a division by zero.
-  /// A float of a condition or a loop, finite or not.
+  // Checks that accept numbers that are not finite, as POV-Ray does after a division by zero.
+  /// Returns a float of a condition or a loop, finite or not.
   double any_number(const Quantity& quantity, const Location& where) const;
-  /// A corner: as far away as boxes reach where it is infinite.
+  /// Returns a corner; where it is infinite, it is as far away as boxes reach.
   Vec3 corner(const Quantity& quantity, const Location& where) const;
-  /// A colour of light: as bright as can be where it is infinite, and none of what is no number.
+  /// Returns a colour of light: as bright as possible where it is infinite, and 0 where it is NaN.
   Pigment light(const Quantity& quantity, const Location& where);
-  /// A number that counts as 0 if it is not finite.
+  /// Returns a number; 0 if it is not finite.
   double number_or_0(const Quantity& quantity, const Location& where);
-  /// A colour of surfaces: none where it is not finite, and black if what it lets through is not.
+  /// Returns a colour of surfaces: 0 where it is not finite, and black if its filter or transmit is not.
   Pigment surface(const Quantity& quantity) const;
 
   [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::*limit, const std::string& who,
@@ -76,12 +76,12 @@ struct Session {
     diagnostics.exceed(where, limit, who, unit);
   }
 
-  /// Counts towards the limit on text that is made or kept.
+  /// Counts bytes towards the limit on text that is made or kept.
   void count_text(std::size_t bytes, const Location& where);
 };
 
-/// Runs the grammar on session.tokens, from where the innermost entry starts, as entry number `depth` from
-/// outside.
+/// Runs the grammar on session.tokens from the start of the innermost entry; `depth` is the number of entries
+/// around it.
 void run_grammar(Session& session, std::size_t depth);
 
 } // namespace celltrace::pov

@@ -18,7 +18,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// Lengths below this are zero to POV-Ray.
+/// Lengths below this count as zero, as in POV-Ray.
 constexpr double kShortest = 1e-10;
 
 struct Parameter {
@@ -37,7 +37,7 @@ constexpr Parameter optional_number(const char* name) {
   return {name, false, true};
 }
 
-/// The arguments of one shape, which are as many as it takes and of the right types.
+/// The arguments of a shape, whose number and types have been checked.
 class Arguments {
 public:
   Arguments(Session& session, const WrittenShape& written) : session_(session), written_(written) {}
@@ -81,7 +81,7 @@ Shape read_cylinder(const Arguments& a) {
 
 Shape read_disc(const Arguments& a) {
   Disc disc{a.vector(0), a.vector(1), a.number(2), a.number_or(3, 0)};
-  if (glm::length(disc.normal) == 0) disc.radius = 0; // no ray hits it
+  if (glm::length(disc.normal) == 0) disc.radius = 0; // makes no ray hit it
   return disc;
 }
 
@@ -91,10 +91,10 @@ Shape read_plane(const Arguments& a) {
   return plane;
 }
 
-/// Off the plane of a polygon, or apart as ends of a loop, points are not what POV-Ray takes them for.
+/// The largest distance of points from a polygon's plane, and of the two ends of a loop from each other.
 constexpr double kNearPoint = 1e-10;
 
-/// Whether POV-Ray shows a polygon of these points: it shows none whose corners are nearly on a line, or that
+/// Returns whether POV-Ray shows a polygon of these points: none whose corners are nearly on a line, or that
 /// is not flat.
 bool is_shown(const std::vector<Vec3>& points) {
   constexpr double kLeastCorner = 1e-10;
@@ -107,14 +107,14 @@ bool is_shown(const std::vector<Vec3>& points) {
     if (glm::dot(across, across) < kLeastCorner) continue;
     const Vec3 normal = glm::normalize(across);
     return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
-      // Beyond what rounding may be.
+      // Compares with more than the rounding error.
       return std::abs(glm::dot(p - start, normal)) <= kNearPoint + 1e-15 * glm::length(p - start);
     });
   }
   return false;
 }
 
-/// A loop ends where it comes back to its first point.
+/// Returns a polygon; a loop ends where it returns to its first point.
 Shape read_polygon(const Arguments& a) {
   a.require(a.number(0) >= 3, "a polygon has at least three points");
   a.require(static_cast<double>(a.count() - 1) == std::floor(a.number(0)),
@@ -170,10 +170,10 @@ constexpr bool kCanBeOpen = true;
 
 struct ShapeForm {
   const char* name;
-  Parameter parameters[kMostParameters]; ///< those that may be left out come last
+  Parameter parameters[kMostParameters]; ///< optional ones come last
   Shape (*read)(const Arguments&);
   bool can_be_open = false;
-  const char* vectors = nullptr; ///< what so many of follow as there are
+  const char* vectors = nullptr; ///< name of further vectors, of which any number may follow
 
   std::size_t most() const {
     return static_cast<std::size_t>(
@@ -201,7 +201,7 @@ constexpr ShapeForm kShapes[] = {
     {"torus", {number("major radius"), number("minor radius")}, read_torus},
 };
 
-/// How the shape is written.
+/// Returns the syntax of the shape for messages.
 std::string form(const ShapeForm& shape) {
   std::string text = std::string(shape.name) + " { ";
   for (std::size_t i = 0; i < shape.most(); ++i) {
@@ -229,13 +229,13 @@ void check_arguments(const Session& session, const ShapeForm& shape, const Writt
     if (!parameter.is_vector && !value.is_float())
       fail(session, where, shape, std::string(kind_name(value)) + " as " + parameter.name);
   }
-  // What could be there may be left out, but not its comma alone where nothing could be.
+  // A comma may stand in front of an optional argument that is missing, but not after the last possible one.
   if (written.comma && count >= shape.most()) session.fail(*written.comma, "unexpected ','");
   if (written.is_open && !shape.can_be_open)
     session.fail(written.where, std::string("a ") + shape.name + " cannot be open");
 }
 
-/// Whether its numbers are finite. Corners of boxes may be infinite.
+/// Returns whether all numbers are finite; corners of boxes may be infinite.
 bool is_somewhere(const ShapeForm& shape, const WrittenShape& written) {
   const bool has_corners = shape.read == read_box;
   return std::all_of(written.arguments.begin(), written.arguments.end(), [&](const ShapeArgument& argument) {

@@ -36,8 +36,8 @@ bool same_but_for_case(const std::string& a, const std::string& b) {
                     [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// `folder/name`, each part matched without regard to case. The first match in alphabetical order, so that
-/// the answer does not depend on the file system.
+/// Returns `folder/name` with each part matched without regard to case: the first match in alphabetical
+/// order, so that the result does not depend on the file system.
 std::optional<fs::path> find_without_case(const fs::path& folder, const fs::path& name) {
   fs::path found = folder.empty() ? fs::path(".") : folder;
   for (const fs::path& part : name) {
@@ -62,7 +62,7 @@ bool is_below(const fs::path& file, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-/// Whether a file lies in a folder or below it, wherever links lead.
+/// Returns whether a file lies in a folder or below it, with links resolved.
 bool lies_in(const fs::path& canonical_file, const fs::path& folder) {
   std::error_code error;
   const fs::path canonical_folder = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
@@ -85,7 +85,7 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
-/// Closes itself.
+/// A file descriptor that closes itself.
 struct Descriptor {
   int number;
   explicit Descriptor(int opened) : number(opened) {}
@@ -172,7 +172,7 @@ std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::pat
     return std::nullopt;
   };
   if (const auto file = find(wanted)) return file;
-  // As POV-Ray has it, the ending may be left out.
+  // As in POV-Ray, the extension may be missing.
   return wanted.has_extension() ? std::nullopt : find(fs::path(wanted).replace_extension(".inc"));
 }
 
@@ -218,7 +218,8 @@ std::string read_text(const fs::path& path, std::uint64_t limit, const std::func
 
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number < 0) throw InputError("this file cannot be opened: " + reason(errno));
-  // The size is a hint: the system's own files have none, and others may be written to meanwhile.
+  // The size is a hint: files of the system, such as pipes, have none, and others may grow while they are
+  // read.
   std::string text = make_text(static_cast<std::size_t>(std::min(size, limit)) + 1);
   for (;;) {
     look();
@@ -249,7 +250,7 @@ TextWriter::~TextWriter() {
   try {
     close();
   } catch (const InputError&) {
-    // Whoever wants to know closes it.
+    // Errors are lost here; a caller that needs them calls close().
   }
 }
 

@@ -10,7 +10,7 @@ void Spline::add(double at, const Quantity& value) {
   count_ = std::max(count_, value.count);
   const auto place = std::lower_bound(knots_.begin(), knots_.end(), at,
                                       [](const Knot& knot, double number) { return knot.at < number; });
-  // A float stands for a vector of two; what a shorter vector lacks is 0.
+  // A float becomes a vector of two; missing components are 0.
   Quantity vector = value.is_float() ? value.promoted(2) : value;
   vector.is_colour = false;
   if (place != knots_.end() && place->at == at)
@@ -21,10 +21,10 @@ void Spline::add(double at, const Quantity& value) {
 
 Quantity Spline::value(double at, Kind other) const {
   const std::size_t last = knots_.size() - 1;
-  // Of a cubic one the ends only say how steep it is.
+  // The ends of a cubic spline only set its slope.
   const std::size_t margin = other == Kind::cubic && last > 0 ? 1 : 0;
   const auto constant = [&](std::size_t knot) { return knots_[knot].value.promoted(count_); };
-  // As in POV-Ray, where such a number is.
+  // The value for NaN is POV-Ray's.
   if (std::isnan(at)) return other == Kind::cubic ? constant(margin) : Quantity(at).promoted(count_);
   if (last < 2 * margin) return linear(0, (knots_[0].at + knots_[1].at) / 2);
   if (at <= knots_[margin].at) return constant(margin);
@@ -45,7 +45,7 @@ Quantity Spline::value(double at, Kind other) const {
   return constant(left);
 }
 
-/// A vector by its components.
+/// Returns a vector, calculated component by component.
 template <class Component> Quantity Spline::vector_of(Component component) const {
   Quantity result;
   result.count = count_;
@@ -60,11 +60,12 @@ Quantity Spline::linear(std::size_t left, double at) const {
   return vector_of([&](std::size_t i) { return a.value.v[i] + (b.value.v[i] - a.value.v[i]) * share; });
 }
 
-/// The parabola through both knots and the one before; in the first segment, the one behind.
+/// Returns a point on the parabola through the knots of the segment and the one before it; in the first
+/// segment, the one after it.
 Quantity Spline::quadratic(std::size_t left, double at) const {
   const std::size_t first = std::max<std::size_t>(left, 1) - 1;
   const Knot* const knots = &knots_[first];
-  double weights[3]; // Lagrange's
+  double weights[3]; // Lagrange's weights
   for (std::size_t i = 0; i < 3; ++i) {
     weights[i] = 1;
     for (std::size_t j = 0; j < 3; ++j)
@@ -82,7 +83,7 @@ Quantity Spline::slope(std::size_t left) const {
   return vector_of([&](std::size_t i) { return (b.value.v[i] - a.value.v[i]) * inverse_width; });
 }
 
-/// Hermite's interpolation; at a knot it is as steep as the segments on both sides are on average.
+/// Interpolates by Hermite's formula; the slope at a knot is the mean of the segments on both sides.
 Quantity Spline::cubic(std::size_t left, double at) const {
   const Knot &a = knots_[left], &b = knots_[left + 1];
   const double width = b.at - a.at, t = (at - a.at) / width, half = width / 2;
@@ -108,7 +109,7 @@ Quantity Spline::natural(std::size_t left, double at) const {
   });
 }
 
-/// The tridiagonal system of the natural cubic spline, by Thomas' algorithm.
+/// Solves the tridiagonal system of the natural cubic spline by Thomas' algorithm.
 std::vector<Quantity> Spline::curvatures() const {
   const std::size_t count = knots_.size();
   std::vector<Quantity> result(count, Quantity(0).promoted(count_));

@@ -1,4 +1,4 @@
-// Splines as they are declared: vectors at numbers, and what lies between them.
+// Splines as they are declared: vectors at numbers, and the interpolation between them.
 #pragma once
 
 #include <memory>
@@ -18,16 +18,16 @@ public:
 
   Kind kind = Kind::linear;
 
-  /// Takes the place of what is there at the same number.
+  /// Adds a knot, or replaces the one at the same number.
   void add(double at, const Quantity& value);
   std::size_t size() const { return knots_.size(); }
-  /// As many as the longest vector has that it is made of, at least 2.
+  /// Returns the number of components of the longest vector, at least 2.
   int components() const { return count_; }
 
-  /// A vector of as many components as the longest that it is made of. There must be a knot. Beyond the ends
-  /// a spline stays as it is there; a cubic one goes from its second knot to its last but one only.
+  /// Returns a vector with as many components as the longest knot. There must be a knot. Beyond its ends a
+  /// spline is constant; a cubic one goes from its second knot to its last but one only.
   Quantity value(double at) const { return value(at, kind); }
-  /// As if it were of another kind.
+  /// Returns the value that a spline of another kind would have.
   Quantity value(double at, Kind other) const;
 
 private:
@@ -40,12 +40,12 @@ private:
   Quantity quadratic(std::size_t left, double at) const;
   Quantity cubic(std::size_t left, double at) const;
   Quantity natural(std::size_t left, double at) const;
-  /// Second derivatives at the knots, 0 at both ends.
+  /// Returns the second derivatives at the knots, 0 at both ends.
   std::vector<Quantity> curvatures() const;
   Quantity slope(std::size_t left) const;
 
   std::vector<Knot> knots_; // ascending
-  int count_ = 2;           // of components
+  int count_ = 2;           // number of components
   mutable std::vector<Quantity> curvatures_;
 };
 using SplinePtr = std::shared_ptr<const Spline>;

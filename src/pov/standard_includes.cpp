@@ -12,7 +12,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// In alphabetical order.
+/// The names in alphabetical order.
 constexpr std::string_view kNames[] = {
     "arrays.inc",   "ash.map",      "benediti.map",  "bubinga.map",  "bumpmap_.png",  "cedar.map",
     "chars.inc",    "colors.inc",   "consts.inc",    "crystal.ttf",  "cyrvetic.ttf",  "debug.inc",
@@ -31,7 +31,7 @@ bool is_name_letter(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// Whether `#declare` or `#macro` stands in front of the name, in any place of the text.
+/// Returns whether `#declare` or `#macro` stands in front of the name anywhere in the text.
 bool declares(std::string_view text, std::string_view name) {
   for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
     const std::size_t end = at + name.size();

@@ -1,4 +1,4 @@
-// The files that POV-Ray brings along for scenes to include.
+// The include files that POV-Ray brings along.
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 
 namespace celltrace::pov {
 
-/// The Debian package that has them.
+/// The Debian package with these files.
 inline constexpr const char* kStandardIncludesPackage = "povray-includes";
 
-/// Whether POV-Ray 3.7 brings a file of this name along; case does not count.
+/// Returns whether POV-Ray 3.7 brings along a file of this name, ignoring case.
 bool is_standard_include(std::string_view name);
 
-/// Returns the installed include file that declares this name, or makes a macro of it; "" if none does, or
-/// none is installed. Reads them all: for errors.
+/// Returns the installed include file that declares this name, or defines a macro of it; "" if no file does,
+/// or none is installed. Slow, for errors only: reads all of them.
 std::string include_that_declares(std::string_view name);
 
 } // namespace celltrace::pov

@@ -10,15 +10,15 @@ namespace celltrace::pov {
 
 class Symbols {
 public:
-  /// Null if the name is not declared.
+  /// Returns the slot of a name; null if the name is not declared.
   std::shared_ptr<Slot> find(NameId name) const;
 
-  /// The same without a share in it: for as long as nothing is declared.
+  /// Returns the value of a name without sharing its slot: valid until something is declared.
   const Value* value_of(NameId name) const;
 
   /// Writes to the innermost visible binding, or makes a global one.
   void declare(NameId name, Value value);
-  /// Writes to the current scope's binding, or makes one.
+  /// Writes to the binding in the current scope, or makes one there.
   void declare_local(NameId name, Value value);
   /// Makes `name` in the current scope another name of `slot`.
   void bind(NameId name, std::shared_ptr<Slot> slot);

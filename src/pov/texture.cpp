@@ -8,7 +8,7 @@ namespace celltrace::pov {
 
 namespace {
 
-/// The map as a Scene has it.
+/// Returns the map as a Scene has it.
 template <class T>
 std::shared_ptr<const PatternMap<T>> finish_map(const PatternDefinition& pattern,
                                                 const std::vector<typename PatternMap<T>::Entry>& entries) {
@@ -33,7 +33,7 @@ std::shared_ptr<TextureDefinition> copy(const TexturePtr& texture) {
 /// Makes pigments transmit what they filter. A map that several of them share is changed once.
 class FilterAsTransmit {
 public:
-  /// Whether that changed anything.
+  /// Changes a pigment; returns whether anything has changed.
   bool apply(PigmentDefinition& pigment) {
     if (!pigment.pattern.exists()) return apply(pigment.value);
     if (!pigment.map) return false;
@@ -211,7 +211,7 @@ TexturePtr with_finished_uv_mapping(const TexturePtr& texture) {
 
 TexturePtr transformed(const TexturePtr& texture, const Transform& next) {
   const bool is_constant = texture->is_constant();
-  // What nothing can change any more.
+  // A texture that no change can affect stays the same object.
   if (next.is_identity() || (is_constant && !texture->is_plain())) return texture;
   auto changed = copy(texture);
   const auto move = [&](PatternDefinition& pattern) {

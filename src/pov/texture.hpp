@@ -1,8 +1,8 @@
-// What a scene says about surfaces and insides, as declared: pigments, normals, finishes, textures,
-// interiors, materials, and the maps that patterns make of them.
+// Surfaces and insides as a scene declares them: pigments, normals, finishes, textures, interiors, materials,
+// and the maps that patterns make of them.
 //
-// What POV-Ray has and this program lacks is kept, marked as unsupported, and only an error where an object
-// uses it.
+// Features of POV-Ray that this program lacks are kept, marked as unsupported; they become an error only if
+// an object uses them.
 #pragma once
 
 #include <algorithm>
@@ -20,16 +20,17 @@
 namespace celltrace::pov {
 
 struct TextureDefinition;
-/// Equal pointers make equal materials: a texture that is only referred to is not copied.
+/// A shared texture. Equal pointers become one material, so that a texture that is only referred to is not
+/// copied.
 using TexturePtr = std::shared_ptr<const TextureDefinition>;
 
-/// The entries of a map or of a pattern's list, of colours, pigments, normals or textures.
+/// The entries of a map or of a pattern's list: colours, pigments, normals or textures.
 template <class T> struct MapDefinition {
   std::vector<typename PatternMap<T>::Entry> entries;
-  int depth = 1;                 ///< of maps inside one another
-  bool is_opaque = true;         ///< nothing shines through any entry
+  int depth = 1;                 ///< levels of nested maps
+  bool is_opaque = true;         ///< no entry lets light through
   bool asks_for_surface = false; ///< some entry depends on more of a surface than points
-  UnsupportedPtr unsupported;    ///< the first in any entry
+  UnsupportedPtr unsupported;    ///< first one in any entry
 };
 using PigmentMap = MapDefinition<Pigment>;
 using NormalMap = MapDefinition<Normal>;
@@ -40,11 +41,11 @@ using TextureMapPtr = std::shared_ptr<const TextureMap>;
 using SlopeMapPtr = std::shared_ptr<const std::vector<SlopePoint>>;
 
 struct PigmentDefinition {
-  Pigment value; ///< of one without a pattern; it has no map
+  Pigment value; ///< used without a pattern; it has no map
   PatternDefinition pattern;
   PigmentMapPtr map;                   ///< null: the pattern's own colours
-  std::optional<Pigment> quick_colour; ///< instead of all that, where quality is low enough for it
-  bool uv_mapping = false;             ///< while it is read: it will be put on surface coordinates
+  std::optional<Pigment> quick_colour; ///< replaces everything else if the quality is low enough
+  bool uv_mapping = false;             ///< set while it is read: it will be put on surface coordinates
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<PigmentDefinition> counted;
 
@@ -52,22 +53,22 @@ struct PigmentDefinition {
   int depth() const {
     return !pattern.exists() ? 0 : std::max(map ? map->depth : 1, 1 + pattern.inner_depth);
   }
-  /// Nothing shines through.
+  /// Returns whether the pigment lets no light through.
   bool is_opaque() const;
-  /// It, or something in its map, is on surface coordinates, or a slope.
+  /// Returns whether the pigment, or something in its map, is on surface coordinates, or a slope.
   bool asks_for_surface() const;
   Pigment finish() const;
 };
 using PigmentPtr = std::shared_ptr<const PigmentDefinition>;
 
 struct NormalDefinition {
-  PatternDefinition pattern; ///< without one it is smooth
+  PatternDefinition pattern; ///< none: the surface is smooth
   double amount = 0.5;
   double accuracy = 0.02;
-  std::vector<SlopePoint> slopes; ///< empty: the pattern's numbers
+  std::vector<SlopePoint> slopes; ///< empty: the pattern's values
   NormalMapPtr map;               ///< null: the pattern's own slopes
-  bool uv_mapping = false;        ///< as a pigment's
-  bool is_undefined = false;      ///< what has it is black
+  bool uv_mapping = false;        ///< as PigmentDefinition::uv_mapping
+  bool is_undefined = false;      ///< makes its surface black
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<NormalDefinition> counted;
 
@@ -81,17 +82,17 @@ using NormalPtr = std::shared_ptr<const NormalDefinition>;
 
 struct FinishDefinition {
   Finish value;
-  // POV-Ray 3.1 had these here: they become the interior's.
+  // Properties that POV-Ray 3.1 had in finishes: they become the interior's.
   std::optional<double> ior, caustics, fade_distance, fade_power;
   double refraction = 1;
   bool diffuse_is_albedo = false, phong_is_albedo = false,
-       specular_is_albedo = false; ///< until it is complete
+       specular_is_albedo = false; ///< until the finish is complete
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<FinishDefinition> counted;
 };
 using FinishPtr = std::shared_ptr<const FinishDefinition>;
 
-/// Another texture that a texture looks like. A copy, which is made to be changed, has none.
+/// Another texture that a texture looks like. Copies, which are made to be changed, have none.
 struct Original {
   TexturePtr texture;
 
@@ -103,7 +104,7 @@ struct Original {
   }
 };
 
-/// The scene's material that a texture has become, for the scene's builder. A copy has become none yet.
+/// The scene's material that a texture has become, set by the scene's builder. A copy starts without one.
 struct BuiltMaterial {
   mutable Index index = kNoIndex;
 
@@ -117,28 +118,28 @@ struct BuiltMaterial {
 
 struct TextureDefinition {
   PigmentDefinition pigment;
-  NormalPtr normal; ///< null: smooth; a smooth one is what later normals start from
+  NormalPtr normal; ///< null: smooth; any other smooth normal is kept as the start of later normals
   SharedValue<FinishDefinition> finish;
   TexturePtr below;          ///< the layer under this one
-  int layers = 1;            ///< with those below
-  PatternDefinition pattern; ///< if there is one, the map is instead of all of the above
+  int layers = 1;            ///< number of layers, with those below
+  PatternDefinition pattern; ///< if there is one, its map replaces all of the above
   TextureMapPtr map;
-  bool uv_mapping = false;    ///< as a pigment's
-  bool is_on_surface = false; ///< all of it is on surface coordinates, and only its normals turn any more
-  BuiltMaterial built;        ///< of one that is the same everywhere
-  Original original;          ///< of one that is the same everywhere and has only been moved
+  bool uv_mapping = false;    ///< as PigmentDefinition::uv_mapping
+  bool is_on_surface = false; ///< all of it is on surface coordinates, so that only its normals still turn
+  BuiltMaterial built;        ///< of a texture that is the same everywhere
+  Original original;          ///< of a texture that is the same everywhere and has only been moved
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<TextureDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
   int depth() const { return map ? std::max(map->depth, 1 + pattern.inner_depth) : 0; }
-  /// Nothing shines through, so that a layer below does not matter.
+  /// Returns whether the texture lets no light through, so that a layer below does not matter.
   bool is_opaque() const;
-  /// As a pigment's.
+  /// Returns whether it depends on more of a surface than points.
   bool asks_for_surface() const;
-  /// Whether it matters where in space it is.
+  /// Returns whether the texture is the same everywhere in space.
   bool is_constant() const;
-  /// Whether it has a pigment, normal and finish that can be changed, and can be a layer.
+  /// Returns whether it has a pigment, normal and finish that can be changed, and can be a layer.
   bool is_plain() const { return !pattern.exists() && !is_on_surface; }
 };
 
@@ -147,28 +148,28 @@ TexturePtr with_normal(const TexturePtr& texture, const NormalPtr& normal);
 TexturePtr with_finish(const TexturePtr& texture, const FinishDefinition& finish);
 TexturePtr with_unsupported(const TexturePtr& texture, const UnsupportedPtr& unsupported);
 TexturePtr with_uv_mapping(const TexturePtr& texture);
-/// Puts what is read on surface coordinates if it is to be.
+/// Puts what has been read on surface coordinates if uv_mapping is set.
 void finish_uv_mapping(PigmentDefinition& pigment);
 void finish_uv_mapping(NormalDefinition& normal);
 TexturePtr with_finished_uv_mapping(const TexturePtr& texture);
-/// The texture with all its layers on surface coordinates.
+/// Returns the texture with all its layers on surface coordinates.
 TexturePtr on_surface(const TexturePtr& texture);
-/// The texture with all its layers moved. A pigment or normal without a pattern is moved, too: as in POV-Ray,
-/// a pattern that it gets later finds it moved.
+/// Returns the texture with all its layers moved. A pigment or normal without a pattern is moved, too: as in
+/// POV-Ray, a pattern that it gets later is moved as well.
 TexturePtr transformed(const TexturePtr& texture, const Transform& next);
-/// `top` on `below` (null: nothing), neither of them with a pattern of textures: the top alone if it is
+/// Returns `top` on `below` (null: nothing), neither with a pattern of textures; only `top` if that is
 /// opaque.
 TexturePtr layered(const TexturePtr& below, const TexturePtr& top);
-/// The texture that has the same material: another one where that has only been moved, and is the same
-/// everywhere.
+/// Returns the texture with the same material: another one if this texture is the same everywhere and has
+/// only been moved.
 const TexturePtr& original(const TexturePtr& texture);
 
-/// The texture with what its layers filter transmitted instead: of all but the lowest one, or of that, too.
+/// Returns the texture with its layers transmitting what they filter: all layers but the lowest one, or all.
 TexturePtr with_filter_as_transmit(const TexturePtr& texture, bool also_lowest);
 
 struct SkySphereDefinition {
   std::vector<PigmentDefinition> pigments; ///< the last one is on top
-  Vec3 emission{1, 1, 1};                  ///< what their colours count, but not as filters
+  Vec3 emission{1, 1, 1};                  ///< factors of their colours, not applied to filter
   Location emission_where;
   UnsupportedPtr unsupported;
 };
@@ -197,8 +198,8 @@ struct InteriorDefinition {
 using InteriorPtr = std::shared_ptr<const InteriorDefinition>;
 
 struct MaterialDefinition {
-  TexturePtr texture; ///< null: none given
-  TexturePtr inside;  ///< likewise
+  TexturePtr texture; ///< null: not given
+  TexturePtr inside;  ///< null: not given
   InteriorPtr interior;
   UnsupportedPtr unsupported;
 };

@@ -12,8 +12,8 @@ namespace celltrace::pov {
 
 namespace {
 
-/// A texture that is made ready for points when it is first asked, and again when the scene's generator of
-/// noise has changed.
+/// A texture that is prepared for evaluation at its first call, and again if the scene's noise generator has
+/// changed.
 class TextureFunction : public NativeFunction {
 public:
   TextureFunction(Pigment pigment, std::size_t results)

@@ -1,4 +1,4 @@
-// A word of the scene text before it is looked up: what the scanner makes and macros and loops replay.
+// A word of the scene text before it is looked up: the scanner produces tokens; macros and loops replay them.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ constexpr NameId kNoName = ~NameId{0};
 
 struct Token {
   enum class Kind : std::uint8_t {
-    end,           ///< of the file, macro or loop body being read
+    end,           ///< end of the file, macro or loop body being read
     word,          ///< name
     directive,     ///< name, without the #
     string,        ///< name: the text between the quotes, escapes untouched
-    component,     ///< name, without the leading dot
+    component,     ///< name, without the dot in front
     number,        ///< number[0]
-    vector,        ///< number[0..2] or [0..3], a literal <1, 2, 3>; symbol says how many
+    vector,        ///< number[0..2] or [0..3], a literal <1, 2, 3>; symbol is the count
     punctuation,   ///< symbol
-    bad_character, ///< symbol: no part of the language
+    bad_character, ///< symbol: not part of the language
   };
   Kind kind = Kind::end;
   std::uint16_t symbol = 0; ///< the character; two-character operators have the numbers below
@@ -40,7 +40,7 @@ struct Token {
   }
 };
 
-/// Part of a recorded sequence of tokens.
+/// A part of a recorded sequence of tokens.
 struct TokenRange {
   std::shared_ptr<const std::vector<Token>> tokens;
   std::size_t begin = 0;

@@ -17,8 +17,7 @@ namespace {
 
 using tokens = Parser::token;
 
-/// How deep directives may enter the grammar from within one another: each entry takes a part of the thread's
-/// stack.
+/// The deepest nesting of directives that enter the grammar: each entry takes a part of the thread's stack.
 constexpr std::size_t kMostLevels = 200;
 
 constexpr std::uint64_t kTokensWithoutPause = 1u << 13;
@@ -37,7 +36,7 @@ int number_of(const Token& punctuation) {
   }
 }
 
-/// Whether a value can be complete after a terminal, so that a name next to it starts something new.
+/// Returns whether a value can be complete after a terminal, so that a name next to it starts something new.
 bool ends_operand(int terminal) {
   switch (terminal) {
   case tokens::T_QUANTITY:
@@ -73,7 +72,7 @@ bool ends_operand(int terminal) {
   }
 }
 
-/// Whether a terminal can be part of what stands behind a keyword; brackets aside.
+/// Returns whether a terminal, other than brackets, can be part of the arguments of a keyword.
 bool is_argument(int terminal) {
   switch (terminal) {
   case tokens::T_QUANTITY:
@@ -94,11 +93,11 @@ bool is_argument(int terminal) {
   case tokens::T_UNSUPPORTED_ARGUMENT:
     return true;
   default:
-    return terminal > 0 && terminal < 256; // punctuation
+    return terminal > 0 && terminal < 256; // single characters
   }
 }
 
-/// Of this thread, since whenever.
+/// Returns the processor time of this thread in seconds, from an arbitrary start.
 double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -118,9 +117,9 @@ bool closes(const Token& token) {
   return token.is(')') || token.is('}') || token.is(']');
 }
 
-constexpr std::size_t kCodeDigits = 4; // behind \u
+constexpr std::size_t kCodeDigits = 4; // after \u
 
-/// The hexadecimal code of a character; nothing if there are too few digits.
+/// Returns the character code written in hexadecimal; nothing if there are too few digits.
 std::optional<unsigned> code_at(const std::string& text, std::size_t begin) {
   unsigned code = 0;
   if (text.size() < begin + kCodeDigits) return std::nullopt;
@@ -206,7 +205,7 @@ Value TokenStream::evaluate(Start start) {
   if (levels_.size() >= kMostLevels) session_.fail(here(), "macros and directives are nested too deeply");
   Level& level = levels_.emplace_back();
   level.start = start;
-  level.base_depth = start == Start::scene ? 1 : session_.input.depth(); // a header lies on the scene
+  level.base_depth = start == Start::scene ? 1 : session_.input.depth(); // a header lies on top of the scene
   run_grammar(session_, levels_.size() - 1);
   Level finished = std::move(levels_.back());
   levels_.pop_back();
@@ -215,8 +214,8 @@ Value TokenStream::evaluate(Start start) {
   return std::move(finished.result);
 }
 
-/// Goes on after a value that a macro ends with: nothing but directives can follow there, such as the other
-/// branches of an #if, and what follows the call is read where the value began.
+/// Leaves macros that end with a value: only directives can follow there, such as the other branches of an
+/// #if, and the tokens after the call continue where the value began.
 void TokenStream::leave_finished_macros(std::size_t depth) {
   while (session_.input.depth() > depth) {
     const Token token = read();
@@ -247,13 +246,13 @@ Token TokenStream::read() {
   return token;
 }
 
-/// Whether a word behind a # has a meaning, but not as a directive: people write #object{...}.
+/// Returns whether a word behind a # has a meaning, but not as a directive: people write #object{...}.
 bool TokenStream::is_plain_word(const Token& directive) const {
   const Names::Entry& name = session_.names[directive.name];
   return name.directive == Directive::none && (name.token != 0 || session_.symbols.find(directive.name));
 }
 
-/// Where what is read now stands, for faults of no single token.
+/// Returns the current place in the text, for errors that belong to no single token.
 const Location& TokenStream::here() const {
   const Frame& frame = session_.input.top();
   return frame.scanner ? last_place() : frame.opened_at;
@@ -264,7 +263,7 @@ std::pair<std::size_t, std::size_t> TokenStream::read_and_left() const {
   return {scene.offset(), scene.size() - scene.offset()};
 }
 
-/// What is seen to once in a while.
+/// Checks limits and progress; called once in a while.
 void TokenStream::pause() {
   const ParseLimits& limits = session_.options.limits;
   if (tokens_read_ > limits.tokens)
@@ -296,7 +295,7 @@ void TokenStream::next(Terminal& terminal) {
       if (!skips_semicolon_) check_semicolon();
       continue;
     case Token::Kind::directive:
-      // A directive ends a value that can be complete, as in POV-Ray.
+      // A directive ends a value if the value can be complete, as in POV-Ray.
       if (is_inside_value() && levels_.back().after_operand) {
         session_.input.unread(token);
         return end_at(token, terminal);
@@ -332,7 +331,8 @@ void TokenStream::deliver(const Token& token, Terminal& terminal) {
   terminal.where = token.where;
 }
 
-/// < and ? count until the bracket around them closes, because they may or may not have a partner.
+/// Counts open brackets. < and ? count until the bracket around them closes, because they may or may not have
+/// a partner.
 void TokenStream::count_brackets(const Token& token) {
   Level& level = levels_.back();
   if (opens(token)) {
@@ -351,7 +351,8 @@ void TokenStream::count_brackets(const Token& token) {
     session_.exceed(token.where, &ParseLimits::nesting, "brackets are nested", "deep");
 }
 
-/// Whether a sign behind a value belongs to the next one, as before version 1.5: <0 1 -5> are three numbers.
+/// Returns whether a sign behind a value belongs to the next value, as before version 1.5: <0 1 -5> are three
+/// numbers.
 bool TokenStream::is_old_sign(const Token& token) const {
   if (!session_.builder.has_old_signs() || (!token.is('-') && !token.is('+'))) return false;
   const Level& level = levels_.back();
@@ -360,7 +361,7 @@ bool TokenStream::is_old_sign(const Token& token) const {
   return level.start == Start::scene || level.nesting > 0;
 }
 
-/// What a token means that needs no table.
+/// Sets the terminal of a token that needs no look-up.
 void TokenStream::interpret(const Token& token, Terminal& terminal) const {
   switch (token.kind) {
   case Token::Kind::number:
@@ -395,7 +396,8 @@ void TokenStream::interpret(const Token& token, Terminal& terminal) const {
   }
 }
 
-/// False if the word was a macro or a directive without its #: it has been dealt with.
+/// Looks up a word. Returns false if the word was a macro, or a directive without its #, which has been
+/// handled.
 bool TokenStream::look_up(const Token& word, Terminal& terminal) {
   const Names::Entry& name = session_.names[word.name];
   if (name.token != 0) {
@@ -438,8 +440,8 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
   return true;
 }
 
-/// A long list begins with the number of its entries, so that it need not be moved again and again as it
-/// grows. There are at most as many as the file has room for.
+/// Reserves room for a long list, which begins with the number of its entries, so that it is not moved
+/// repeatedly as it grows. The list has at most as many entries as the file has room for.
 void TokenStream::make_room(std::vector<ListEntry>& list, const Scanner& scanner) {
   constexpr std::size_t kShortestEntry = 8; // <0,0,0>,
   const std::size_t most = (scanner.size() - scanner.offset()) / kShortestEntry;
@@ -455,7 +457,7 @@ void TokenStream::take_literals(std::vector<ListEntry>& list) {
   const std::uint64_t limit = session_.options.limits.list_entries;
   for (std::size_t before = 0; scanner.take_literals(list, std::min(before + kLiteralsAtOnce, limit));
        before = list.size()) {
-    tokens_read_ += 2 * (list.size() - before); // with their commas
+    tokens_read_ += 2 * (list.size() - before); // entries with their commas
     if (before == 0) make_room(list, scanner);
     pause();
   }
@@ -468,7 +470,7 @@ void TokenStream::take_arguments(std::vector<ShapeArgument>& arguments) {
     const std::uint64_t limit = session_.options.limits.list_entries;
     const std::uint64_t most = std::min<std::uint64_t>(limit, kLiteralsAtOnce); // so that it can be cancelled
     session_.input.top().scanner->take_arguments(arguments, most);
-    tokens_read_ += 2 * arguments.size(); // with their commas
+    tokens_read_ += 2 * arguments.size(); // arguments with their commas
   } else {
     replay_arguments(arguments);
   }
@@ -498,7 +500,7 @@ void TokenStream::skip_arguments() {
     if (level.enclosing.size() > depth) {
       skip_to_depth(depth);
     } else if (level.enclosing.size() < depth) {
-      // The closing brace is the grammar's: as if it had not been read.
+      // Puts the closing brace back for the grammar.
       session_.input.unread(level.last_token);
       level.enclosing.push_back(bracket);
       level.nesting = bracket.outside + 1;

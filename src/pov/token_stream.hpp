@@ -1,8 +1,8 @@
-// What the grammar reads: tokens after directives have been obeyed, macros and loops replayed and names
-// looked up.
+// Produces the grammar's input: tokens after directives have been executed, macros and loops replayed, and
+// names looked up.
 //
 // Directives need values, so the stream re-enters the grammar (evaluate). A value may end in the middle of
-// what follows: the grammar then hands back the token it looked at last.
+// what follows: the grammar then hands back its lookahead token.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace celltrace::pov {
 struct Session;
 struct TokenSpan;
 
-/// What the grammar can be entered for.
+/// The construct that the grammar is entered for.
 enum class Start {
   scene,      ///< the whole scene
   condition,  ///< ( value )
@@ -31,7 +31,6 @@ enum class Start {
   defaults,   ///< { texture ... }
 };
 
-/// A token of the grammar.
 struct Terminal {
   int token = 0;  ///< the grammar's number, 0 at the end
   int detail = 0; ///< Names::Entry::detail of a reserved word
@@ -45,37 +44,37 @@ public:
 
   void open(std::string text, const std::string& name, std::filesystem::path folder);
 
-  /// What the grammar is entered for, once per entry.
+  /// Returns what the grammar is entered for, once per entry.
   std::optional<Start> take_start() {
     Level& level = levels_.back();
     if (!level.start_pending) return std::nullopt;
     level.start_pending = false;
     return level.start;
   }
-  /// Fills in a new terminal.
   void next(Terminal& terminal);
 
-  /// For the grammar: the value is complete; `has_lookahead` if next() was called once too often.
+  /// For the grammar: reports that the value is complete; `has_lookahead` if next() was called once too
+  /// often.
   void finish(Value value, bool has_lookahead);
 
-  /// Enters the grammar and returns what it finished with.
+  /// Enters the grammar and returns the value that it finished with.
   Value evaluate(Start start);
 
-  /// For the grammar, at the front of a list: takes the entries that can be read straight from the file, if
-  /// that is what is being read.
+  /// For the grammar, at the front of a list: takes the entries that can be read straight from the file, if a
+  /// file is being read.
   void take_literals(std::vector<ListEntry>& list);
   /// For the grammar, behind the brace of a shape: takes the arguments that can be read straight from the
-  /// file, or from what is being repeated. If there are any, the next terminal is T_ARGUMENTS.
+  /// file, or from a recording. If there are any, the next terminal is T_ARGUMENTS.
   void take_arguments(std::vector<ShapeArgument>& arguments);
-  /// For the grammar: a name, whatever it stands for.
+  /// For the grammar: reads a name, whatever it stands for.
   NameId take_name() { return expect_name("to write to").name; }
-  /// For the grammar, inside { }, after a keyword: passes over what can belong to it, values and { }, up to,
-  /// not including, the next keyword or the closing brace.
+  /// For the grammar, inside { }, after a keyword: skips values and { } that can belong to the keyword, up
+  /// to, not including, the next keyword or the closing brace.
   void skip_arguments();
-  /// For the grammar, after a keyword: passes over ( ) if there, and { }.
+  /// For the grammar, after a keyword: skips ( ) if there, and { }.
   void skip_group();
-  /// Counts work besides reading tokens, about as much as so many of them are, so that a parse can be
-  /// cancelled in the middle of it. Throws Cancelled, or SceneError for a limit.
+  /// Counts work besides reading tokens, in units of about one token, so that a parse can be cancelled in the
+  /// middle of it. Throws Cancelled, or SceneError for a limit.
   void spend(std::uint64_t work) {
     work_ += work;
     if (tokens_read_ + work_ > next_pause_) pause();
@@ -84,49 +83,49 @@ public:
   /// Throws as spend() does, whatever has been counted.
   void look() { pause(); }
 
-  /// How many bytes of the scene's own file have been read, and how many are left.
+  /// Returns how many bytes of the scene's own file have been read, and how many are left.
   std::pair<std::size_t, std::size_t> read_and_left() const;
 
-  /// At the end of the scene: the files that #write still has to finish.
+  /// Closes, at the end of the scene, the files that #write has left open.
   void close_data_files();
 
-  /// How a message names what next() returned last.
+  /// Returns how a message names the terminal that next() returned last.
   std::string describe_last() const;
-  /// A string, its escapes replaced.
+  /// Returns a string with its escapes replaced.
   std::string text_of(const Token& string) const;
-  /// The scene's beginning before the grammar is entered.
+  /// Returns the place of the last token; before the grammar is entered, the scene's beginning.
   const Location& last_place() const {
     return levels_.empty() ? kBeginning : levels_.back().last_token.where;
   }
-  /// What next() made its last terminal of.
+  /// Returns the token from which next() made its last terminal.
   const Token& last_token() const { return levels_.back().last_token; }
-  /// The word that next() returned last is read again.
+  /// Makes next() return its last word again.
   void unread_last();
-  /// The folder of the file being read.
+  /// Returns the folder of the file being read.
   const std::filesystem::path& current_folder() const;
-  /// Whether any token was found at all.
+  /// Returns whether there has been no token at all.
   bool is_empty() const { return tokens_read_ <= 1; }
 
 private:
   static constexpr Location kBeginning = {};
 
-  /// A bracket that is open.
+  /// An open bracket.
   struct Bracket {
-    unsigned outside = 0; ///< the nesting around it
+    unsigned outside = 0; ///< nesting around it
     bool is_parenthesis = false;
   };
 
   /// One entry of the grammar.
   struct Level {
     Start start = Start::scene;
-    std::size_t base_depth = 0; ///< frames below this depth are not this level's to leave
+    std::size_t base_depth = 0; ///< frames below this depth do not end in this level
     bool start_pending = true;
     bool any_delivered = false;
-    bool at_end = false;  ///< end was delivered: nothing to hand back
-    unsigned nesting = 0; ///< open brackets, and < and ? which may or may not be brackets
+    bool at_end = false;  ///< the end was delivered: nothing to hand back
+    unsigned nesting = 0; ///< number of open brackets, and of < and ? that may be brackets
     std::vector<Bracket> enclosing;
     Token last_token;
-    std::optional<Terminal> put_back; ///< made of last_token; to be delivered again
+    std::optional<Terminal> put_back; ///< made from last_token; delivered again
     bool after_operand = false;       ///< the last terminal can end a value
     Value result;
     bool hands_back = false;
@@ -211,13 +210,13 @@ private:
   std::vector<double> read_numbers(const Location& where);
 
   Session& session_;
-  double started_; ///< of the thread's processor time
+  double started_; ///< in the thread's processor time
   std::vector<Level> levels_;
   std::uint64_t tokens_read_ = 0;
   bool skips_semicolon_ = false;         ///< once, behind the frame that ends
-  std::optional<Token> lacks_semicolon_; ///< what is declared at its end, if one has to be there
-  std::uint64_t work_ = 0;               ///< besides
-  std::uint64_t next_pause_ = 0;         ///< after so many tokens and so much work
+  std::optional<Token> lacks_semicolon_; ///< name declared at the frame's end, which needs a semicolon
+  std::uint64_t work_ = 0;               ///< besides reading tokens
+  std::uint64_t next_pause_ = 0;         ///< the number of tokens and work at which to pause next
   std::uint64_t tokens_recorded_ = 0;
   std::uint64_t iterations_ = 0;
   unsigned macro_calls_ = 0;

@@ -1,5 +1,5 @@
-// Constructs of POV-Ray that this program lacks: they may be declared, and are an error where an object uses
-// them, or left out (ParseOptions::lenient).
+// Constructs of POV-Ray that this program lacks: they may be declared, but are an error, or left out
+// (ParseOptions::lenient), if an object uses them.
 #pragma once
 
 #include <memory>
@@ -12,14 +12,16 @@ namespace celltrace::pov {
 struct Unsupported;
 using UnsupportedPtr = std::shared_ptr<const Unsupported>;
 
-/// A construct this program does not support, and where it stands; with others that belong to the same thing.
+/// A construct that this program does not support, and its place, in a list with others that belong to the
+/// same thing.
 struct Unsupported {
   std::string what;
   Location where;
-  UnsupportedPtr others = nullptr; ///< from the last to the first
+  UnsupportedPtr others = nullptr; ///< in reverse order
 };
 
-/// Adds what is not mentioned yet. A scene does not have many different ones.
+/// Adds the constructs that are not in the list yet. The list is short: a scene does not have many different
+/// ones.
 inline void mark(UnsupportedPtr& mark, const UnsupportedPtr& unsupported) {
   if (!mark) {
     mark = unsupported;

@@ -1,4 +1,4 @@
-// The values of functions of the scene.
+// Evaluates functions of the scene.
 #include "pov/user_function.hpp"
 
 #include <algorithm>

@@ -19,7 +19,7 @@ struct Session;
 struct UserFunction;
 using FunctionPtr = std::shared_ptr<const UserFunction>;
 
-/// An expression, a transformation of points, or something else that gives numbers.
+/// The body of a function: an expression, a transformation of points, or another source of numbers.
 using FunctionBody =
     std::variant<std::shared_ptr<const FunctionCode>, Transform, std::shared_ptr<const NativeFunction>>;
 
@@ -28,34 +28,35 @@ struct UserFunction {
   FunctionBody body;
   bool gives_vector = false; ///< or a colour
   bool gives_colour = false;
-  int depth = 1; ///< of calls
+  int depth = 1; ///< levels of nested calls
   Location where = {};
-  MemoryShare memory = {}; ///< of what an expression needs
+  MemoryShare memory = {}; ///< of an expression
 };
 
-/// Reads what stands behind `function`, from the token stream. What it may be called with is settled by then,
-/// so that no function calls itself.
+/// Reads the function that follows the word `function` from the token stream. The functions it may call are
+/// known before its own name is, so that no function calls itself.
 FunctionPtr read_function(Session& session, const Location& where);
 
-/// The function's value for `count` arguments. Fails if these are not as many as it takes, if it takes too
-/// long, or if it is not supported.
+/// Returns the function's value for `count` arguments. Fails if it takes another number of arguments, takes
+/// too long, or is not supported.
 Quantity call_function(Session& session, const UserFunction& function, const double* arguments,
                        std::size_t count, const Location& where);
 
-/// Fails unless a function takes so many arguments.
+/// Fails unless a function takes this many arguments.
 void check_argument_count(Session& session, const UserFunction& function, std::size_t count,
                           const Location& where);
 
-/// A spline as a function of its number.
+/// Returns a spline as a function of its number.
 std::shared_ptr<const NativeFunction> spline_function(SplinePtr spline);
-/// A pigment as a function of points that gives its colour.
+/// Returns a pigment as a function of points that gives its colour.
 std::shared_ptr<const NativeFunction> pigment_function(const PigmentDefinition& pigment);
-/// A pigment's pattern, of which there must be one, as a function of points.
+/// Returns a pigment's pattern, which must exist, as a function of points.
 std::shared_ptr<const NativeFunction> pattern_function(const PigmentDefinition& pigment);
-/// A function that fails wherever it is called: "`what` is not supported yet".
+/// Returns a function that fails wherever it is called: "`what` is not supported yet".
 std::shared_ptr<const NativeFunction> unsupported_function(const std::string& what, std::size_t parameters,
                                                            std::size_t results);
-/// POV-Ray's own function of this number, of three coordinates and parameters; null: there is none.
+/// Returns POV-Ray's internal function of this number, which takes three coordinates and parameters; null if
+/// there is none.
 std::shared_ptr<const NativeFunction> internal_function(int number);
 
 } // namespace celltrace::pov

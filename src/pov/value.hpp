@@ -1,4 +1,4 @@
-// What a name of the scene language can stand for.
+// The values that a name of the scene language can have.
 #pragma once
 
 #include <memory>
@@ -32,17 +32,17 @@ using Value = std::variant<std::monostate, Quantity, std::string, PigmentPtr, No
                            std::shared_ptr<Array>, std::shared_ptr<const Macro>, UnsupportedPtr,
                            std::shared_ptr<DataFile>, FunctionPtr, SplinePtr>;
 
-/// Elements without a value hold std::monostate. Assigning an array copies it.
+/// An array of values; assigning it copies it. Elements without a value hold std::monostate.
 struct Array {
   std::vector<Value, ElementAllocator<Value>> elements;
 };
 
-/// What a name is bound to; macro parameters may share the caller's.
+/// The variable that a name is bound to; macro parameters may share the caller's.
 struct Slot {
   Value value;
 };
 
-/// For messages: "a float", "a texture".
+/// Returns the kind of a value for messages: "a float", "a texture".
 const char* kind_name(const Value& value);
 
 } // namespace celltrace::pov

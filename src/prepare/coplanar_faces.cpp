@@ -20,27 +20,28 @@ namespace celltrace {
 namespace {
 
 constexpr std::size_t kMostObjects = most_of(PictureLimit::coplanar_objects);
-/// Beyond these nobody waits for more.
+/// Limit on overlapping pairs; more would take too long.
 constexpr std::size_t kMostOverlaps = most_of(PictureLimit::coplanar_pairs);
-/// That faces of one plane are moved apart by.
+/// Limit on steps by which faces of one plane are moved apart.
 constexpr int kMostSteps = most_of(PictureLimit::coplanar_layers);
-/// Steps that surely take a face out of a solid whose boundary it was on: that is a little larger than it is.
+/// The number of steps that certainly move a face out of a solid on whose boundary it was; solids are
+/// slightly enlarged.
 constexpr int kStepsOut = 3;
 
 class CoplanarFaces {
 public:
-  /// `eye` and `start`, which are of an Eye, are null for faces of which any may be seen. Objects behind the
-  /// first ones are left out.
+  /// Collects the faces. `eye` and `start`, which belong to an Eye, are null if any face may be visible.
+  /// Objects after the first kMostObjects are left out.
   CoplanarFaces(const Scene& scene, const PassContext& context, const Vec3* eye, const Vec3* start)
       : scene_(scene), context_(context), list_(scene, context.material_flags, eye, kMostObjects), eye_(eye),
         start_(start) {}
 
-  /// Whether any has to be moved.
+  /// Finds the steps of all faces; returns whether a face has to be moved.
   bool settle() {
     list_.for_each_plane([this](std::size_t first, std::size_t last) { settle(first, last); });
     return any_moves_;
   }
-  /// Whether there are two that may have to be, wherever the eye is.
+  /// Returns whether there are two faces that may have to be moved, wherever the eye is.
   bool any_overlap() {
     bool any = false;
     list_.for_each_plane([&](std::size_t first, std::size_t last) {
@@ -52,8 +53,8 @@ public:
     return any;
   }
 
-  /// Whether there are two of which it matters which one is seen, wherever the eye is. If there are too many
-  /// to look at, those that have been count.
+  /// Returns whether the picture depends on which of two faces is visible, wherever the eye is. If there are
+  /// too many pairs, only the first ones are examined.
   bool any_matters() {
     bool any = false;
     list_.for_each_plane([&](std::size_t first, std::size_t last) {
@@ -99,7 +100,8 @@ public:
   }
 
 private:
-  /// How far a face is moved: farther than where rounding may put it, and much less than can be seen.
+  /// Returns the vector by which a face is moved: farther than rounding may move it, and much less than can
+  /// be seen.
   Vec3 way(const Face& face) const {
     constexpr double kStep = 5e-7;
     const Vec3& eye = *start_;
@@ -117,22 +119,23 @@ private:
     const int corner = (box.corner[0][axis] > box.corner[1][axis]) != (side % 2 != 0);
     box.corner[corner][axis] += along(transform.direction(unit), face);
   }
-  /// Of a cylinder or a cone.
+  /// Moves an end of a cylinder or a cone.
   template <class Round>
   void move_side(Round& solid, int side, const Transform& transform, const Face& face) const {
     const Vec3 axis = solid.cap - solid.base;
     (side != 0 ? solid.cap : solid.base) += axis * along(transform.direction(axis), face);
   }
-  /// How far to go in a direction, in lengths of it, to where the face is moved.
+  /// Returns how far to go along a direction, in lengths of it, until the face is in its new plane.
   double along(const Vec3& direction, const Face& face) const {
     return glm::dot(way(face), face.normal) / glm::dot(direction, face.normal);
   }
 
-  /// Whether it shows which one of the two rays hit. From inside of what is opaque nothing is seen. Ends of
-  /// cylinders and cones are rounded otherwise than faces, by POV-Ray, too: it is settled only where
-  /// something transparent stands on what is opaque.
+  /// Returns whether the picture depends on which of the two faces a ray hits. The inside of opaque objects
+  /// is never visible. Ends of cylinders and cones are rounded differently from other faces, in POV-Ray too:
+  /// they are only ordered if something transparent stands on an opaque face.
   bool can_differ(const Face& a, const Face& b) const {
-    // What is cut out often has faces with what it is cut out of: they stay, but as the ground of a room.
+    // Subtracted objects often share faces with the object they are cut out of: these stay, except for the
+    // ground of a room.
     if (a.is_inverse && b.is_inverse) return false;
     if (a.is_inverse || b.is_inverse) {
       const Face &ground = a.is_inverse ? a : b, &other = a.is_inverse ? b : a;
@@ -144,7 +147,7 @@ private:
     return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
   }
 
-  /// Returns whether it may show from somewhere: can_differ() asks the eye besides.
+  /// Returns whether the choice may be visible from some location; can_differ() also uses the eye.
   bool may_differ(const Face& a, const Face& b) const {
     const bool are_opaque = list_.is_opaque(a) && list_.is_opaque(b);
     if (a.is_inverse || b.is_inverse) return a.is_inverse != b.is_inverse && !are_opaque;
@@ -152,14 +155,14 @@ private:
     return are_merged(a, b) || !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
   }
 
-  /// Two faces of one plane: the first one belongs nearer to the eye, by so many steps.
+  /// The order of two faces in one plane: `near` has to be nearer to the eye, by `steps`.
   struct Order {
     Face* near;
     Face* far;
     int steps = 1;
   };
 
-  /// Where two faces of one object are in different parts that are joined or cut: the parts, or nothing.
+  /// The operation in which two faces of one object are in different parts, and these parts.
   struct Fork {
     Csg::Operation operation;
     std::size_t part[2];
@@ -173,16 +176,17 @@ private:
     if (level == std::min(of_a.size(), of_b.size())) return std::nullopt;
     return Fork{of_a[level].csg->operation, {of_a[level].part, of_b[level].part}};
   }
-  /// Whether they are faces of parts of a merge, each of which is in the other part. As rounding has it
-  /// POV-Ray shows both or neither at a point: there are specks, or a hole.
+  /// Returns whether the faces are of parts of a merge, each inside of the other part. Depending on rounding,
+  /// POV-Ray shows both or neither at a point, which makes specks or a hole.
   bool are_merged(const Face& a, const Face& b) const {
     const std::optional<Fork> fork = fork_of(a, b);
     return fork && fork->operation == Csg::Operation::merge;
   }
 
-  /// Orders two faces of one object, if they look the same way and are of parts of an intersection or a
-  /// merge. POV-Ray shows the last part of an intersection: the other faces are moved out, where they are in
-  /// no other part. One face of a merge is to be seen, and the others are behind it.
+  /// Returns the order of two faces of one object that look the same way, if they are of parts of an
+  /// intersection or a merge. POV-Ray shows the last part of an intersection: the other faces are moved out,
+  /// where they are outside of the other parts. One face of a merge has to be visible, with the others behind
+  /// it.
   std::optional<Order> order_of_parts(Face& a, Face& b) const {
     const std::optional<Fork> fork = fork_of(a, b);
     if (!fork || a.looks_up != b.looks_up) return std::nullopt;
@@ -193,7 +197,7 @@ private:
     return Order{&in, &out, kStepsOut};
   }
 
-  /// Of faces of two objects: the one that POV-Ray shows is nearer.
+  /// Returns the order of faces of two objects: the one that POV-Ray shows is nearer.
   Order order_of_objects(Face& a, Face& b) {
     if (a.is_round) return {&b, &a};
     if (b.is_round) return {&a, &b};
@@ -201,7 +205,7 @@ private:
     return {&b, &a};
   }
 
-  /// Moves faces [first, last) of one plane apart.
+  /// Moves the faces [first, last) of one plane apart.
   void settle(std::size_t first, std::size_t last) {
     std::vector<Order> orders;
     const bool all = list_.for_each_pair(first, last, [&](Face& a, Face& b) {
@@ -216,7 +220,8 @@ private:
     if (orders.empty()) return;
     any_moves_ = true;
     if (stack(orders)) return;
-    // What is seen depends on the ray, and no order of all faces is right everywhere.
+    // The orders contain a cycle: which face is visible depends on the ray, so that no order of all faces is
+    // right everywhere. The rank in the tree is right for most rays.
     for (Order& order : orders)
       if (tree_ && tree_->rank(order.far->object) < tree_->rank(order.near->object))
         std::swap(order.near, order.far);
@@ -225,7 +230,7 @@ private:
       list_.faces()[i].steps = 0;
     context_.pass(PictureLimit::coplanar_layers);
   }
-  /// Says that the faces [first, last) of one plane have too many pairs, unless all of them look the same.
+  /// Reports that the faces [first, last) of one plane have too many pairs, unless all of them look the same.
   void pass_pairs(std::size_t first, std::size_t last) {
     if (overlaps_ > kMostOverlaps) return context_.pass(PictureLimit::coplanar_pairs);
     const Face& one = list_.faces()[first];
@@ -234,11 +239,11 @@ private:
         return context_.pass(PictureLimit::coplanar_comparisons);
   }
 
-  /// Gives the faces their steps. False if these would be too many.
+  /// Gives the faces their steps. Returns false if these would be too many.
   static bool stack(const std::vector<Order>& orders) {
     for (const Order& order : orders)
       order.near->steps = order.far->steps = 0;
-    // Without circles each round settles one step more.
+    // Without cycles, each round settles at least one more step.
     for (int round = 0; round <= kMostSteps + 1; ++round) {
       bool has_changed = false;
       for (const Order& order : orders) {
@@ -252,7 +257,7 @@ private:
     return false;
   }
 
-  /// Whether POV-Ray shows `a` where the two overlap.
+  /// Returns whether POV-Ray shows `a` where the two faces overlap.
   bool is_seen(const Face& a, const Face& b) {
     if (!tree_) {
       std::vector<Extent> extents;

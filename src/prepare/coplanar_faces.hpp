@@ -1,4 +1,4 @@
-// Faces of several objects in one plane: which one is seen.
+// Decides which of several objects' faces in one plane is visible.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,13 +8,12 @@
 
 namespace celltrace {
 
-/// Moves faces of boxes and planes that lie in one plane, and overlap, apart, by a few millionths of their
-/// distance from the camera, so that the one is in front that POV-Ray shows. There rounding is the same for
-/// all of them and the first one counts that is tested (BoundingTree); single precision would show now the
-/// one and now the other. Boxes may be parts of a CSG: of faces of one intersection that of the last part is
-/// seen. Of boxes that are cut out, as rooms are, only what transparent things stand on is moved. Where such
-/// a thing is a cylinder or cone, it stands behind what is opaque. Scenes of very many objects stay as they
-/// are.
+/// Moves overlapping faces of boxes and planes that lie in one plane apart, by a few millionths of their
+/// distance from the camera, so that the face that POV-Ray shows is in front. In POV-Ray all of them are
+/// rounded alike, and the one tested first is visible (BoundingTree); single precision would show a random
+/// mix. Boxes may be parts of a CSG: among the faces of one intersection, that of the last part is visible. A
+/// face of a subtracted box, such as a room, is only moved if something transparent stands on it. A cylinder
+/// or cone that stands there is placed behind the opaque face. Scenes of very many objects are not changed.
 std::optional<Scene> move_faces_apart(const Scene& scene, const PassContext& context);
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// Objects as they are, or the parts that they are cut out of and put together from.
+// Visits objects, or the leaves of their CSG.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,8 +11,8 @@
 
 namespace celltrace {
 
-/// Where a leaf of an object's CSG is: placed in the scene, and whether what is outside of it belongs to the
-/// object.
+/// The place of a leaf of an object's CSG: its transformation to the scene, and whether the object is made of
+/// the leaf's outside.
 struct LeafPlace {
   Transform transform;
   bool inverse = false;
@@ -25,8 +25,8 @@ struct LeafPlace {
   }
 };
 
-/// Whether `ask(leaf, whether its outside belongs to the object)` holds for an object that is no CSG, or for
-/// any such part: what few objects have is found without looking at where they are.
+/// Returns whether `ask(leaf, whether the object is made of the leaf's outside)` is true for an object that
+/// is no CSG, or for any leaf of one. Rare properties are found this way without computing places.
 template <class Ask> bool has_leaf(const Object& object, bool inverse, const Ask& ask) {
   const bool is_inverse = inverse != object.inverse;
   const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
@@ -37,8 +37,8 @@ template <class Ask> bool has_leaf(const Object& object, bool inverse, const Ask
   return false;
 }
 
-/// Calls `visit(leaf, place)` for an object that is no CSG, or for all such parts, in their order. What clips
-/// does not count.
+/// Calls `visit(leaf, place)` for an object that is no CSG, or for all leaves of one in their order. Objects
+/// that clip are skipped.
 template <class Visit> void visit_leaves(const Object& object, const LeafPlace& around, Visit& visit) {
   const LeafPlace place = around.within(object);
   const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
@@ -47,8 +47,8 @@ template <class Visit> void visit_leaves(const Object& object, const LeafPlace& 
     visit_leaves((*csg)->parts[i], place.part(**csg, i), visit);
 }
 
-/// The object with the leaves that `change(leaf, place)`, called as above, returns for its own; nothing if it
-/// returns nothing for any of them.
+/// Returns the object with those leaves replaced for which `change(leaf, place)` returns a new leaf; nothing
+/// if it returns none.
 template <class Change>
 std::optional<Object> with_leaves_changed(const Object& object, const LeafPlace& around, Change& change) {
   const LeafPlace place = around.within(object);

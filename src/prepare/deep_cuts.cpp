@@ -16,13 +16,13 @@ namespace celltrace {
 
 namespace {
 
-/// The most comparisons of faces in a scene.
+/// Limit on comparisons of faces in a scene.
 constexpr std::size_t kMostComparisons = most_of(PictureLimit::shallow_cuts);
 
-/// A face in the scene. `ends`: which of a shape's, by axis and then the lower one first; of a cylinder or
-/// cone the base's is first.
+/// A face of a shape in the scene. `ends` has the faces of a box by axis, the lower one of each first; of a
+/// cylinder or cone, the base first.
 struct EndFace {
-  Vec3 normal; ///< outwards
+  Vec3 normal; ///< points outwards
   double distance;
   Vec3 point;
   std::size_t leaf;
@@ -34,7 +34,7 @@ class DeepCuts {
 public:
   explicit DeepCuts(const PassContext& context) : context_(context), eye_(context.eye) {}
 
-  /// The object with deeper cuts, if it needs any.
+  /// Returns the object with deeper cuts; nothing if it needs none.
   std::optional<Object> changed(const Object& object) {
     if (!std::holds_alternative<std::shared_ptr<const Csg>>(object.shape)) return {};
     const bool may_be_thin = limits_parts(object, 0) && has_leaf(object, false, is_thin);
@@ -59,18 +59,18 @@ private:
   struct Move {
     std::size_t leaf;
     int end;
-    double way; ///< along the normal
+    double way; ///< distance along the normal
     Vec3 normal;
   };
 
-  /// Whether it has ends that may lie a little beyond those of what is kept.
+  /// Returns whether a leaf is subtracted and has ends that may lie slightly beyond those of the object.
   static bool cuts(const Object& leaf, bool inverse) {
     return inverse &&
            (std::holds_alternative<Box>(leaf.shape) || std::holds_alternative<Cylinder>(leaf.shape) ||
             std::holds_alternative<Cone>(leaf.shape));
   }
 
-  /// Whether it is a plate that belongs to the object, and may be too thin for a point to be found inside.
+  /// Returns whether a leaf is a plate of the object that may be too thin for a point to be found inside.
   static bool is_thin(const Object& leaf, bool inverse) {
     constexpr double kThin = 1e-4;
     const auto* const box = std::get_if<Box>(&leaf.shape);
@@ -78,7 +78,7 @@ private:
     const Vec3 size = glm::abs(box->corner[1] - box->corner[0]);
     return std::min({size.x, size.y, size.z}) < kThin * std::max({size.x, size.y, size.z});
   }
-  /// Whether what is seen of some of its parts is what is inside of others.
+  /// Returns whether a CSG shows parts only where they are inside of other parts.
   static bool limits_parts(const Object& object, int depth) {
     const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
     if (csg == nullptr || depth > kDeepestCsg) return false;
@@ -127,14 +127,14 @@ private:
     return (box.corner[0][axis] > box.corner[1][axis]) != (end % 2 != 0);
   }
 
-  /// A share of this, which says how precise points of a face are.
-  static constexpr double kDeepEnough = 2e-6; // single precision is wrong by up to a tenth of it
+  /// The depth of a cut as a share of size_at(), on which the precision of a face's points depends.
+  static constexpr double kDeepEnough = 2e-6; // single precision is wrong by up to a tenth of this
   double size_at(const Vec3& point) const {
     const Vec3 eye = eye_.start();
     return glm::length(eye) + glm::length(point) + glm::length(point - eye);
   }
 
-  /// Plates get so thick, on the side that the eye does not see, that what lies on the other side is inside.
+  /// Thickens plates on the side away from the eye, so that objects on the other side are inside of them.
   void find_thin() {
     for (std::size_t i = 0; i + 1 < kept_.size(); ++i) {
       const EndFace &a = kept_[i], &b = kept_[i + 1];
@@ -166,7 +166,7 @@ private:
     }
   }
 
-  /// How much longer a leaf becomes along one of its axes so that its end moves by `move`.
+  /// Returns how much longer a leaf becomes along one of its axes so that its end moves by `move`.
   static double growth(const Move& move, const Vec3& outward, const LeafPlace& place) {
     return move.way / glm::dot(place.transform.direction(outward), move.normal);
   }

@@ -1,4 +1,4 @@
-// Holes that are cut only a little deeper than what they are cut out of, and plates that are hardly thick.
+// Deepens holes that are cut only slightly deeper than the object around them, and thickens very thin plates.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,11 +8,11 @@
 
 namespace celltrace {
 
-/// Moves the faces of what is cut out of a CSG that lie just beyond one of its faces, as people put them so
-/// that a hole is open, a few millionths of their distance from the camera beyond it: in single precision the
-/// two would else be one, and the hole closed. Faces are those of boxes, cylinders and cones; CSGs may also
-/// have planes. Plates that are as thin, of CSGs that show what is inside of them, become that thick: what
-/// lies on them would else be inside of them only here and there.
+/// Moves faces of subtracted objects that lie just beyond a face of the CSG, as people place them so that a
+/// hole is open, to a few millionths of their distance from the camera beyond it: in single precision both
+/// faces would coincide, and the hole would be closed. Faces are those of boxes, cylinders and cones; CSGs
+/// may also have planes. Plates as thin as this become that thick if they are in CSGs that show what is
+/// inside of them: objects that lie on them would otherwise be inside only in places.
 std::optional<Scene> deepen_cuts(const Scene& scene, const PassContext& context);
 
 } // namespace celltrace

@@ -11,7 +11,7 @@ namespace celltrace {
 
 namespace {
 
-constexpr double kNear = 256; ///< radii beside the distance from the surface
+constexpr double kNear = 256; ///< ratio of radius to distance from the surface
 
 bool is_near(const Sphere& sphere, const Vec3& location) {
   const double radius = std::abs(sphere.radius);

@@ -10,7 +10,7 @@ namespace celltrace {
 
 namespace {
 
-/// Turns the normal, which points out, the way that Face says.
+/// Turns the normal, which points outwards, to the side that Face requires.
 void turn(Face& face) {
   constexpr double kNone = 1e-9;
   int axis = 0;
@@ -22,7 +22,7 @@ void turn(Face& face) {
   face.distance = -face.distance;
 }
 
-/// A face as its solid has it, `outward` being normal to it.
+/// Returns a face of a solid; `outward` is normal to it.
 Face face_of(const Vec3 (&corners)[4], const Vec3& outward, const Transform& transform) {
   Face face{};
   face.normal = glm::normalize(transform.normal(outward));
@@ -35,7 +35,8 @@ Face face_of(const Vec3 (&corners)[4], const Vec3& outward, const Transform& tra
   return face;
 }
 
-/// Not where a transformation is singular, or a box as wide as numbers reach: it is refused elsewhere.
+/// Returns false for faces of a singular transformation, or of a box as wide as numbers reach: such objects
+/// are rejected elsewhere.
 bool is_usable(const Face& face) {
   constexpr double kFarthest = 1e12;
   const Vec3 reach = glm::max(glm::abs(face.extent.min), glm::abs(face.extent.max));
@@ -91,7 +92,7 @@ void FaceList::add_plane(std::size_t object, const Plane& plane) {
 
 void FaceList::add(std::size_t object, std::size_t number, const Box& box, const Transform& transform,
                    Index material, const CsgPath& path, bool is_inverse) {
-  const bool has_order = !path.empty() && !is_inverse; // among its CSG's faces
+  const bool has_order = !path.empty() && !is_inverse; // compared with other faces of its CSG
   if (has_order) paths_.push_back(path);
   const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
   const bool is_seen_inside =
@@ -111,8 +112,8 @@ void FaceList::add(std::size_t object, std::size_t number, const Box& box, const
     face.material = material;
     face.is_inverse = is_inverse;
     face.looks_up = face.looks_up != is_seen_inside;
-    // Faces that look away show through transparent objects and in mirrors alone: where there are many, they
-    // are skipped.
+    // Opaque back faces are visible only through transparent objects and in mirrors: they are skipped, since
+    // there may be many.
     if (eye_ != nullptr && is_opaque(face) && !looks_at_eye(face)) continue;
     face.object = object;
     face.solid = number;

@@ -1,4 +1,4 @@
-// Faces of solids by the planes that they are in.
+// Faces of solids, grouped by plane.
 #pragma once
 
 #include "celltrace/picture_limit.hpp"
@@ -20,34 +20,34 @@
 
 namespace celltrace {
 
-/// The parts of an object's CSG that a solid is in, from the whole down.
+/// A step on the path from an object's CSG down to a solid: a CSG and its part.
 struct PathStep {
   const Csg* csg;
   std::size_t part;
 };
 using CsgPath = std::vector<PathStep>;
 
-/// In a plane whose normal points to where the first of its coordinates grows that are not 0.
+/// A face, in a plane whose normal points in the direction in which its first nonzero coordinate grows.
 struct Face {
   Vec3 normal;
-  double distance; ///< of the plane from the origin
+  double distance; ///< of the plane from the origin, along the normal
   Extent extent;
   std::size_t object;
   std::size_t solid; ///< kPlane: the object is a plane
-  int side;        ///< of a box: axis * 2, and 1 for the one of larger coordinates; of others: 1 for the cap
-  bool is_round;   ///< an end of a cylinder or a cone
-  bool is_inverse; ///< of a box that is cut out of something
-  bool looks_up;   ///< its outside is where the normal points
+  int side;          ///< of a box: axis * 2, plus 1 for the larger coordinate; of others: 1 for the cap
+  bool is_round;     ///< an end of a cylinder or a cone
+  bool is_inverse;   ///< of a box that is subtracted
+  bool looks_up;     ///< the outside is in the direction of the normal
   Index material;
-  std::uint32_t path = 0; ///< its number
-  int steps = 0;          ///< to move it, toward the eye
+  std::uint32_t path = 0; ///< the path's number; 0: none
+  int steps = 0;          ///< number of steps to move it toward the eye
 
   static constexpr std::size_t kPlane = ~std::size_t{0};
 };
 
 /// Calls `visit(solid, transform, material, path, inversions)` for the boxes, cylinders and cones of an
-/// object, which may be changed: those in its CSG, too. `inversions`: how often it is turned inside out, or
-/// cut out of something. CSGs are copied if they may be.
+/// object, including those in its CSG. `inversions` is how often a solid is inverted or subtracted. If the
+/// object may be changed, CSGs are copied for it.
 template <class AnyObject, class Visit>
 void visit_solids(AnyObject& object, const Transform& around, int inversions, CsgPath& path, Visit& visit) {
   const Transform transform = object.transform.then(around);
@@ -82,22 +82,22 @@ template <class AnyObject, class Visit> void visit_solids(AnyObject& object, Vis
   visit_solids(object, Transform(), 0, path, visit);
 }
 
-/// The faces of a scene's boxes, cylinders, cones and planes that may be seen in one plane with others.
+/// The faces of a scene's boxes, cylinders, cones and planes that may be visible in one plane with others.
 class FaceList {
 public:
-  /// `scene` and `material_flags` stay as they are as long as this lives. `eye` is null for faces of which
-  /// any may be seen. Objects behind the first `most` are left out.
+  /// Collects faces. `scene` and `material_flags` must not change while this object lives. `eye` is null if
+  /// any face may be visible. Objects after the first `most` are left out.
   FaceList(const Scene& scene, std::span<const std::uint32_t> material_flags, const Vec3* eye,
            std::size_t most);
 
   std::vector<Face>& faces() { return faces_; }
   const std::vector<Face>& faces() const { return faces_; }
-  /// The parts that a face's box is in; the face has a path.
+  /// Returns the path to a face's box; the face must have one.
   const CsgPath& path_of(const Face& face) const { return paths_[face.path - 1]; }
-  /// Boxes, cylinders and cones, numbered as visit_solids() comes to them.
+  /// Returns the number of boxes, cylinders and cones, which are numbered in the order of visit_solids().
   std::size_t solid_count() const { return solid_count_; }
 
-  /// Whether two faces of one plane share more than edges.
+  /// Returns whether two faces of one plane share more than edges.
   static bool overlap(const Extent& a, const Extent& b) {
     int wide = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -108,16 +108,16 @@ public:
     }
     return wide >= 2;
   }
-  /// Whether something can be seen to stand on it.
+  /// Returns whether an object on the face can be seen to stand on it.
   bool is_ground(const Face& face) const { return is_opaque(face) && looks_at_eye(face); }
   bool is_opaque(const Face& face) const {
     return (material_flags_[face.material] & kernel::object_flag::opaque) != 0;
   }
   bool looks_at_eye(const Face& face) const { return face.looks_up == is_seen_from_above(face); }
-  /// Whether the eye is where the normal points.
+  /// Returns whether the eye is on the side of the normal.
   bool is_seen_from_above(const Face& face) const { return glm::dot(*eye_, face.normal) > face.distance; }
 
-  /// Calls `visit(first, last)` for the faces [first, last) of each plane that has more than one.
+  /// Calls `visit(first, last)` for the faces [first, last) of each plane with more than one.
   template <class Visit> void for_each_plane(Visit visit) {
     sort();
     for (std::size_t first = 0, last = 1; first < faces_.size(); first = last++) {
@@ -126,8 +126,8 @@ public:
       if (last - first > 1) visit(first, last);
     }
   }
-  /// Calls `visit(a, b)` for pairs of [first, last) whose extents meet along x, until it returns false. False
-  /// then, and if there are too many.
+  /// Calls `visit(a, b)` for pairs of [first, last) whose extents meet along x, until it returns false.
+  /// Returns false if a call did, or if there are too many pairs.
   template <class Visit> bool for_each_pair(std::size_t first, std::size_t last, Visit visit) {
     std::sort(faces_.begin() + static_cast<std::ptrdiff_t>(first),
               faces_.begin() + static_cast<std::ptrdiff_t>(last),
@@ -143,27 +143,27 @@ public:
 
 private:
   void add_plane(std::size_t object, const Plane& plane);
-  /// Adds the faces of a box. The inside is seen of an inverse one, as that of a room which is cut out of
-  /// something, and of one that the eye is in.
+  /// Adds the faces of a box. The inside is visible if the box is inverse, as a room that is subtracted from
+  /// something, or if the eye is in it.
   void add(std::size_t object, std::size_t number, const Box& box, const Transform& transform, Index material,
            const CsgPath& path, bool is_inverse);
   bool holds_eye(const Vec3& low, const Vec3& high, const Transform& transform) const;
-  /// Adds the ends of a cylinder or cone that are seen through it.
+  /// Adds the visible ends of a cylinder or cone.
   template <class Round>
   void add(std::size_t object, std::size_t number, const Round& solid, const Transform& transform,
            Index material, const CsgPath&, bool is_inverse);
-  /// Makes neighbours of the faces of one plane.
+  /// Sorts the faces so that those of one plane are neighbours.
   void sort();
   static bool are_in_one_plane(const Face& a, const Face& b);
 
-  /// Beyond these nobody waits for more.
+  /// Limit on pairs; more would take too long.
   static constexpr std::size_t kMostPairs = most_of(PictureLimit::coplanar_comparisons);
 
   const Scene& scene_;
   std::span<const std::uint32_t> material_flags_;
   const Vec3* eye_;
   std::vector<Face> faces_;
-  std::vector<CsgPath> paths_; ///< of boxes in CSGs
+  std::vector<CsgPath> paths_; ///< paths to boxes in CSGs
   std::size_t solid_count_ = 0, pairs_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace celltrace {
 
 namespace {
 
-/// Quadrics have no bounds: each ray is tested against all of them.
+/// Limit on quadrics: they have no bounds, so that each ray is tested against all of them.
 constexpr std::size_t kMostSpheres = most_of(PictureLimit::large_spheres);
 
 class LargeSpheres {
@@ -22,7 +22,7 @@ public:
   explicit LargeSpheres(const PassContext& context)
       : context_(context), eye_(context.eye), material_flags_(context.material_flags) {}
 
-  /// The object as it is to be, its parts too, if one of them has changed.
+  /// Returns the object with large spheres replaced, also in its parts; nothing if there are none.
   std::optional<Object> changed(const Object& object) {
     const auto is_sphere = [](const Object& leaf, bool) {
       return std::holds_alternative<Sphere>(leaf.shape);

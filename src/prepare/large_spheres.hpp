@@ -1,4 +1,4 @@
-// Spheres that are so large beside their distance that single precision would not do.
+// Replaces spheres so large, compared with their distance, that single precision is not enough.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,10 +8,10 @@
 
 namespace celltrace {
 
-/// Makes quadrics of such spheres, planets under a camera's feet, about the point of their surface that is
-/// nearest to the camera. What rays are measured from is near then; from the middle of a sphere the digits of
-/// its radius would be missing from all distances. Spheres whose materials ask for surface coordinates stay
-/// as they are, as a quadric has others; inverse and clipped ones do, too, and those behind the first few.
+/// Replaces such spheres, as of a planet under the camera, by quadrics about the point of their surface
+/// nearest to the camera. Rays are then measured from a point that is near; measured from the centre, all
+/// distances would lack as many digits as the radius has. Spheres stay if their materials read surface
+/// coordinates, which a quadric has others of, if they are inverse or clipped, and beyond the first few.
 std::optional<Scene> centre_large_spheres(const Scene& scene, const PassContext& context);
 
 } // namespace celltrace

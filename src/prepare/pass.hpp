@@ -1,4 +1,4 @@
-// The interface of the passes over a scene that single precision needs.
+// The interface of the passes that prepare a scene for single precision.
 #pragma once
 
 #include "celltrace/picture_limit.hpp"
@@ -14,26 +14,25 @@
 
 namespace celltrace {
 
-/// The limits that a scene passes.
 using PassedLimits = std::set<PictureLimit>;
 
-/// The things that passes are told besides the scene, and whom they tell of limits.
+/// The inputs of passes besides the scene, and the set to which they add limits.
 struct PassContext {
   const Eye& eye;
-  std::span<const std::uint32_t> material_flags; ///< by material, the flags of objects that consist of it
-  PassedLimits* limits = nullptr;                ///< null: nobody asks
+  std::span<const std::uint32_t> material_flags; ///< by material: flags of objects that consist of it
+  PassedLimits* limits = nullptr;                ///< null: not needed
 
-  /// Says that the scene passes a limit.
+  /// Records that the scene passes a limit.
   void pass(PictureLimit limit) const {
     if (limits != nullptr) limits->insert(limit);
   }
 };
 
-/// A pass returns the scene as it is to be, or nothing if it leaves all as it is.
+/// A pass returns the changed scene, or nothing if it changes nothing.
 using Pass = std::optional<Scene> (*)(const Scene& scene, const PassContext& context);
 
-/// Returns the scene with the objects that `change(object)` returns in place of its own; nothing if it
-/// returns none.
+/// Returns the scene with those objects replaced for which `change(object)` returns a new object; nothing if
+/// it returns none.
 template <class Change> std::optional<Scene> with_objects_changed(const Scene& scene, const Change& change) {
   std::optional<Scene> copy;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

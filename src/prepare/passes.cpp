@@ -11,14 +11,15 @@ namespace celltrace {
 
 std::span<const Pass> passes() {
   static constexpr Pass kPasses[] = {
-      // Faces are compared where they end up: a cut that is too shallow is moved by more than faces of one
-      // plane are, and may come to lie in the plane of another object's face, or leave it.
+      // Faces are compared where they end up: a shallow cut is moved by more than faces of one plane are, and
+      // may come to lie in the plane of another object's face, or leave it.
       deepen_cuts,
       move_faces_apart,
-      // Spheres have no faces, so that their order among the passes before does not matter. Whoever comes
-      // behind this finds quadrics in the place of some.
+      // Spheres have no faces, so that this pass could also come before the ones above. Passes after it find
+      // quadrics in place of some spheres.
       centre_large_spheres,
-      // Rays never see projectors: no other pass is to spend time on them, or move faces because of them.
+      // Projectors are invisible to rays: no other pass should spend time on them, or move faces because of
+      // them.
       add_projectors,
   };
   return kPasses;

@@ -1,4 +1,4 @@
-// The passes over a scene that single precision needs, in their order.
+// The passes that prepare a scene for single precision, in their order.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -9,23 +9,23 @@
 
 namespace celltrace {
 
-/// Returns the passes as they follow each other; passes.cpp says why. The scene's origin is chosen before all
-/// of them (scene_origin.hpp), by the renderer, whose cameras and rays are moved with the scene.
+/// Returns the passes in their order; passes.cpp gives the reasons. The renderer chooses the scene's origin
+/// before all of them (scene_origin.hpp), since its cameras and rays move with the scene.
 std::span<const Pass> passes();
 
 /// A scene after all passes.
 class PreparedScene {
 public:
-  /// `scene` stays as it is as long as this lives.
+  /// Runs the passes. `scene` must not change while this object lives.
   PreparedScene(const Scene& scene, const PassContext& context);
 
   const Scene& scene() const { return changed_ ? *changed_ : given_; }
-  /// Returns how many objects are the scene's own; those behind them are projectors.
+  /// Returns how many objects are the scene's own; the objects after them are projectors.
   std::size_t own_objects() const { return given_.objects.size(); }
 
 private:
   const Scene& given_;
-  std::optional<Scene> changed_; ///< none if no pass changes anything
+  std::optional<Scene> changed_; ///< nothing if no pass changes anything
 };
 
 } // namespace celltrace

@@ -4,7 +4,7 @@ namespace celltrace {
 
 namespace {
 
-/// `before` and `after` stand around the number.
+/// The name and the message of a limit; `before` and `after` surround the number.
 struct LimitText {
   const char* name;
   const char* before;

@@ -23,7 +23,6 @@ bool has_meshes(const Object& object) {
   return csg && *csg && std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_meshes);
 }
 
-/// The triangles of a mesh as objects.
 std::vector<Object> triangles_of(const Object& object, const Mesh& mesh) {
   std::vector<Object> triangles;
   for (const Mesh::Triangle& triangle : mesh.triangles) {
@@ -41,7 +40,7 @@ std::vector<Object> triangles_of(const Object& object, const Mesh& mesh) {
   return triangles;
 }
 
-/// Without meshes, of this material, and with an interior of its own.
+/// Returns a projector's object without meshes, with this material, and with an interior of its own.
 Object taken(const Object& object, Index material) {
   Object result = object;
   result.material = material;

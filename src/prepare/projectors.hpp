@@ -1,4 +1,4 @@
-// What lights are projected through, beside the scene's own objects.
+// Adds the objects that lights are projected through to the scene's own objects.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -9,8 +9,8 @@
 namespace celltrace {
 
 /// Adds the projectors of a scene's lights to its objects, in the order of the lights, and their material
-/// behind its materials. They have no meshes: triangles are polygons. It asks nothing of the context. Throws
-/// InputError if a mesh is a part of a projector's CSG, or of what clips it.
+/// behind its materials. Their triangles become polygons, so that they have no meshes. Does not use the
+/// context. Throws InputError if a mesh is part of a projector's CSG or clips a projector.
 std::optional<Scene> add_projectors(const Scene& scene, const PassContext& context);
 
 } // namespace celltrace

@@ -16,7 +16,8 @@ namespace celltrace {
 
 namespace {
 
-/// The most objects, and vertices of a mesh, that are looked at: more take time and move the median little.
+/// Limit on objects, and on vertices of a mesh, that are examined: more take time and hardly
+/// move the median.
 constexpr std::size_t kMostLooks = 256;
 
 double largest(const Vec3& v) {
@@ -27,7 +28,7 @@ std::size_t stride(std::size_t count) {
   return count / kMostLooks + 1;
 }
 
-/// A box, or nothing as long as it has no point.
+/// A box that has no points at first.
 struct Bounds {
   Extent box;
   bool is_empty = true;
@@ -64,7 +65,7 @@ void add_extent(const Plane&, const Transform&, int, Bounds&) {
 }
 template <class Shape> void add_extent(const Shape& shape, const Transform& transform, int, Bounds& bounds) {
   const Extent extent = geometry::extent_of(shape, transform);
-  constexpr double kFarthest = 1e12; // beyond that numbers are said for infinity
+  constexpr double kFarthest = 1e12; // greater numbers stand for infinity
   if (std::max(largest(extent.min), largest(extent.max)) < kFarthest && !extent.is_everywhere())
     bounds.add(extent);
 }
@@ -75,14 +76,14 @@ void add_extent(const Object& object, const Transform& around, int depth, Bounds
   std::visit([&](const auto& shape) { add_extent(shape, transform, depth, bounds); }, object.shape);
 }
 
-/// The lower one of the two in the middle of an even number.
+/// Returns the median; the lower one of the two in the middle of an even number.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// Moves what a scene consists of; maps that several materials share stay shared.
+/// Moves the parts of a scene; maps that several materials share stay shared.
 class Mover {
 public:
   explicit Mover(const Vec3& origin) : move_(Transform::translate(-origin)) {}
@@ -122,7 +123,7 @@ public:
   }
 
 private:
-  /// Patterns inside of a map are in the space of the map's pattern.
+  /// Patterns inside of a map are in the space of the map's pattern, so that they are not moved.
   template <class T> PatternMap<T> moved(PatternMap<T> map) {
     move(map.pattern);
     return map;
@@ -146,7 +147,7 @@ private:
   }
 
   const Transform move_;
-  std::unordered_map<const void*, std::shared_ptr<const void>> moved_; ///< by what was given
+  std::unordered_map<const void*, std::shared_ptr<const void>> moved_; ///< by address of the original
 };
 
 } // namespace
@@ -154,11 +155,11 @@ private:
 namespace {
 
 struct Middle {
-  Vec3 place{0, 0, 0}; ///< of most objects
-  double size = 0;     ///< as far from there most of them reach; 0: there are none
+  Vec3 place{0, 0, 0}; ///< middle of most objects
+  double size = 0;     ///< distance from there that most objects reach; 0: there are no objects
 };
 
-/// Adds where objects without bounds have been moved to.
+/// Adds the places to which objects without bounds have been moved.
 void add_moved(const Scene& scene, std::vector<Vec3>& places, std::vector<double>& sizes) {
   for (const Object& object : scene.objects) {
     const Transform& transform = object.transform;
@@ -196,8 +197,8 @@ Middle middle_of(const Scene& scene) {
   return middle;
 }
 
-/// The distance, in sizes of the scene, from which on it has an origin of its own: there single precision
-/// still tells apart what is 65,536 times smaller than the scene.
+/// The distance, in sizes of the scene, from which on the scene gets an origin of its own: at that distance
+/// single precision still resolves a 65,536th of the scene's size.
 constexpr double kFar = 256;
 
 } // namespace
@@ -205,7 +206,7 @@ constexpr double kFar = 256;
 Vec3 origin_for(const Scene& scene) {
   const Middle middle = middle_of(scene);
   if (!(middle.size > 0) || largest(middle.place) <= kFar * middle.size) return Vec3(0);
-  // Numbers with few digits, so that coordinates from there lose none of theirs.
+  // An origin with few digits, so that coordinates relative to it lose none of theirs.
   const double step = std::exp2(std::floor(std::log2(middle.size)));
   return glm::round(middle.place / step) * step;
 }

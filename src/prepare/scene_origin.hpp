@@ -1,5 +1,5 @@
-// The origin of a scene's records. They are single precision: seven digits, which map coordinates take alone
-// for where everything is.
+// The floating origin of a scene's records. Records are single precision: seven digits, which scenes in map
+// coordinates use up for the position alone.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,20 +8,21 @@
 
 namespace celltrace {
 
-/// Returns the middle of a scene's objects if they are so far from the origin, for their size, that single
-/// precision does not do; else 0. It depends on objects alone, no mistake of a scene's is found, and not all
-/// of many objects are looked at.
+/// Returns the middle of a scene's objects if they are so far from the origin, compared with their size, that
+/// single precision is not enough; else 0. The result depends on objects alone; the scene is not validated,
+/// and only a sample of many objects is examined.
 Vec3 origin_for(const Scene& scene);
 
-/// Returns the largest coordinate of an object that has bounds, if all of them are small beside how far away
-/// `location` is; else 0.
+/// Returns the largest coordinate of an object with bounds, if all of them are small compared with the
+/// distance of `location`; else 0.
 double largest_coordinate_from_afar(const Scene& scene, const Vec3& location);
 
-/// Returns a camera in coordinates from `origin`.
+/// Returns a camera in coordinates relative to `origin`.
 Camera moved_to(const Vec3& origin, Camera camera);
 
-/// Returns a scene in coordinates from `origin`, in which all that has a place is moved, textures too;
-/// nothing if the origin is 0. Throws InputError as validate() does if it has to be moved.
+/// Returns a scene in coordinates relative to `origin`, with everything that has a place moved, including
+/// textures; nothing if the origin is 0. If it has to move the scene, it throws InputError as validate()
+/// does.
 std::optional<Scene> moved_to(const Vec3& origin, const Scene& scene);
 
 } // namespace celltrace

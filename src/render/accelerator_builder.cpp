@@ -17,22 +17,22 @@ using namespace kernel;
 
 namespace {
 
-/// What of building a BVH is over before the first treelet: the nodes above.
+/// The share of building a BVH that comes before the first treelet: the nodes above the treelets.
 constexpr double kBeforeTreelets = 0.15;
-/// Larger work memory goes back to the system between frames.
+/// The largest work memory that is kept between frames, in bytes; larger blocks are freed.
 constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
 
-/// Where so many times more lines are out of date than a cache has, hardly any of it is worth keeping, and
-/// SPEs need not go through the list.
+/// The number of changed lines, as a multiple of those in a cache, from which on hardly any cached line is
+/// worth keeping: SPEs then skip the list and discard all lines.
 constexpr std::uint64_t kLinesWorthMarking = 16;
 
-/// Looks into the work memory of a BVH while it is built.
+/// Watches the work memory of a BVH while the BVH is built.
 class BvhWatch {
 public:
   BvhWatch(const AlignedBlock& work, const Progress& go_on)
       : team_(*reinterpret_cast<bvh::TeamRecord*>(work.data())), go_on_(go_on) {}
 
-  /// Asks whether to go on; if not, the SPEs take and copy no more treelets.
+  /// Asks whether to go on; if not, makes the SPEs take and copy no more treelets.
   void look(bool treelets) {
     if (stopped() || go_on_.ask(treelets ? fraction() : 0)) return;
     if (!treelets) return;
@@ -89,7 +89,7 @@ std::optional<std::uint64_t> AcceleratorBuilder::update(const SceneChanges& chan
   return lines.size();
 }
 
-/// For what the PPE's side does.
+/// Returns the number of threads for work on the host.
 unsigned AcceleratorBuilder::host_threads() const {
   return machine_.direct_memory() ? machine_.spe_count() : 1;
 }
@@ -140,7 +140,7 @@ bool AcceleratorBuilder::build_bvh(const Progress& go_on) {
   frame_.far_nodes = machine_.direct_memory() && objects > tuning::kMostObjectsOfNearNodes;
   enter_work_memory(work.pairs());
   frame_.image = to_ea(image_.base());
-  // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
+  // The builder follows pointers through main memory, so that it runs on the host if SPEs cannot do that.
   if (!machine_.direct_memory()) return build_bvh_for_spes(go_on);
   const bool built = build_bvh_on(team_, frame_, machine_.spe_count(), go_on);
   frame_.bvh.node_count = reports_[0].list_entries;
@@ -167,9 +167,9 @@ bool AcceleratorBuilder::build_bvh_for_spes(const Progress& go_on) {
 bool AcceleratorBuilder::build_bvh_on(SpeTeam& team, FrameBlock& frame, unsigned spes,
                                       const Progress& go_on) {
   BvhWatch watch(work_[0], go_on);
-  // What a few objects take is not worth while to share.
+  // A few objects are not worth sharing among SPEs.
   const unsigned builders = frame_.group_count == 0 ? 1 : std::min(spes, bvh::kMaxBuilders);
-  // Between steps others are waited for, and it may be stopped.
+  // A build in steps lets SPEs wait for each other, and can be stopped.
   const bool at_once = builders == 1 && !go_on;
   frame.prepare_spes = at_once ? 0 : builders;
   frame.prepare_step = 0;

@@ -1,4 +1,4 @@
-// Pictures in blocks of BC1: those that left the SPEs so, and others, which the PPE's side encodes by the
+// Pictures in blocks of BC1: blocks that the SPEs have encoded, and others, which the host encodes by the
 // same function.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace celltrace {
 
-/// Rows [top, bottom) of what the SPEs have put to the surface of `frame`; the rest is black. `top` is a
-/// multiple of 4.
+/// Returns rows [top, bottom) of the blocks that the SPEs have written to the surface of `frame`; the rest is
+/// black. `top` is a multiple of 4.
 BlockImage copy_blocks(const AlignedBlock& surface, const kernel::FrameBlock& frame, int top, int bottom);
 
 } // namespace celltrace

@@ -16,26 +16,27 @@ namespace {
 using Simd = HostSimd<BaselineArch>;
 using LaneAabb = bvh::LaneAabb<Simd>;
 
-/// With fewer, starting threads takes longer than they save.
+/// Least number of objects per thread; with fewer, starting threads takes longer than they save.
 constexpr std::uint32_t kObjectsAThread = 65536;
-/// Objects whose records are on their way while one is read.
+/// The number of objects that are prefetched while one is read.
 constexpr std::size_t kAhead = 16;
 constexpr std::uint32_t kChildren = bvh::kChildren;
 
 bool is_leaf(const NodeRecord& node, std::uint32_t slot) {
   return node.leaf[slot] != 0;
 }
-/// Neither a leaf nor a node: the offset of a node is never 0.
+/// Returns whether a slot holds neither a leaf nor a node; the offset of a node is never 0.
 bool is_empty(const NodeRecord& node, std::uint32_t slot) {
   return node.leaf[slot] == 0 && node.child[slot] == 0;
 }
 
 void store(const LaneAabb& bounds, bvh::Reference& to) {
-  bounds.min.store(to.min); // over the words beside, which are not used
+  bounds.min.store(to.min); // also writes the neighbouring words, which are not used
   bounds.max.store(to.max);
 }
 
-/// The sum over its children of their areas, each times what a ray that hits it is tested against.
+/// Returns the sum over a node's children of their area times the number of tests for a ray that hits the
+/// child.
 double cost_of(const NodeRecord& node, const float* tests) {
   using F4 = Simd::F4;
   const auto extent = [&](int axis) {
@@ -82,7 +83,7 @@ void BvhRefit::find_nodes(const std::byte* base, const BvhRecord& bvh) {
   members_.clear();
   tests_.clear();
   first_cost_ = 0;
-  place_of[0] = 0; // has none
+  place_of[0] = 0; // the root has none
   for (std::uint32_t number = 0; number < bvh.node_count; ++number) {
     BuildWatch::look_at(number);
     if (place_of[number] == kGap) continue;
@@ -125,7 +126,7 @@ std::span<const BvhRefit::Member> BvhRefit::members_of(unsigned part, unsigned p
   return {members_.data() + begin, whole_leaf(mine.end) - begin};
 }
 
-/// Without a loop for each leaf, whose end nobody could predict.
+/// A single loop over all members: the branch at the end of a loop for each leaf would be mispredicted.
 void BvhRefit::bound_leaves(const std::byte* base, std::span<const Member> members) {
   bvh::Reference* const all = bounds_.data();
   for (std::size_t i = 0; i < members.size(); ++i) {

@@ -11,7 +11,8 @@ namespace celltrace {
 std::optional<Ray> camera_ray(const Camera& camera, int width, int height, double x, double y) {
   using Simd = HostSimd<BaselineArch>;
   if (width < 1 || height < 1) throw InputError("a ray goes through a picture of at least one pixel");
-  // Counted from the corners of pixels, not from their middles.
+  // The grid is shifted by half a pixel: coordinates count from the corners of pixels, not from their
+  // middles.
   const kernel::CameraRecord record = camera_record(camera, {double(width), double(height), 0.5, 0.5});
   native::QuerySpu<Simd> spu;
   kernel::RayPacket packet;

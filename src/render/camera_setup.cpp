@@ -28,8 +28,8 @@ double middle_y(const PictureOnGrid& picture) {
   return picture.top + 0.5 * picture.height - 0.5;
 }
 
-/// How many rows below the middle a perspective picture has its horizon, that of floors if up is nearly the y
-/// axis; 0 if it has none.
+/// Returns how many rows below the middle the horizon of a perspective picture is, which is the horizon of
+/// floors if up is nearly the y axis; 0 if the picture shows none.
 double horizon_row(const Vec3& middle, const Vec3& row, double height) {
   int up = 0;
   for (int axis = 1; axis < 3; ++axis)
@@ -42,8 +42,8 @@ void set_flat(CameraRecord& record, const Camera& camera, const PictureOnGrid& p
   record.sheaf = static_cast<std::uint32_t>(parallel ? RaySheaf::parallel : RaySheaf::pinhole);
   const Vec3 row = -camera.up / picture.height;
   Vec3 base = parallel ? camera.location : camera.direction;
-  // Counted from the horizon: what single precision leaves of the difference of two directions decides how
-  // far away its rays meet a floor, and on which of its squares.
+  // Rows are counted from the horizon: the precision of the difference of two directions decides how far away
+  // rays hit a floor, and on which of its squares.
   const double first_row = parallel ? 0 : horizon_row(base, row, picture.height);
   base += row * first_row;
   copy(parallel ? camera.direction : camera.location, record.origin);
@@ -54,7 +54,7 @@ void set_flat(CameraRecord& record, const Camera& camera, const PictureOnGrid& p
   record.middle_y = static_cast<float>(middle_y(picture) + first_row);
 }
 
-/// A vector of no length stays that.
+/// Returns a unit vector; a zero vector stays zero.
 Vec3 unit(const Vec3& v) {
   const double length = glm::length(v);
   return length > 0 ? v / length : v;
@@ -81,7 +81,7 @@ void set_curved(CameraRecord& record, const Camera& camera, const PictureOnGrid&
   record.bend = static_cast<float>(picture.bend);
 }
 
-/// Rays start that far ahead of the camera.
+/// Returns a record whose rays start that far ahead of the camera.
 CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double start) {
   const double length = glm::length(camera.direction);
   CameraRecord record{};
@@ -104,7 +104,7 @@ CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double star
       record.step_x = record.step_y = 1;
     } else {
       if (std::is_same_v<Kind, SphericalCamera>) {
-        // As it turns, which is not always toward its axes.
+        // Uses the axes about which the camera turns its rays, which are not always its own.
         const Vec3 forward = unit(camera.direction), right = unit(camera.right), up = unit(camera.up);
         camera.right = glm::cross(up, forward) * glm::length(camera.right);
         camera.up = glm::cross(forward, right) * glm::length(camera.up);
@@ -117,10 +117,9 @@ CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double star
   return record;
 }
 
-/// Returns the camera for a picture of that width and height.
 Camera framed(Camera camera, double width, double height) {
   const double own = glm::length(camera.right) / glm::length(camera.up);
-  // By which the picture is wider than the camera's view.
+  // The ratio of the picture's width to that of the camera's view.
   const double wider = width / height / own;
   if (camera.framing == Camera::Framing::fixed || !(wider > 0) || !std::isfinite(wider)) return camera;
   if (camera.framing == Camera::Framing::whole && wider > 1)
@@ -134,8 +133,8 @@ Camera framed(Camera camera, double width, double height) {
 
 PictureOnGrid picture_on_grid(const RenderOptions& options) {
   const PictureRegion region = region_of(options);
-  // One more point than pixels each way: the pixels' corners, or their middles from those before the first
-  // one on.
+  // The grid has one more point than pixels each way: the corners of pixels, or their middles including a row
+  // and column before the first pixel.
   const auto& antialiasing = options.antialiasing;
   const bool fixed = antialiasing && antialiasing->method == Antialiasing::Method::fixed;
   const double first = !antialiasing ? 0.0 : fixed ? 1.0 : 0.5;
@@ -146,7 +145,7 @@ PictureOnGrid picture_on_grid(const RenderOptions& options) {
 CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture, const SceneImage* image,
                            PassedLimits* limits) {
   Camera camera = framed(any_picture, picture.width, picture.height);
-  // Samples are up to a pixel beyond the picture.
+  // Samples lie up to a pixel beyond the picture.
   const double margin = 4 / std::min(picture.width, picture.height);
   const double start = image != nullptr ? start_of_rays(camera, margin, *image, limits) : 0;
   if (start > 0) return far_record(camera, picture, start);

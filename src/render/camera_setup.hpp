@@ -1,4 +1,4 @@
-// From a Camera and a picture to the record that rays are made by.
+// Makes the record from which rays are generated, of a Camera and a picture.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -11,19 +11,20 @@
 
 namespace celltrace {
 
-/// Where a picture lies on the grid of points that its rays go through, which need not be all of it.
+/// The place of a picture on the grid of points that its rays go through, which may be a part of the grid.
 struct PictureOnGrid {
-  double width, height;         ///< of the whole picture
-  double left = 0.0, top = 0.0; ///< the middle of its upper left pixel: a column and a row of the grid
+  double width, height; ///< of the whole picture
+  double left = 0.0,
+         top = 0.0; ///< column and row of the grid for the middle of the picture's upper left pixel
 };
 PictureOnGrid picture_on_grid(const RenderOptions& options);
-/// Returns the camera of rays through a picture, to which it adapts as Camera::framing says. Where there is
-/// an image, rays of a camera that is far away from what it shows start just before that; `limits` get what
-/// it passes, unless they are null.
+/// Returns the record of a camera for a picture, to which the camera adapts as Camera::framing says. If there
+/// is an image, rays of a camera that is far away from the scene start just before it. Adds limits that the
+/// scene passes to `limits` unless that is null.
 kernel::CameraRecord camera_record(const Camera& any_picture, const PictureOnGrid& picture,
                                    const SceneImage* image = nullptr, PassedLimits* limits = nullptr);
-/// Fills the camera, and the interiors of the media of the scene that it is inside of. Returns the limits
-/// that it passes.
+/// Sets the camera in the frame block, and the interiors of the media that it is inside of. Returns the
+/// limits that the scene passes.
 PassedLimits set_camera(kernel::FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
                         const std::vector<Medium>& media, const SceneImage& image);
 

@@ -18,13 +18,13 @@ using namespace kernel;
 
 namespace {
 
-/// Half of a picture, in lengths of the camera's right and up: at the camera, and what it grows by with each
-/// length of its direction ahead.
+/// Half the size of a picture, in lengths of the camera's right and up: at the camera, and its growth with
+/// each length of the direction ahead.
 struct Reach {
   double across = 0, across_growth = 0, up = 0, up_growth = 0;
 };
 
-/// Nothing where the picture may go once around.
+/// Returns nothing if the picture may go all around.
 std::optional<Reach> reach_of(const Camera& camera) {
   constexpr double kRadiansPerDegree = std::numbers::pi / 180, kWidest = 0.5;
   const double right = glm::length(camera.right), up = glm::length(camera.up);
@@ -33,7 +33,7 @@ std::optional<Reach> reach_of(const Camera& camera) {
   if (camera.kind == Kind::perspective) return Reach{0, 0.5, 0, 0.5};
   if (camera.kind == Kind::orthographic) return Reach{0.5, 0, 0.5, 0};
   if (!(angle < kWidest)) return std::nullopt;
-  // All but these two have axes of unit length.
+  // All kinds but these two have axes of unit length.
   switch (camera.kind) {
   case Kind::spherical: {
     const double height = camera.vertical_angle * kRadiansPerDegree / 2;
@@ -60,7 +60,7 @@ std::optional<Reach> reach_of(const Camera& camera) {
   }
 }
 
-/// All that a picture shows: a pyramid or a prism.
+/// The volume that a picture shows: a pyramid or a prism.
 class View {
 public:
   View(const Camera& camera, const Reach& reach, double margin)
@@ -71,7 +71,7 @@ public:
         *axis = glm::normalize(*axis);
     right_ *= 1 + margin;
     up_ *= 1 + margin;
-    // Across all rays that are as far.
+    // The normal of planes on which all rays are equally far ahead.
     across_ = glm::cross(right_, up_);
     across_ /= glm::dot(across_, forward_);
   }
@@ -80,7 +80,7 @@ public:
     return std::isfinite(glm::dot(across_, across_)) && std::isfinite(glm::dot(location_, location_));
   }
   double distance_of(const Vec3& point) const { return glm::dot(point - location_, across_); }
-  /// Half of the shorter side, as far ahead, in lengths of the camera's direction.
+  /// Returns half of the view's shorter side at a distance, in lengths of the camera's direction.
   double half_size(double ahead) const {
     const double across = (reach_.across + reach_.across_growth * ahead) * glm::length(right_);
     const double up = (reach_.up + reach_.up_growth * ahead) * glm::length(up_);
@@ -113,14 +113,14 @@ struct Range {
   }
 };
 
-/// A surface in a space of its own, or the box around several.
+/// A surface in its own space, or the box around several.
 struct Obstacle {
   enum class Kind { box, plane, quadric } kind;
   double map[3][4];
-  Vec3 square{0, 0, 0}; ///< of quadrics
+  Vec3 square{0, 0, 0}; ///< quadrics only
   double linear = 0, constant = 0;
 
-  /// Whether nothing of it is in the part of the view between two distances.
+  /// Returns whether the obstacle is outside of the part of the view between two distances.
   bool is_outside(const View& view, double from, double to) const {
     std::array<Range, 3> own;
     for (const double ahead : {from, to})
@@ -167,7 +167,7 @@ const ExtraRecord& extra_of(const ObjectRecord& object, const SceneImage& image)
   return *reinterpret_cast<const ExtraRecord*>(image.base() + object.extra);
 }
 
-/// The surface of what the camera may be inside of, or else its box.
+/// Returns the surface of an object that the camera may be inside of, or else its box.
 Obstacle obstacle_of(const ObjectRecord& object, const SceneImage& image) {
   const std::uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
   Obstacle obstacle{Obstacle::Kind::plane, {}};
@@ -199,7 +199,8 @@ bool is_instance(const ObjectRecord& object) {
   return (object.kind_and_flags & object_flag::kind_mask) == kInstanceKind;
 }
 
-/// Returns a distance from `from` on up to which no obstacle is in the view; `to` if none is before that.
+/// Returns the distance, from `from` on, up to which no obstacle is in the view; `to` if there is none
+/// before.
 double first_meeting(const Obstacle& obstacle, const View& view, double from, double to, int depth = 0) {
   constexpr int kDeepest = 48;
   if (obstacle.is_outside(view, from, to)) return to;
@@ -209,7 +210,7 @@ double first_meeting(const Obstacle& obstacle, const View& view, double from, do
   return nearer < middle ? nearer : first_meeting(obstacle, view, middle, to, depth + 1);
 }
 
-/// Distances of the corners of a box.
+/// Returns the range of distances of the corners of a box.
 Range distances_of(const Aabb& box, const View& view) {
   Range distances;
   for (int corner = 0; corner < 8; ++corner) {
@@ -231,7 +232,7 @@ double start_of_rays(const Camera& camera, double margin, const SceneImage& imag
   const View view(camera, *reach, margin);
   if (!view.is_valid()) return 0;
   const ImageHeader& header = image.header();
-  // CSG shows more or less of a mesh without an inside, depending on where rays start.
+  // The crossings of a mesh without an inside that CSG shows depend on where rays start.
   if (header.crossed_mesh_count != 0) return 0;
   const auto is_far = [&](double start) { return start > kFar * view.half_size(start); };
   const double farthest = double{kMaxHitDistance} / glm::length(camera.direction);
@@ -249,7 +250,7 @@ double start_of_rays(const Camera& camera, double margin, const SceneImage& imag
     if (is_far(all.low)) {
       start = std::min(start, all.low);
     } else {
-      // The camera is inside of something, or of the box around all.
+      // The camera is inside of an object, or of the box around all objects.
       are_too_many = header.object_count > kMostObjects || header.instance_count != 0;
       for (std::uint32_t i = 0; i < std::min(header.object_count, kMostObjects) && is_far(start); ++i)
         if (!is_instance(objects[i])) start = first_meeting(obstacle_of(objects[i], image), view, 0, start);
@@ -258,7 +259,7 @@ double start_of_rays(const Camera& camera, double margin, const SceneImage& imag
   for (std::uint32_t i = 1; i <= header.unbounded_count; ++i)
     start = first_meeting(obstacle_of(*(objects - i), image), view, 0, start);
   if (start == farthest) return 0;
-  start -= view.half_size(start); // not on a surface
+  start -= view.half_size(start); // keeps rays from starting on a surface
   if (!(start > 0 && is_far(start))) return 0;
   if (!are_too_many) return start;
   if (limits != nullptr) limits->insert(PictureLimit::far_camera_objects);

@@ -1,4 +1,4 @@
-// What is seen first: from the records that the SPEs have put behind the points of a grid.
+// Reads the first hits from the records that the SPEs have written behind the points of a grid.
 #pragma once
 
 #include "celltrace/image.hpp"
@@ -11,13 +11,14 @@
 
 namespace celltrace {
 
-/// The pixels that are asked for, and which point of the grid that is in memory the first of them is.
+/// The pixels of a result, and the place of the first of them on the grid in memory.
 struct GridAtPicture {
   PictureRegion region;
   std::uint32_t first_column, first_row;
 };
 
-/// Where pixels of `picture` have no alpha because they have not been rendered, nothing is seen.
+/// Returns the first hits. Pixels of `picture` without alpha have not been rendered, so that they have no
+/// hit.
 FirstHits read_first_hits(const AlignedBlock& grid_points, const kernel::FrameBlock& frame,
                           const Image& picture, const GridAtPicture& grid, std::endian order,
                           const SceneImage& image);

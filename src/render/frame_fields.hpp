@@ -1,4 +1,4 @@
-// What the frame block and the records beside it consist of, field by field, for SPEs of another byte order:
+// The fields of the frame block and the records beside it, for SPEs of another byte order:
 // celltrace/spe/byte_order.hpp.
 #pragma once
 

@@ -9,7 +9,7 @@ using namespace kernel;
 
 FramePlan::BundleRows FramePlan::grid_rows_of(const RowRange& rows) const {
   const std::uint32_t height = bundle_edge(machine_.direct_memory()) * kPacketEdge;
-  // Points below and to the right of a pixel are in its block.
+  // The block of a pixel includes the points below and to the right of it.
   const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
   return {static_cast<std::uint32_t>(rows.top) / height, (lines + height - 1) / height};
 }
@@ -20,13 +20,14 @@ std::uint32_t FramePlan::line_of(std::uint32_t bundle_row) const {
 
 void FramePlan::plan(const RowRange& rows) {
   BundleRows grid = grid_rows_of(rows);
-  // Points between these rows and those before are there.
+  // If these rows follow earlier ones, the points between them are in memory.
   const bool goes_on = traced_.begin <= grid.begin && grid.begin < traced_.end && traced_.end < grid.end;
   if (goes_on) grid.begin = traced_.end;
   picture_.begin_at(rows, goes_on ? line_of(grid.begin) : 0);
   if (planned_ == rows && planned_grid_ == grid) return;
   const unsigned spes = machine_.spe_count();
-  // The frame block has the columns of the plan that was carried out last, which may be of samples.
+  // Columns are computed: the frame block has those of the last plan that was used, which may be a plan of
+  // samples.
   const std::uint32_t edge = bundle_edge(machine_.direct_memory());
   grid_plan_ = std::make_unique<WorkPlan>(options_.balance, (frame_.packet_columns + edge - 1) / edge,
                                           grid.count(), spes, machine_.byte_order(), grid.begin);

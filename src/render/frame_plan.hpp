@@ -1,4 +1,4 @@
-// The plans by which the SPEs work off the rows of a frame.
+// The plans by which the SPEs process the rows of a frame.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -12,41 +12,41 @@
 
 namespace celltrace {
 
-/// Plans that have learned stay as long as the rows do.
+/// The plans of a picture, which are kept, with the costs that they have measured, as long as the rows are
+/// the same.
 class FramePlan {
 public:
-  /// All of them stay as long as this lives; what is planned is as `options` are at the time of each call.
+  /// Refers to all arguments, which must outlive this object; each call uses `options` as they are then.
   FramePlan(const RenderOptions& options, const Machine& machine, const kernel::FrameBlock& frame,
             PictureMemory& picture)
       : options_(options), machine_(machine), frame_(frame), picture_(picture) {}
 
-  /// Makes plans for these rows, and the picture's memory begin with them. Points of the grid that rows
-  /// before have left there are not traced again.
+  /// Makes plans for these rows, with which the picture's memory will begin. Points of the grid that earlier
+  /// rows have left in memory are not traced again.
   void plan(const RowRange& rows);
-  /// Has all plans made anew: pictures are of another size or kind.
+  /// Makes the next call build all plans anew, since pictures have another size or kind.
   void forget() { planned_ = {0, 0}; }
 
-  /// The grid's points of all these rows are there, until forget_points().
+  /// Records that all points of the grid in these rows are in memory, until forget_points().
   void keep_points(const RowRange& rows) { traced_ = grid_rows_of(rows); }
   void forget_points() { traced_ = {0, 0}; }
-  /// Lines of the grid that the plan leaves out: pixels, which came with the rows before.
+  /// Returns how many lines of the grid the plan leaves out, as they came with earlier rows; in pixels.
   std::uint32_t kept_lines() const;
 
   WorkPlan& grid() { return *grid_plan_; }
-  /// The plan of blocks of pixels that are sampled, if the options ask for antialiasing.
+  /// Returns the plan of the blocks of pixels that are sampled, if the options ask for antialiasing.
   WorkPlan& samples() { return *sample_plan_; }
 
 private:
-  /// Bundles of the grid, by row: [begin, end).
+  /// Rows of bundles of the grid: [begin, end).
   struct BundleRows {
     std::uint32_t begin = 0, end = 0;
     bool operator==(const BundleRows&) const = default;
     std::uint32_t count() const { return end - begin; }
   };
 
-  /// All that the picture's rows need.
+  /// Returns the rows of bundles that the picture's rows need.
   BundleRows grid_rows_of(const RowRange& rows) const;
-  /// Returns the first line of a row of bundles.
   std::uint32_t line_of(std::uint32_t bundle_row) const;
 
   const RenderOptions& options_;
@@ -55,7 +55,7 @@ private:
   PictureMemory& picture_;
   RowRange planned_ = {0, 0};
   BundleRows planned_grid_;
-  BundleRows traced_; ///< of the grid, whose points are there
+  BundleRows traced_; ///< rows of the grid whose points are in memory
   std::unique_ptr<WorkPlan> grid_plan_, sample_plan_;
 };
 

@@ -19,11 +19,11 @@ using namespace kernel;
 
 namespace {
 
-/// Bits of light_way that pictures ask for; scenes have the others.
+/// The bits of light_way that depend on pictures; the others depend on scenes.
 constexpr std::uint32_t kWaysOfPictures = light_way::alpha | light_way::first_hits;
 
-/// Voxels per unit of length so that a box holds `wanted` cubes. An axis that is too short for more than one
-/// layer does not count: the others share what it leaves.
+/// Returns the voxels per unit of length for which a box holds `wanted` cubes. An axis too short for more
+/// than one layer is ignored: the others share all cubes.
 double voxels_per_unit(std::array<double, 3> extent, double wanted) {
   std::sort(extent.begin(), extent.end(), std::greater<>());
   double per_unit = 0;
@@ -43,15 +43,15 @@ AcceleratorKind accelerator_of(const RenderOptions& options) {
   return options.accelerator == Accelerator::grid ? AcceleratorKind::grid : AcceleratorKind::bvh;
 }
 
-/// How far samples are moved, in pixels.
+/// Returns how far samples are moved, in pixels.
 double jitter_of(const Antialiasing& antialiasing) {
   const bool fixed = antialiasing.method == Antialiasing::Method::fixed;
   return antialiasing.jitter / (fixed ? antialiasing.depth : (1 << antialiasing.depth) + 1);
 }
 
-/// By which colours become linear.
+/// Returns the exponent that makes colours linear.
 double exponent_of(const Scene& scene) {
-  constexpr double kOfSrgb = 2.4; // but for the darkest colours
+  constexpr double kOfSrgb = 2.4; // correct for all but the darkest colours
   switch (scene.gamma_mode) {
   case GammaMode::none:
     break;
@@ -63,7 +63,7 @@ double exponent_of(const Scene& scene) {
   return 1;
 }
 
-/// POV-Ray makes colours linear before it compares them.
+/// Sets how colours are compared: POV-Ray makes them linear first.
 void set_comparison(FrameBlock& frame, const RenderOptions& options) {
   if (options.antialiasing)
     frame.sampling.inverse_gamma = frame.assumed_gamma / static_cast<float>(options.antialiasing->gamma);
@@ -129,7 +129,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.fog_offset = header.fog_offset;
   frame.fog_count = header.fog_count;
   frame.light_ways = header.light_ways | (frame.light_ways & kWaysOfPictures);
-  // Their stages cannot walk: light is dimmed by what lies within POV-Ray's tolerance, too.
+  // Stages of other models cannot walk through surfaces within POV-Ray's tolerance: these dim the light, too.
   if (options.model != Model::shared) frame.light_ways &= ~(light_way::near_surfaces | light_way::restarts);
   constexpr double kVersionOfTransparency = 3.7;
   const bool has_backdrop = scene.version >= kVersionOfTransparency;
@@ -164,7 +164,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
 }
 
 GridRecord choose_grid(const ImageHeader& header) {
-  // About eight voxels an object; more cost memory and steps, fewer cost intersection tests.
+  // About eight voxels per object: more cost memory and steps, fewer cost intersection tests.
   constexpr double kVoxelsPerObject = 8;
   constexpr double kMaxCellsPerAxis = 512;
   constexpr double kMaxCells = 1 << 24;
@@ -175,7 +175,7 @@ GridRecord choose_grid(const ImageHeader& header) {
     longest = std::max(longest, extent[i]);
   }
   for (double& e : extent)
-    e = std::max(e, longest * 1e-4); // flat scenes
+    e = std::max(e, longest * 1e-4); // for flat scenes
   const double wanted = std::clamp(kVoxelsPerObject * header.object_count, 1.0, kMaxCells);
   const double per_unit = voxels_per_unit(extent, wanted);
   GridRecord grid{};

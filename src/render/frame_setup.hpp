@@ -1,4 +1,4 @@
-// From a Scene and options to the frame block that the SPEs read.
+// Fills the frame block that the SPEs read from a Scene and options.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -10,12 +10,12 @@
 
 namespace celltrace {
 
-/// Fills what depends on the picture's size, the options and the machine.
+/// Sets the fields that depend on the picture's size, the options and the machine.
 void set_options(kernel::FrameBlock& frame, const RenderOptions& options, const Machine& machine);
-/// Fills what depends on the scene but not on its camera.
+/// Sets the fields that depend on the scene but not on its camera.
 void set_scene(kernel::FrameBlock& frame, const Scene& scene, const RenderOptions& options,
                const SceneImage& image);
-/// Chooses the grid's resolution for a number of objects in a box; offsets and counts stay 0.
+/// Returns a grid with a resolution for a number of objects in a box; its offsets and counts stay 0.
 kernel::GridRecord choose_grid(const kernel::ImageHeader& header);
 
 } // namespace celltrace

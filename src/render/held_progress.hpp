@@ -1,4 +1,4 @@
-// Asking a caller's Progress while SPEs are at work, which an exception of his must not leave behind.
+// Calls a caller's Progress while SPEs are at work, and keeps its exception from leaving them at work.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -8,17 +8,16 @@
 
 namespace celltrace {
 
-/// How long to wait for SPEs that may have nothing to say, so that whoever wants work broken off is heard
-/// soon; and where nobody asks.
+/// The time to wait for SPEs that may have no message: short if somebody may ask to stop, long if nobody can.
 constexpr std::chrono::milliseconds kBetweenQuestions(5), kBetweenLooksAtSpes(50);
 
-/// Holds what the function throws until the SPEs are at rest.
+/// Calls the caller's function, and holds its exception until the SPEs are idle.
 class HeldProgress {
 public:
-  /// `progress` may be empty, and has to outlive this.
+  /// Refers to `progress`, which may be empty and must outlive this object.
   explicit HeldProgress(const Progress& progress) : progress_(progress) {}
 
-  /// Whether to go on. Once it is not, the function is not called again.
+  /// Returns whether to go on. Once the result is false, the function is not called again.
   bool ask(double fraction) {
     if (stopped_ || !progress_) return !stopped_;
     try {
@@ -29,7 +28,7 @@ public:
     }
     return !stopped_;
   }
-  /// Calls another function of the caller's; as if it were asked, if that throws.
+  /// Calls another function of the caller's; an exception stops the work as one of ask() does.
   template <class Function> void tell(Function function) {
     if (stopped_) return;
     try {

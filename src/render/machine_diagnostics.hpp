@@ -1,4 +1,4 @@
-// Tells the caller what a machine finds wrong with its programs, as it is found.
+// Reports to the caller the rules that programs break on a machine, as they are found.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -13,15 +13,14 @@ namespace celltrace {
 
 class MachineDiagnostics {
 public:
-  /// `options` are asked at each call whom to tell.
+  /// Refers to the options, which name the caller's function and are read at each call.
   MachineDiagnostics(const Machine& machine, const RenderOptions& options)
       : machine_(machine), options_(options) {}
 
-  /// Returns what the machine has found since the last call; the caller's function hears of it.
+  /// Returns the machine's diagnostics since the last call, after passing them to the caller's function.
   std::vector<Diagnostic> take();
 
-  /// Calls work(). Where it throws, what was found until then is told; memory that was missing becomes
-  /// OutOfMemory.
+  /// Calls work(). If it throws, reports the diagnostics up to then; a failed allocation becomes OutOfMemory.
   template <class Work> std::invoke_result_t<Work> reporting_failures(Work work) {
     try {
       return work();

@@ -17,16 +17,16 @@ using namespace kernel;
 
 namespace {
 
-/// A block that a DMA list can address: all of it in one region of 4 GB.
+/// Returns a block that a DMA list can address, which has to lie in one region of 4 GB.
 AlignedBlock make_list_target(std::size_t bytes) {
   AlignedBlock block = AlignedBlock::uninitialised(bytes, Pages::normal);
   const auto region = [](const std::byte* at) { return reinterpret_cast<std::uintptr_t>(at) >> 31 >> 1; };
-  // The block that straddles a border is kept while another one is made, which therefore lies elsewhere.
+  // A block that straddles a border is kept until another one is made, which therefore lies elsewhere.
   if (region(block.data()) != region(block.data() + bytes - 1)) return make_list_target(bytes);
   return block;
 }
 
-/// Counts the rows of packets that render_rows() may need at a time: all of whole bundles.
+/// Returns the number of rows of packets that render_rows() may need at a time: those of whole bundles.
 std::uint32_t rows_in_memory(const RenderOptions& options, const FrameBlock& frame,
                              std::uint32_t bundle_edge) {
   if (options.rows_at_once == 0) return frame.packet_rows;
@@ -56,7 +56,7 @@ void PictureMemory::make_room(unsigned spes, std::uint32_t bundle_edge) {
 
 void PictureMemory::make_room_for_samples(unsigned spes, std::uint32_t bundle_edge) {
   const std::size_t bytes = std::size_t{spes} * sample_store_bytes(bundle_edge, options_.alpha);
-  if (sample_store_.size() >= bytes) return; // it does not depend on the picture's size
+  if (sample_store_.size() >= bytes) return; // its size does not depend on the picture's
   sample_store_ = AlignedBlock::uninitialised(bytes, Pages::normal);
   frame_.sample_store = to_ea(sample_store_.data());
 }
@@ -164,7 +164,7 @@ void PictureMemory::keep_colours(const RowRange& rows) {
       }
 }
 
-/// The host encodes pixels that have alpha.
+/// Copies to the result; the host encodes blocks of pixels that have alpha.
 void PictureMemory::copy(const RowRange& rows, const SceneImage& image, RenderResult& result) {
   if (options_.blocks) {
     result.blocks = copy_blocks(surface_, frame_, rows.top, rows.bottom);
@@ -203,7 +203,7 @@ GridAtPicture PictureMemory::grid_at_picture(const RowRange& rows) const {
   return grid;
 }
 
-/// Where the picture has not been rendered, so have the colours not.
+/// Copies colours, except where the picture has not been rendered.
 ColourImage PictureMemory::copy_colours(const Image& picture, const RowRange& rows) {
   auto colours = make_picture<ColourImage>(rows);
   if (options_.alpha)

@@ -1,4 +1,4 @@
-// The picture as the SPEs put it to main memory, and what becomes of it on the PPE's side.
+// The picture in main memory, as the SPEs write it, and its conversion to results on the host.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -22,49 +22,52 @@ struct RowRange {
   bool operator==(const RowRange&) const = default;
 };
 
-/// Pixels, colours, the points of a grid and the SPEs' room for samples: whichever a picture needs.
+/// The memory for pixels, colours, the points of a grid and the SPEs' samples, as far as a picture needs
+/// them.
 class PictureMemory {
 public:
-  /// Of pictures as `options` are at the time of each call. `frame` is the PPE's.
+  /// Refers to the options, which are read at each call, and to the host's frame block.
   PictureMemory(const RenderOptions& options, kernel::FrameBlock& frame, std::endian order)
       : options_(options), frame_(frame), order_(order) {}
 
-  /// What the options need; the frame block is told where it lies. What was there is lost.
+  /// Allocates the memory that the options need, and sets its place in the frame block. Its contents are
+  /// lost.
   void make_room(unsigned spes, std::uint32_t bundle_edge);
-  /// Makes the memory begin with these rows, if it has room for a part of the picture only. Points of the
-  /// grid from there to line `kept` (excluded) stay, if there are any.
+  /// Makes the memory begin with these rows, if it has room for a part of the picture only. Keeps points of
+  /// the grid from these rows to line `kept` (excluded), if there are any.
   void begin_at(const RowRange& rows, std::uint32_t kept);
-  /// All of them.
+  /// Returns all rows of the picture.
   RowRange rows() const;
-  /// Makes points from this line of the grid on transparent black, and all colours. Lines before those that
-  /// the memory has count as its first one.
+  /// Clears points from this line of the grid on to transparent black, and all colours. A line before the
+  /// memory's first one counts as the first one.
   void clear_from(std::uint32_t line);
-  /// How this frame's blocks lie in the picture.
+  /// Returns the place of this frame's blocks in the picture.
   BlockGrid blocks(std::uint32_t bundle_edge) const;
-  /// Calls RenderOptions::finished_block for each.
+  /// Calls RenderOptions::finished_block for each region.
   void tell_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const;
-  /// The colours of the grid's points become those of pixels, if they are wanted; in the SPEs' byte order.
+  /// Turns the colours of the grid's points into those of pixels, if the options ask for colours; in the
+  /// SPEs' byte order.
   void keep_colours(const RowRange& rows);
-  /// Fills in what the options ask for.
+  /// Copies to the result what the options ask for.
   void copy(const RowRange& rows, const SceneImage& image, RenderResult& result);
 
 private:
   void make_room_for_samples(unsigned spes, std::uint32_t bundle_edge);
   bool has_whole_picture() const;
-  /// Returns the grid's line that is the first one in memory.
+  /// Returns the first line of the grid that is in memory.
   std::uint32_t first_line() const;
   std::byte* line_of_surface(std::uint32_t line) const;
   std::byte* line_of_colours(std::uint32_t line) const;
   std::byte* row_of_points(std::uint32_t packet_row) const;
-  /// Returns where rows of the region go to: in pictures of the whole, or of these rows alone.
+  /// Returns the place of rows of the region in the result, which is a picture of the whole region or of
+  /// these rows alone.
   PictureRegion place_in_result(const RowRange& rows) const;
-  /// Makes a picture for the result, opaque black.
+  /// Returns a picture for the result, opaque black.
   template <class Picture> Picture make_picture(const RowRange& rows) const;
-  /// Whether the grid begins to the upper left of the picture, as that of the fixed method does.
+  /// Returns whether the grid begins to the upper left of the picture, as the grid of the fixed method does.
   bool begins_before_picture() const;
-  /// Returns where a row of the region begins.
   const std::uint8_t* first_pixel(int row) const;
-  /// Where the rows are in the picture and in the grid.
+  /// Returns the place of the rows in the picture and on the grid.
   GridAtPicture grid_at_picture(const RowRange& rows) const;
   ColourImage copy_colours(const Image& picture, const RowRange& rows);
   Image copy_picture(const RowRange& rows) const;

@@ -15,8 +15,8 @@ using namespace kernel;
 
 namespace {
 
-/// Of the 112 KB that a program of this size leaves of a local store, 39 KB are the ray stack's and the
-/// packets'.
+/// The largest cache: a program of this size leaves 112 KB of a local store, of which the ray stack and the
+/// packets take 39 KB.
 constexpr std::uint32_t kMaxCacheBytes = 70 * 1024;
 
 void check(const Antialiasing& antialiasing, Model model) {
@@ -36,7 +36,7 @@ std::uint64_t bytes_per_pixel(const RenderOptions& options) {
          (options.colours || options.alpha || options.first_hits ? 32 : 0) + (options.first_hits ? 20 : 0);
 }
 
-/// Checks how many pixels are in memory at a time.
+/// Checks the number of pixels that are in memory at a time.
 void check_memory(const RenderOptions& options) {
   const PictureRegion region = region_of(options);
   const int height = region.bottom - region.top;

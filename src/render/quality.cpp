@@ -6,13 +6,13 @@ namespace celltrace {
 
 namespace {
 
-/// Of quality 0 and 1: what has no light but its own colour.
+/// The highest quality at which surfaces have only the colour of their pigment; 0 is the same.
 constexpr int kColoursOnly = 1;
 constexpr int kNoShadows = 3;
 constexpr int kNoAreas = 4;
-constexpr int kAllSurfaces = 8; ///< and lights
+constexpr int kAllSurfaces = 8; ///< and all lights
 
-/// Makes textures of lower quality. Maps that textures share stay shared.
+/// Reduces the quality of textures. Maps that textures share stay shared.
 class Reducer {
 public:
   explicit Reducer(int quality) : colours_only_(quality <= kColoursOnly) {}
@@ -22,7 +22,7 @@ public:
     result.normal = nullptr;
     result.finish.reflection_min = result.finish.reflection_max = Vec3(0, 0, 0);
     if (colours_only_) {
-      // The innermost layer, as if nothing were over it.
+      // Uses the innermost layer alone.
       const Material* layer = &material;
       while (layer->below)
         layer = layer->below.get();

@@ -1,14 +1,15 @@
-// Pictures that leave something out to be done sooner.
+// Reduces the quality of pictures to render them faster.
 #pragma once
 
 #include "celltrace/scene.hpp"
 
 namespace celltrace {
 
-/// POV-Ray's levels of quality: RenderOptions::quality says what each leaves out. From here on, all is there.
+/// The lowest of POV-Ray's quality levels that leaves nothing out; RenderOptions::quality describes the
+/// others.
 inline constexpr int kFullQuality = 9;
 
-/// The scene as it is at this quality, but for rays that go on from surfaces: below kRaysGoOn none does.
+/// Returns the scene at this quality, except for secondary rays: below kRaysGoOn there are none.
 Scene at_quality(const Scene& scene, int quality);
 inline constexpr int kRaysGoOn = 6;
 

@@ -13,7 +13,7 @@ namespace celltrace {
 RayQueryScene::RayQueryScene(const kernel::FrameBlock& frame, const SceneImage& image, const Vec3& origin,
                              std::string_view spu_key)
     : frame_(frame), image_(image), origin_(origin), bvh_(image, frame.bvh.node_offset) {
-  // Where the host reads it, whoever else has a copy.
+  // Queries read the image in the host's memory, even if SPEs have a copy.
   frame_.image = reinterpret_cast<std::uintptr_t>(image.base());
   const SpeProgram::Entry entry = ray_queries_program().entry(std::string(spu_key));
   if (!entry) throw InputError("this build has no ray queries for " + std::string(spu_key));
@@ -25,7 +25,7 @@ void RayQueryScene::check() const {
     throw InputError("the scene of these ray queries has changed: the renderer has newer ones");
 }
 
-/// The memory that one thread needs.
+/// The working memory of one thread.
 class RayQueries::Impl {
 public:
   explicit Impl(std::shared_ptr<const RayQueryScene> scene)
@@ -56,7 +56,7 @@ public:
                      [this](const Ray& ray) { return moved(ray); });
       rays = from_origin;
     }
-    // So many whole bundles that 32 bits count them.
+    // Batches are whole bundles whose number fits into 32 bits.
     constexpr std::size_t kMost = std::size_t{1} << 20;
     for (std::size_t first = 0; first < rays.size(); first += kMost)
       functions_.closest_hits(state_, rays.data() + first, hits.data() + first,

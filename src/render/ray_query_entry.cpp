@@ -8,7 +8,7 @@
 
 namespace celltrace {
 
-// Not run by an SPE, and there is none: it is where applications get their functions from.
+// An entry point that no SPE runs: applications get their query functions from it.
 void CELLTRACE_SPE_ENTRY_NAME(ray_queries, CELLTRACE_SPU_NAME)(void* spu, ea_t argument);
 void CELLTRACE_SPE_ENTRY_NAME(ray_queries, CELLTRACE_SPU_NAME)(void*, ea_t argument) {
   using Simd = CELLTRACE_SPU_TYPE::simd;

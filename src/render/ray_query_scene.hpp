@@ -1,4 +1,4 @@
-// What ray queries ask: the image and the BVH of a renderer's scene, as long as it has them.
+// The scene of ray queries: the image and the BVH of a renderer's scene, until the renderer retires them.
 #pragma once
 
 #include "celltrace/ray_queries.hpp"
@@ -14,17 +14,17 @@ namespace celltrace {
 
 class RayQueryScene {
 public:
-  /// `frame` names a BVH for its image, which is `image`; both outlive queries that are asked before
-  /// retire(). `origin`: of the image, in the coordinates of rays. `spu_key`: for which SPU type's CPU the
-  /// code that answers is compiled. Throws InputError if there is none.
+  /// Refers to `image` and to the BVH in `frame`; both must outlive all queries before retire(). `origin` is
+  /// the image's origin in the coordinates of rays. `spu_key` is the SPU type whose CPU the query code is
+  /// compiled for. Throws InputError if `frame` has no BVH.
   RayQueryScene(const kernel::FrameBlock& frame, const SceneImage& image, const Vec3& origin,
                 std::string_view spu_key);
 
   static RayQueries queries(std::shared_ptr<const RayQueryScene> scene);
 
-  /// From now on, queries throw InputError.
+  /// Makes all further queries throw InputError.
   void retire() noexcept { is_current_.store(false, std::memory_order_relaxed); }
-  /// Throws InputError if it has been retired.
+  /// Throws InputError if the scene has been retired.
   void check() const;
 
   const kernel::FrameBlock& frame() const { return frame_; }
@@ -32,7 +32,7 @@ public:
   const std::uint32_t* owners() const { return image_.owners().data(); }
   const kernel::RayQueryFunctions& functions() const { return functions_; }
   const Vec3& origin() const { return origin_; }
-  /// The object of the scene that a record in the image is of.
+  /// Returns the object of the scene to which a record in the image belongs.
   std::uint32_t object_at(std::uint32_t record) const { return image_.owner_of(record); }
 
 private:

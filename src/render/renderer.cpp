@@ -39,7 +39,8 @@ MachineConfig machine_config(const RenderOptions& options) {
   config.spes = machine_spes(options);
   config.simd = options.simd;
   config.emulation = options.emulation;
-  // Commands and doorbells that come before the last ones are read must not replace them.
+  // Commands and doorbells are combined by OR, so that they do not replace earlier ones that have not been
+  // read.
   config.signal_mode[0] = SignalMode::logical_or;
   config.signal_mode[1] = SignalMode::logical_or;
   return config;
@@ -54,13 +55,13 @@ public:
   explicit Impl(const RenderOptions& options) : Impl(options, make_machine(machine_config(options))) {}
   ~Impl() {
     scene_.retire_queries();
-    // Some rules are for the end of a program.
+    // Some rules are only checked at the end of a program.
     team_.reset();
     diagnostics_.take();
   }
 
-  /// Returns what hears of a call's progress, which ends it after RenderOptions::most_seconds. The caller's
-  /// has to live as long.
+  /// Returns a function that reports a call's progress, and ends the call after RenderOptions::most_seconds.
+  /// The caller's function must outlive it.
   Progress within_time(const Progress& progress) const {
     if (options_.most_seconds == 0) return progress;
     return [&progress, watch = Stopwatch(), most = options_.most_seconds](double fraction) {
@@ -72,7 +73,7 @@ public:
     if (!prepare(scene, progress)) return no_frame();
     return diagnostics_.reporting_failures([&] { return render_frame(picture_.rows(), progress); });
   }
-  /// `progress` may end it, too.
+  /// Prepares a scene; `progress` may end this.
   bool prepare(const Scene& scene, const Progress& progress) {
     plan_.forget_points();
     return scene_.prepare(scene, progress);
@@ -107,14 +108,14 @@ public:
     make_room_for_picture();
     scene_.follow_picture();
     plan_.forget_points();
-    // What it takes of their local stores may be more or less.
+    // Another picture may take more or less of the SPEs' local stores.
     if (!stages_) team_->synchronize({});
   }
   RayQueries ray_queries() {
     if (!options_.ray_queries) throw InputError("ray queries need RenderOptions::ray_queries");
     return scene_.ray_queries();
   }
-  /// The only frame of this renderer.
+  /// Renders the only frame of this renderer.
   RenderResult render_once(const Scene& scene, const Progress& progress) {
     is_last_frame_ = true;
     scene_.expect_last_frame();
@@ -136,7 +137,7 @@ private:
     scene_.set_teams(*team_, stages_.get());
   }
 
-  /// What depends on the size and the kind of pictures.
+  /// Allocates memory that depends on the size and the kind of pictures.
   void make_room_for_picture() {
     set_options(frame_, options_, *machine_);
     picture_.make_room(machine_->spe_count(), bundle_edge(machine_->direct_memory()));
@@ -147,7 +148,7 @@ private:
     plan_.plan(rows);
   }
 
-  /// Cancelled before the first pixel.
+  /// Returns the result of a frame that is cancelled before the first pixel.
   RenderResult no_frame() {
     picture_.clear_from(0);
     reports_.clear();
@@ -168,7 +169,7 @@ private:
     return render_frame(picture_.rows(), progress);
   }
 
-  /// Throws InputError if memory has no room for all rows.
+  /// Throws InputError if memory cannot hold all rows.
   void check_room_for_all() const {
     if (options_.rows_at_once != 0 && picture_.rows().bottom > options_.rows_at_once)
       throw InputError("the picture has more rows than RenderOptions::rows_at_once: render_rows() is for it");
@@ -178,7 +179,7 @@ private:
     RenderStatistics statistics = scene_.take_statistics();
     plan_.plan(rows);
     plan_.forget_points();
-    // A frame that nobody can break off leaves no pixel out.
+    // Clears the picture only for a frame that can be ended: any other leaves no pixel out.
     if (progress) picture_.clear_from(plan_.kept_lines());
     const Stopwatch render;
     const SpeMeter meter(*machine_);
@@ -212,14 +213,15 @@ private:
     scene_.describe(statistics);
     statistics.diagnostics = diagnostics_.take();
     result.statistics = statistics;
-    // The picture then lies in memory that the scene has had. First hits ask where its tables are.
+    // Frees the image first, so that the picture can reuse its memory; first hits still need the image's
+    // tables.
     if (is_last_frame_ && !options_.first_hits) scene_.release_image();
     picture_.copy(rows, scene_.image(), result);
     if (options_.work_map) result.work = std::move(work_);
     return result;
   }
 
-  /// A frame of the SPEs. False: `progress` broke it off. Adds to `reports`, by SPE.
+  /// Renders a pass on the SPEs. Returns false if `progress` ended it. Adds to `reports`, by SPE.
   bool render_pass(WorkPlan& plan, const Progress& progress, std::span<ReportRecord> reports) {
     reports_.clear();
     ++frame_.epoch;
@@ -227,7 +229,7 @@ private:
     frame_.units_per_word = units_per_word(plan.units(), static_cast<bool>(progress));
     StripTally tally(machine_->spe_count(), plan.units());
     const BlockGrid blocks = picture_.blocks(bundle_edge(machine_->direct_memory()));
-    std::vector<std::pair<std::uint32_t, unsigned>> done; // units, and by which SPE
+    std::vector<std::pair<std::uint32_t, unsigned>> done; // units, and the SPE that completed each
     const auto unit_done = [&](std::uint32_t unit, unsigned spe) {
       done.emplace_back(unit, spe);
       if (options_.finished_block) picture_.tell_blocks(regions_of(plan.unit(unit), blocks), spe);
@@ -244,7 +246,7 @@ private:
     return complete;
   }
 
-  /// FrameBlock::units_per_word. Of emulated machines it does not depend on the host's time.
+  /// Returns FrameBlock::units_per_word. On emulated machines the result does not depend on the host's time.
   std::uint32_t units_per_word(std::uint32_t units, bool is_asked) {
     if (options_.finished_block || options_.work_map) return kEachUnit;
     if (!machine_->direct_memory()) return units / 64 + 1;
@@ -271,10 +273,10 @@ private:
     return work;
   }
   RenderOptions options_;
-  // Everything from here to the machine is read and written by the SPEs.
+  // The SPEs read and write all members from here up to the machine.
   SharedRecords<ReportRecord> reports_;
   SharedRecords<FrameBlock> frame_block_;
-  FrameBlock& frame_; ///< the PPE's
+  FrameBlock& frame_; ///< the host's view of the frame block
   PictureMemory picture_;
   FramePlan plan_;
   MachineDiagnostics diagnostics_;
@@ -282,9 +284,9 @@ private:
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
   std::unique_ptr<StageTeam> stages_;
-  ReportPace pace_, sample_pace_; ///< of passes by the plans
-  double grid_share_ = 0.5;       ///< of the time of the last picture with antialiasing
-  std::vector<WorkRecord> work_;  ///< of the last pass
+  ReportPace pace_, sample_pace_; ///< for the passes of the two plans
+  double grid_share_ = 0.5;       ///< as a share of the time of the last picture with antialiasing
+  std::vector<WorkRecord> work_;  ///< records of the last pass
   bool is_last_frame_ = false;
 };
 

@@ -1,4 +1,4 @@
-// How often SPEs tell of their progress.
+// Decides how often SPEs report their progress.
 #pragma once
 
 #include <algorithm>
@@ -6,13 +6,13 @@
 
 namespace celltrace {
 
-/// Each word wakes the PPE's thread, which takes some 20 us of an SPE's time: 64 of them are a tenth of a
-/// frame of 10 ms. Passes that took long before tell more often.
+/// Chooses the number of progress messages. Each message wakes the PPE's thread, which takes some 20 us of an
+/// SPE's time: 64 of them are a tenth of a frame of 10 ms. Passes that have taken long get more messages.
 class ReportPace {
 public:
-  /// Units of work between two words.
+  /// Returns the number of units of work between two messages.
   std::uint32_t units_per_word(std::uint32_t units) const { return units / words(units) + 1; }
-  /// What the last pass took.
+  /// Records how long the last pass took.
   void learn(std::uint32_t units, double seconds) { seconds_a_unit_ = units == 0 ? 0 : seconds / units; }
 
 private:
@@ -24,7 +24,7 @@ private:
 
   static constexpr double kSecondsBetweenWords = 0.02;
   static constexpr std::uint32_t kLeastWords = 8, kFirstWords = 16, kMostWords = 64;
-  double seconds_a_unit_ = -1; ///< below 0: not known
+  double seconds_a_unit_ = -1; ///< below 0 if unknown
 };
 
 } // namespace celltrace

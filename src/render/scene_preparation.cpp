@@ -19,7 +19,7 @@ using namespace kernel;
 
 namespace {
 
-/// Of building, what the scene image takes.
+/// The share of build progress that is spent on the scene image.
 constexpr double kImageShare = 0.2;
 
 RenderStatistics nothing_prepared() {
@@ -90,8 +90,8 @@ void ScenePreparation::retire_queries() noexcept {
   query_scene_.reset();
 }
 
-/// Calls work(scene, go_on), with the scene that the picture's quality leaves of `scene`, at its origin,
-/// and with what hears of building. False, and there is no scene then, if that has ended it.
+/// Calls work(scene, go_on), where `scene` is reduced to the picture's quality and moved to its origin, and
+/// `go_on` reports progress. Returns false if that has ended the work: there is no scene then.
 template <class Work>
 bool ScenePreparation::while_wanted(const Progress& progress, const Scene& scene, Work work) {
   return while_building(progress, [&](const Progress& go_on) {
@@ -113,7 +113,7 @@ template <class Work> bool ScenePreparation::while_building(const Progress& prog
   Progress go_on;
   if (options_.build_progress || progress)
     go_on = [&, reached = 0.0](double fraction) mutable {
-      reached = std::max(reached, fraction); // whoever says so
+      reached = std::max(reached, fraction); // whichever thread reports it
       return (!options_.build_progress || options_.build_progress(reached)) && (!progress || progress(0));
     };
   const Progress of_image = part_of(go_on, 0, kImageShare);
@@ -137,7 +137,7 @@ void ScenePreparation::forget_scene() {
   kept_.reset();
 }
 
-/// Image and accelerator. False: `go_on` cancelled.
+/// Builds the image and the accelerator. Returns false if `go_on` cancelled it.
 bool ScenePreparation::prepare_scene(const Scene& scene, const Progress& go_on) {
   prepared_ = RenderStatistics();
   const Stopwatch build;
@@ -152,7 +152,7 @@ bool ScenePreparation::prepare_scene(const Scene& scene, const Progress& go_on) 
   enter_scene(scene);
   team_->assemble();
   if (!builder_->build(go_on)) return false;
-  if (stages_) team_->dismiss(); // the SPEs get other programs
+  if (stages_) team_->dismiss(); // so that the SPEs can run other programs
   has_scene_ = true;
   prepared_.prepare_seconds = prepare.seconds();
   enter_preparation(meter.read());
@@ -160,7 +160,7 @@ bool ScenePreparation::prepare_scene(const Scene& scene, const Progress& go_on) 
   return true;
 }
 
-/// As prepare_scene(), at the cost of what has changed.
+/// Prepares the scene as prepare_scene() does, at the cost of the changes.
 bool ScenePreparation::prepare_changes(const Scene& scene, const SceneChanges& changes,
                                        const Progress& go_on) {
   if (!has_scene_ || stages_) return prepare_scene(scene, go_on);
@@ -199,7 +199,7 @@ void ScenePreparation::enter_preparation(const std::vector<SpeStatistics>& spes)
     prepared_.prepare += spe.cycles;
 }
 
-/// Takes another camera for the scene that is there. False, and nothing has changed, if there is none or
+/// Sets another camera for the current scene. Returns false, and changes nothing, if there is no scene, or
 /// its image is not for that camera.
 bool ScenePreparation::enter_moved_camera(const Camera& given) {
   validate(given);
@@ -210,9 +210,9 @@ bool ScenePreparation::enter_moved_camera(const Camera& given) {
   return true;
 }
 
-/// Makes the image of the kept scene for another camera. The scene is kept even if that is cancelled.
+/// Builds the image of the kept scene for another camera. The scene is kept even if that is cancelled.
 bool ScenePreparation::prepare_for_eye(const Camera& camera, const Progress& progress) {
-  is_edited_ = true; // Further cameras are likely to follow.
+  is_edited_ = true; // further cameras are likely to follow
   const std::shared_ptr<Scene> scene = kept_;
   scene->camera = camera;
   const bool is_prepared = while_building(progress, [&](const Progress& go_on) {
@@ -222,7 +222,7 @@ bool ScenePreparation::prepare_for_eye(const Camera& camera, const Progress& pro
   return is_prepared;
 }
 
-/// Keeps the scene of the image if cameras may come that the image is not for.
+/// Keeps the scene of the image if later cameras may need another image.
 void ScenePreparation::keep_for_other_eyes(const Scene& scene) {
   if (&scene == kept_.get()) return;
   kept_.reset();
@@ -234,18 +234,18 @@ void ScenePreparation::enter_camera(const Camera& camera) {
   camera_limits_ = set_camera(frame_, camera, picture_on_grid(options_), media_, image_);
 }
 
-/// What the frame block says of a scene whose image is there.
+/// Describes a scene whose image is complete in the frame block.
 void ScenePreparation::enter_scene(const Scene& scene) {
   set_scene(frame_, scene, options_, image_);
-  // Each level of a tree adds what its surfaces push, but for the node that comes up next; straight
-  // transmission may add some that cost no level. Averages of many mirrors push so much that there is a
-  // limit: what passes it is dropped, and counted.
+  // Each level of a ray tree adds the nodes that its surfaces push, except the node that is processed next;
+  // straight transmission may add some without a level. Averages of many mirrors push so many that the stack
+  // has a limit: further nodes are dropped, and counted.
   constexpr std::uint32_t kMostBytesOfSpe = 8 << 20, kLevelsOfStraight = 32;
   const std::uint64_t levels = std::uint64_t{frame_.max_trace_level} + kLevelsOfStraight;
   const std::uint64_t wanted = levels * std::max(image_.header().surface_nodes, 2u) - levels;
   const auto most = std::max<std::uint64_t>(levels, kMostBytesOfSpe / kRayNodeBytes);
-  // Where lights have areas or shadow rays go step by step, none of them stays in local store; where memory
-  // is direct, none ever does.
+  // No node stays in local store if lights have areas or shadow rays go step by step; with direct memory,
+  // none ever does.
   const bool has_resident = !machine_.direct_memory() && !has_areas(frame_) && !walks_shadows(frame_);
   const std::uint32_t nodes =
       static_cast<std::uint32_t>(std::min(wanted, most)) + (has_resident ? 0 : kResidentNodes);

@@ -1,4 +1,4 @@
-// A renderer's scene: made ready for a frame, from the beginning or at the cost of what has changed.
+// Prepares a renderer's scene for a frame, from scratch or at the cost of the changes.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -19,14 +19,15 @@
 
 namespace celltrace {
 
-/// Returns what hears a part of the work's fraction as a share of all; `progress` has to live as long.
+/// Returns a function that reports a fraction of one part of the work as a fraction of the whole; `progress`
+/// must outlive it.
 Progress part_of(const Progress& progress, double begin, double end);
 
-/// The image of a scene, its accelerator and what the frame block says of both, for the camera of the next
-/// frame. SPEs read them: it has to outlive the machine's programs.
+/// The image of a scene, its accelerator and the description of both in the frame block, for the camera of
+/// the next frame. SPEs read them, so that this object must outlive the machine's programs.
 class ScenePreparation {
 public:
-  /// All of them stay as long as this lives. `options` are as they are at each call.
+  /// Refers to all arguments, which must outlive this object. Each call uses `options` as they are then.
   ScenePreparation(const RenderOptions& options, Machine& machine, kernel::FrameBlock& frame,
                    SharedRecords<kernel::ReportRecord>& reports, MachineDiagnostics& diagnostics)
       : options_(options), machine_(machine), frame_(frame), reports_(reports), diagnostics_(diagnostics) {}
@@ -34,37 +35,37 @@ public:
   ScenePreparation(const ScenePreparation&) = delete;
   ScenePreparation& operator=(const ScenePreparation&) = delete;
 
-  /// Says which SPEs build accelerators, before anything else. `stages`: which have other programs; null:
-  /// none do.
+  /// Sets the SPEs that build accelerators; called first. `stages` are SPEs that run other programs; null if
+  /// there are none.
   void set_teams(SpeTeam& team, StageTeam* stages);
-  /// No other frame follows the next one.
+  /// Says that the next frame is the last one.
   void expect_last_frame() { is_last_frame_ = true; }
 
-  /// Prepares a scene. False if `progress`, or RenderOptions::build_progress, has ended it: there is no scene
-  /// then.
+  /// Prepares a scene. Returns false if `progress`, or RenderOptions::build_progress, has ended it: there is
+  /// no scene then.
   bool prepare(const Scene& scene, const Progress& progress);
-  /// Does so for a scene of which only `changes` are not as before.
+  /// Prepares a scene that differs from the last one in `changes` only.
   bool prepare(const Scene& scene, const SceneChanges& changes, const Progress& progress);
-  /// Prepares the scene that was there for another camera. A scene that is kept is there even after this was
-  /// ended.
+  /// Prepares the current scene for another camera. A kept scene stays available even if `progress` ends
+  /// this.
   bool prepare(const Camera& camera, const Progress& progress);
-  /// The options ask for another picture: the camera adapts to it.
+  /// Adapts the camera to another picture in the options.
   void follow_picture() {
     if (has_scene_) enter_camera(camera_);
   }
 
   bool has_scene() const { return has_scene_; }
-  /// Returns whether there is one, or can be without being given again.
+  /// Returns whether there is a scene, or one that can be prepared without being given again.
   bool knows_scene() const { return has_scene_ || kept_ != nullptr; }
   const SceneImage& image() const { return image_; }
-  /// Gives the image's memory back; there is no scene then, nor was one kept.
+  /// Frees the image's memory; there is no scene then, not even a kept one.
   void release_image();
   RayQueries ray_queries();
-  /// The scene will not be what they were made for.
+  /// Retires the ray queries, since their scene is about to be replaced.
   void retire_queries() noexcept;
-  /// Returns what has been done since the last call, for the statistics of a frame.
+  /// Returns the work since the last call, for the statistics of a frame.
   RenderStatistics take_statistics();
-  /// Adds to a frame's statistics what they say of the scene.
+  /// Adds the image and the accelerator to a frame's statistics.
   void describe(RenderStatistics& statistics) const;
 
 private:
@@ -89,17 +90,17 @@ private:
   StageTeam* stages_ = nullptr;
   SceneImage image_;
   std::vector<Medium> media_;
-  std::shared_ptr<RayQueryScene> query_scene_; ///< null: none of this scene was asked for
-  bool has_scene_ = false;                     ///< and an accelerator for it
-  Vec3 origin_ = Vec3(0); ///< of the image, in the scene's coordinates; the following are measured from it
+  std::shared_ptr<RayQueryScene> query_scene_; ///< null: no queries of this scene were requested
+  bool has_scene_ = false;                     ///< with an accelerator
+  Vec3 origin_ = Vec3(0); ///< of the image, in the scene's coordinates; the members below are relative to it
   Camera camera_;         ///< of the next frame
   PassedLimits camera_limits_;
-  std::shared_ptr<Scene> kept_; ///< that the image is of, where it depends on the eye
-  RenderStatistics prepared_;   ///< what that took, for the statistics of the next frame
-  AlignedBlock ray_stack_;      ///< the SPEs' own
+  std::shared_ptr<Scene> kept_; ///< scene of the image, kept if the image depends on the eye
+  RenderStatistics prepared_;   ///< cost of preparation, for the statistics of the next frame
+  AlignedBlock ray_stack_;      ///< memory for the ray stacks of all SPEs
   std::unique_ptr<AcceleratorBuilder> builder_;
   bool is_last_frame_ = false;
-  bool is_edited_ = false; ///< scenes come with what has changed
+  bool is_edited_ = false; ///< later scenes come with a list of changes
 };
 
 } // namespace celltrace

@@ -38,7 +38,7 @@ void copy_row(const std::uint8_t* from, std::uint8_t* to, int pixels, PixelForma
     return;
   case PixelFormat::rgba16:
   case PixelFormat::rgba32f:
-    return; // made of numbers, at the end
+    return; // made from numbers at the end
   }
 }
 
@@ -46,7 +46,7 @@ bool is_made_of_numbers(PixelFormat format) {
   return format == PixelFormat::rgba16 || format == PixelFormat::rgba32f;
 }
 
-/// Where a pixel goes.
+/// Returns the address of a pixel.
 std::uint8_t* place_in(const Framebuffer& framebuffer, int x, int y) {
   return static_cast<std::uint8_t*>(framebuffer.pixels) + framebuffer.pitch * static_cast<std::size_t>(y) +
          bytes_of(framebuffer.format) * static_cast<std::size_t>(x);
@@ -91,13 +91,13 @@ public:
       return !cancelled_.load(std::memory_order_relaxed) && (!progress || progress(fraction));
     };
     RenderResult result = renderer_.render(scene_, changes_, unless_cancelled);
-    // A scene whose accelerator was not finished is nowhere; the renderer knows that.
+    // A scene whose accelerator was not finished does not exist; the renderer knows that.
     changes_ = {false, false};
     if (wants_numbers()) finish_numbers(result);
     return result;
   }
 
-  /// Those that the renderer gets: its functions come here first.
+  /// Returns the options for the renderer, whose functions come here first.
   RenderOptions own_options(const RenderOptions& options) {
     RenderOptions own = options;
     own.build_progress = [this](double fraction) {
@@ -129,7 +129,7 @@ public:
   }
 
   bool wants_numbers() const { return framebuffer_ && is_made_of_numbers(framebuffer_->format); }
-  /// Of a frame that was broken off nothing: the framebuffer stays as it is.
+  /// Copies a complete frame; after a frame that was ended the framebuffer stays as it is.
   void finish_numbers(RenderResult& result) {
     if (result.complete) {
       const PictureRegion region = given_.region.value_or(PictureRegion{0, given_.width, 0, given_.height});
@@ -160,7 +160,7 @@ public:
   std::optional<Framebuffer> framebuffer_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<std::uint64_t> generation_ = 0;
-  Renderer renderer_; ///< calls the others
+  Renderer renderer_; ///< last member: calls the others
 };
 
 Session::Session(Scene scene, const RenderOptions& options)

@@ -23,13 +23,13 @@ namespace {
 constexpr std::uint32_t kBlock = 4;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What a leaf of the image's BVH has: a triangle, or a list of other objects.
+/// The contents of a leaf of the image's BVH: a triangle, or a list of other objects.
 struct Reference {
   Aabb box;
   std::uint32_t index; ///< offset of the triangle, or index of the list's first entry
   bool is_triangle;
 
-  /// Twice the middle.
+  /// Returns twice the middle along an axis.
   float middle(int axis) const { return box.min[axis] + box.max[axis]; }
 };
 using References = std::span<Reference>;
@@ -70,12 +70,13 @@ private:
   };
   struct Split {
     float cost = kInfinity;
-    std::size_t left = 0; ///< references
+    std::size_t left = 0; ///< number of references to the left
     int axis = 0;
-    float middle = 0; ///< those below it go to the left; twice the place
+    float middle = 0; ///< references with a lower middle go to the left; twice the place
   };
 
-  /// With more levels, halves are of equal number, so that the stack of a traversal has a limit.
+  /// The number of levels below which nodes are split into equal halves, so that the stack of a traversal is
+  /// bounded.
   static constexpr int kFreeLevels = 32;
   static constexpr std::size_t kBins = 32;
 
@@ -108,7 +109,7 @@ private:
         bvh_.others_.push_back(offset);
         continue;
       }
-      // Of a triangle in several leaves each has a part.
+      // Each reference has only the part of a triangle that is in its leaf.
       Aabb part = TrianglePrimitive::bounds(record<ObjectRecord>(offset), {});
       for (int axis = 0; axis < 3; ++axis) {
         part.min[axis] = std::max(part.min[axis], box.min[axis]);
@@ -132,10 +133,11 @@ private:
            (references.size() <= kBlock && std::all_of(references.begin(), references.end(),
                                                        [](const Reference& r) { return r.is_triangle; }));
   }
-  /// What testing so many takes, in blocks.
+  /// Returns the cost of testing this many triangles, in blocks.
   static float blocks(std::size_t count) { return static_cast<float>((count + kBlock - 1) / kBlock); }
 
-  /// By the surface area heuristic, of places between bins of equal width along each axis.
+  /// Finds the best split by the surface area heuristic, among places between bins of equal width along each
+  /// axis.
   static Split best_split(References references) {
     Aabb middles = empty_box();
     for (const Reference& reference : references)
@@ -156,7 +158,7 @@ private:
         grow(bounds[bin], reference.box);
         ++counts[bin];
       }
-      std::array<float, kBins> right{}; // the cost of bins from here on
+      std::array<float, kBins> right{}; // cost of the bins from this one on
       Aabb box = empty_box();
       std::size_t count = 0;
       for (std::size_t bin = kBins; bin-- > 1;) {
@@ -177,7 +179,7 @@ private:
     return best;
   }
 
-  /// Two parts, neither of them empty.
+  /// Divides references into two parts, neither of them empty.
   static std::pair<Part, Part> divide(References references, int level) {
     std::size_t left = references.size() / 2;
     if (const Split split = best_split(references); split.cost < kInfinity && level < kFreeLevels) {
@@ -192,7 +194,7 @@ private:
     return {{first, box_of(first)}, {second, box_of(second)}};
   }
 
-  /// Of the parts of a node the largest is divided, as long as there is room.
+  /// Divides the largest part of a node as long as there is room for another one.
   void fill_node(std::uint32_t index, References references, int level) {
     std::array<Part, QueryNode::kWidth> parts;
     parts[0] = {references, box_of(references)};
@@ -224,7 +226,7 @@ private:
         fill_node(query_ref::index(children[i]), parts[i].references, level + 1);
   }
 
-  /// A node is made, but not filled.
+  /// Returns a reference to a leaf or to a new node, which is filled later.
   std::uint32_t make_ref(References references) {
     if (!is_leaf(references)) {
       bvh_.nodes_.emplace_back();
@@ -258,7 +260,7 @@ private:
 SingleRayBvh::SingleRayBvh(const SceneImage& image, std::uint32_t root) {
   nodes_.reserve(image.header().object_count / 8 + 1);
   blocks_.reserve(image.header().object_count / 2 + 1);
-  // Rays go through them in no order.
+  // Rays access the tables at random.
   use_huge_pages(nodes_.data(), nodes_.capacity() * sizeof(QueryNode));
   use_huge_pages(blocks_.data(), blocks_.capacity() * sizeof(TriangleBlock));
   Builder(*this, image).build(root);

@@ -1,4 +1,4 @@
-// Makes the BVH for single rays.
+// Builds the BVH for single rays.
 #pragma once
 
 #include "kernel/direct/query_bvh.hpp"
@@ -11,9 +11,9 @@ namespace celltrace {
 
 class SingleRayBvh {
 public:
-  /// From the BVH of `image`, whose root is at `root`.
+  /// Builds the BVH from that of `image`, whose root is at `root`.
   SingleRayBvh(const SceneImage& image, std::uint32_t root);
-  /// Valid as long as this lives where it is.
+  /// Returns pointers that are valid as long as this object lives and is not moved.
   kernel::QueryBvh get() const { return {nodes_.data(), blocks_.data(), others_.data()}; }
 
 private:

@@ -1,4 +1,4 @@
-// What SPEs did and broke, as the JSON that docs/statistics.md describes.
+// Statistics and diagnostics of SPEs as the JSON that docs/statistics.md describes.
 #pragma once
 
 #include "celltrace/spe/diagnostic.hpp"
@@ -10,7 +10,7 @@ namespace celltrace {
 
 nlohmann::ordered_json cycles_json(const SpuCycles& cycles);
 
-/// Without the addresses of its text: those of main memory differ from run to run.
+/// Returns a diagnostic without the addresses in its text: addresses of main memory differ from run to run.
 nlohmann::ordered_json diagnostic_json(const Diagnostic& diagnostic);
 
 } // namespace celltrace

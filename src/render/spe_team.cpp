@@ -24,7 +24,7 @@ SpeTeam::~SpeTeam() {
   try {
     dismiss();
   } catch (const std::exception&) {
-    // An SPE that failed has been reported by the call that met it; here it only has to be gone.
+    // A failed SPE was reported by the call that noticed it; here it only has to stop.
     machine_.interrupt();
   }
 }
@@ -95,10 +95,10 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress, const Un
       }
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
       member.units = count;
-      // Only an idle SPE has no question under way.
+      // Only an idle SPE has no request under way.
       if (kind == ReportKind::idle) tally.report(member.spe, count);
     });
-    // 1 is kept for the finished frame.
+    // Holds 1 back for the finished frame.
     go_on = held.ask(std::min(static_cast<double>(units_completed()) / tally.units(), 0.999));
   }
   end_frame(go_on);
@@ -154,10 +154,11 @@ void SpeTeam::end_frame(bool complete) {
   };
   tell();
   while (!all_answered()) {
-    // In the middle of a frame a mailbox may be full of neighbours' words, or lose ours to one: say it again.
+    // In the middle of a frame a mailbox may be full of neighbours' messages, or lose ours to one of them:
+    // repeat it.
     if (!receive_answers(ReportKind::finished) && !complete) tell();
   }
-  if (!complete) synchronize({}); // what is cached is as good as before
+  if (!complete) synchronize({}); // cached lines are as valid as before
 }
 
 void SpeTeam::throw_if_stopped() {

@@ -23,10 +23,10 @@ void add_cache(RenderStatistics::Cache& cache, const ReportRecord& report, DataK
   cache.misses += report.cache_misses[static_cast<int>(kind)];
 }
 
-/// What an SPE had to do in a frame, whatever the others did. Host time also depends on the host.
+/// Returns the work of an SPE in a frame, without waiting for others. Host time also depends on the host.
 std::uint64_t load(const RenderStatistics::Spe& spe, Schedule schedule) {
   if (schedule != Schedule::lockstep) return spe.rays;
-  // Stages of a pipeline wait for rays, not for work of their own, and do not say how long.
+  // Stages of a pipeline do not wait for work of their own but for rays, and do not report how long.
   return spe.busy_ticks != 0 ? spe.busy_ticks : spe.cycles.total_cycle - spe.cycles.channel_stall_cycle;
 }
 

@@ -1,4 +1,4 @@
-// Reports of the SPEs become the statistics of a frame.
+// Computes the statistics of a frame from the reports of the SPEs.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -11,13 +11,14 @@
 
 namespace celltrace {
 
-/// What the SPEs of a machine do from one moment to another.
+/// Measures the work of a machine's SPEs between two moments.
 class SpeMeter {
 public:
-  /// From now on.
+  /// Starts the measurement.
   explicit SpeMeter(const Machine& machine);
 
-  /// By SPE, until now. The local store's peak is that since the machine was made.
+  /// Returns the statistics since the start, by SPE. The local store's peak is that since the machine was
+  /// made.
   std::vector<SpeStatistics> read() const;
 
 private:
@@ -25,14 +26,15 @@ private:
   std::vector<SpeStatistics> start_;
 };
 
-/// The greatest total_cycle.
+/// Returns the greatest total_cycle.
 std::uint64_t elapsed_cycles(std::span<const SpeStatistics> spes);
 
-/// Adds up what each SPE says of several frames.
+/// Adds the reports of each SPE to its sum over several frames.
 void add(std::span<kernel::ReportRecord> sum, std::span<const kernel::ReportRecord> reports);
 
-/// Adds what the frame, the reports and `spes` (what the machine's SPEs did in the frame) say. The schedule,
-/// which has to be there already, decides what the imbalance is of; the rest is the caller's.
+/// Adds the numbers of the frame, of the reports, and of `spes`, the work of the machine's SPEs in the frame.
+/// The schedule in `statistics` must be set, as it decides how imbalance is measured; the caller sets all
+/// other fields.
 void collect(RenderStatistics& statistics, const Machine& machine, const kernel::FrameBlock& frame,
              std::span<const kernel::ReportRecord> reports, std::span<const SpeStatistics> spes);
 

@@ -1,11 +1,11 @@
-// Seconds of this computer.
+// Measures real time on the host, in seconds.
 #pragma once
 
 #include <chrono>
 
 namespace celltrace {
 
-/// Runs from when it is made.
+/// A stopwatch that starts when it is constructed.
 class Stopwatch {
 public:
   double seconds() const {

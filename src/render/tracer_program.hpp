@@ -1,4 +1,4 @@
-// The SPE programs of the tracer as this build has them: one entry point per SPU type.
+// The SPE programs of the tracer in this build: one entry point per SPU type.
 #pragma once
 
 #include "celltrace/spe/program.hpp"
@@ -7,12 +7,13 @@ namespace celltrace {
 
 // Defined by the build (cmake/celltrace_spe_program.cmake).
 
-/// Finds objects by a BVH; on machines with direct memory, by any accelerator.
+/// Returns the tracer that uses a BVH; on machines with direct memory, any accelerator.
 SpeProgram tracer_program();
-/// By a uniform grid, on other machines.
+/// Returns the tracer that uses a uniform grid, for other machines.
 SpeProgram grid_tracer_program();
 
-/// No program of SPEs: for each CPU of the native backend, what enters its kernel::RayQueryFunctions.
+/// Returns an entry for each CPU of the native backend that fills in its kernel::RayQueryFunctions; no SPE
+/// runs it.
 SpeProgram ray_queries_program();
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// Which pixels a unit of work has.
+// Finds the pixels of a unit of work.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -9,15 +9,15 @@
 
 namespace celltrace {
 
-/// The blocks that units are made of, as they lie in the picture.
+/// The blocks that units consist of, and their place in the picture.
 struct BlockGrid {
-  std::uint32_t columns; ///< of blocks
-  int edge;              ///< pixels
+  std::uint32_t columns; ///< blocks per row
+  int edge;              ///< in pixels
   int left, top;         ///< of the first block, in the picture
-  PictureRegion region;  ///< of the picture that is rendered
+  PictureRegion region;  ///< part of the picture that is rendered
 };
 
-/// The parts of the region that a unit's blocks cover, row of blocks by row.
+/// Returns the parts of the region that a unit's blocks cover, one per row of blocks.
 std::vector<PictureRegion> regions_of(const kernel::UnitRecord& unit, const BlockGrid& grid);
 
 } // namespace celltrace

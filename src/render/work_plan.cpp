@@ -13,15 +13,15 @@ using namespace kernel;
 
 namespace {
 
-/// So that a unit is a small part of what an SPE has to do: it is what strips may be uneven by.
+/// The number of units per strip: a unit should be a small part of an SPE's work, as strips may differ by
+/// one.
 constexpr std::uint32_t kUnitsPerStrip = 512;
-/// Where bundles have been cheap, units are long, but no longer than this many times the mean: the next
-/// picture may be another.
+/// The longest unit where bundles have been cheap, as a multiple of the mean: the next picture may differ.
 constexpr std::uint32_t kLongestUnit = 8;
-/// Nothing is known of the first frame: a strip is of pieces from all over the picture, which exchanges have
-/// less to do about.
+/// The number of pieces per strip in the first frame, of which no costs are known: pieces from all over the
+/// picture leave less to exchange.
 constexpr std::uint32_t kPiecesPerStrip = 16;
-/// Bundles a side of the tiles that are dealt at random.
+/// The edge of the tiles that are dealt at random, in bundles.
 constexpr std::uint32_t kTileEdge = 4;
 constexpr std::uint32_t kTileSeed = 1;
 
@@ -35,7 +35,7 @@ WorkPlan::WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, s
                    std::endian spe_order, std::uint32_t first_row)
     : balance_(balance), columns_(columns), rows_(rows), first_row_(first_row), spes_(spes),
       unit_records_(0, spe_order), strip_records_(0, spe_order), cost_records_(0, spe_order) {
-  // Cuts by cost have at most an eighth more, and one.
+  // The number of wanted units; cuts by cost may have an eighth more, plus one.
   constexpr std::uint32_t kMostUnits = strip_word::kMaxUnits / 9 * 8 - 8;
   wanted_units_ = std::min({kMostUnits, kUnitsPerStrip * spes, columns * rows});
   if (balance == Balance::scatter)
@@ -121,7 +121,7 @@ void WorkPlan::deal_pieces() {
   for (std::uint32_t spe = 0; spe < spes_; ++spe) {
     const std::uint32_t before = units();
     for (std::uint32_t round = 0; round < kPiecesPerStrip; ++round) {
-      // To and fro, so that nobody always gets the lowest piece of a round.
+      // Rounds alternate in direction, so that no SPE always gets the lowest piece.
       const UnitRange piece = pieces[round * spes_ + (round % 2 == 0 ? spe : spes_ - 1 - spe)];
       units_.insert(units_.end(), in_order.begin() + piece.first,
                     in_order.begin() + piece.first + piece.count);
@@ -195,7 +195,7 @@ std::vector<double> WorkPlan::measured_costs() {
 }
 
 std::vector<double> WorkPlan::costs() const {
-  // What took less than a tick was not for nothing.
+  // A unit that took less than a tick still had a cost.
   const auto ticks = cost_records_.all();
   std::vector<double> costs(ticks.size());
   std::transform(ticks.begin(), ticks.end(), costs.begin(), [](std::uint32_t each) { return each + 1.0; });

@@ -1,4 +1,4 @@
-// What is heard of a long computation on the host while it runs, and how it is ended.
+// Progress and cancellation of long computations on the host.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -11,12 +11,13 @@
 
 namespace celltrace {
 
-/// While one lives, long computations of its thread, and of threads that for_each_part() starts for it, ask
-/// it now and then whether to go on.
+/// While an object of this class lives, long computations of its thread, and of threads that for_each_part()
+/// starts for that thread, regularly ask it whether to go on.
 class BuildWatch {
 public:
-  /// `go_on` hears the finished fraction, in this thread alone, and may be empty. If it returns false the
-  /// computation ends with Cancelled; what it throws passes through. It has to outlive this.
+  /// Watches with `go_on`, which gets the finished fraction, is called in this thread only, and may be empty.
+  /// If `go_on` returns false the computation ends with Cancelled; exceptions of `go_on` pass through.
+  /// `go_on` has to outlive this object.
   explicit BuildWatch(const std::function<bool(double fraction)>& go_on)
       : go_on_(go_on), thread_(std::this_thread::get_id()),
         outer_(std::exchange(current_, go_on ? this : nullptr)) {}
@@ -24,24 +25,25 @@ public:
   BuildWatch& operator=(const BuildWatch&) = delete;
   ~BuildWatch() { current_ = outer_; }
 
-  /// Whether it has ended the computation.
+  /// Returns whether this watch has ended the computation.
   bool has_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
   /// Throws if the computation is to end.
   static void look() {
     if (current_) current_->ask();
   }
-  /// Does so once in a while, as a loop over many things gets on: cheap for each of them.
+  /// Calls look() for some numbers `i` of a loop over many things: cheap for each of them.
   static void look_at(std::size_t i) {
     if (i % kBetweenLooks == 0) look();
   }
-  /// From here on so much of it is finished.
+  /// Reports the fraction that is finished from here on.
   static void reach(double fraction) {
     if (current_) current_->fraction_ = fraction;
     look();
   }
 
-  /// The watch of this thread, or null; and how another thread gets it while it works for this one.
+  /// Returns the watch of this thread, or null; follow() gives another thread the watch while it works for
+  /// this one.
   static BuildWatch* current() { return current_; }
   static void follow(BuildWatch* watch) { current_ = watch; }
 
@@ -63,7 +65,7 @@ private:
 
   const std::function<bool(double fraction)>& go_on_;
   const std::thread::id thread_;
-  BuildWatch* const outer_; ///< of a computation whose `go_on` has begun this one
+  BuildWatch* const outer_; ///< of the computation whose `go_on` has begun this one
   double fraction_ = 0;
   std::atomic<bool> stopped_ = false;
   static inline thread_local BuildWatch* current_ = nullptr;

@@ -1,4 +1,4 @@
-// Work in parts, in threads of the host.
+// Runs work in parts, in threads of the host.
 #pragma once
 
 #include "scene/build_watch.hpp"
@@ -13,7 +13,7 @@
 
 namespace celltrace {
 
-/// Part `part` of `parts` of [0, count).
+/// Returns part `part` of `parts` of [0, count).
 struct HostPart {
   std::uint32_t begin, end;
 
@@ -22,9 +22,9 @@ struct HostPart {
         end(static_cast<std::uint32_t>(std::uint64_t{count} * (part + 1) / parts)) {}
 };
 
-/// Calls work(part) for each part, in a thread each, and returns when all are done. What the first of them
-/// that threw has thrown passes through. This thread's BuildWatch is theirs, too, and is asked as long as any
-/// is at work.
+/// Calls work(part) for each part, in a thread each, and returns when all are done. The exception of the
+/// first part that threw passes through. All threads share this thread's BuildWatch, which is asked as long
+/// as any of them is at work.
 template <class Work> void for_each_part(unsigned parts, Work work) {
   constexpr std::chrono::milliseconds kBetweenLooks(5);
   std::vector<std::exception_ptr> failures(parts);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
-/// The rows of the adjugate's transpose: cross products of the linear part's rows.
+/// The transpose of the adjugate: its rows are cross products of the linear part's rows.
 struct Cofactors {
   Vec3 rows[3];
 };
@@ -22,7 +22,7 @@ Cofactors cofactors(const Vec3 (&rows)[4]) {
   return {{glm::cross(rows[1], rows[2]), glm::cross(rows[2], rows[0]), glm::cross(rows[0], rows[1])}};
 }
 
-/// A quarter turn must be exact: scenes place walls and mirrors by it.
+/// Computes sine and cosine; a quarter turn is exact, since scenes place walls and mirrors by it.
 void sine_and_cosine(double degrees, double& sine, double& cosine) {
   const double quarters = degrees / 90;
   if (!std::isfinite(quarters) || quarters != std::floor(quarters)) {
@@ -100,7 +100,7 @@ Transform Transform::inverse() const {
 }
 
 Transform Transform::then(const Transform& next) const {
-  // Most objects are not moved.
+  // Most objects are not moved, which makes the product trivial.
   if (next.is_identity()) return *this;
   if (is_identity()) return next;
   Transform result;

@@ -1,5 +1,5 @@
-// What boxes along the axes of the world leave of a region, and where their own faces are in it: bounds of
-// what CSG cuts in half, or cuts the corner off.
+// Bounds of CSG that a box along the axes of the world cuts in half or cuts a corner off: what the box leaves
+// of a region, and where the box's own faces are in it.
 #pragma once
 
 #include "kernel/aabb.hpp"
@@ -9,14 +9,16 @@
 
 namespace celltrace {
 
-/// The corners of a shape that is a box whose faces are at right angles to the axes; none of any other.
+/// Returns the corners of a shape that is a box with faces at right angles to the axes; nothing for any other
+/// shape.
 std::optional<kernel::Aabb> box_along_axes(const PlacedShape& shape);
 
-/// Around what is in `within` but not in `box`, and a little more: less than `within` where the box reaches
-/// across it on two axes. `within` may reach to infinity, as the greatest floats, and may be empty.
+/// Returns slightly enlarged bounds of what is in `within` but not in `box`: smaller than `within` if the box
+/// reaches across it on two axes. `within` may be infinite (the greatest floats) or empty.
 kernel::Aabb left_by_box(const kernel::Aabb& box, const kernel::Aabb& within);
 
-/// Around those parts of a box's faces that are in `within`, and a little more; empty if none is.
+/// Returns slightly enlarged bounds of the parts of a box's faces that are in `within`; empty if there are
+/// none.
 kernel::Aabb bounds_of_faces(const kernel::Aabb& box, const kernel::Aabb& within);
 
 } // namespace celltrace

@@ -18,17 +18,17 @@ namespace celltrace {
 
 namespace {
 
-/// Pairs of objects to look at: beyond them nobody waits for more.
+/// Limit on pairs to examine; more would take too long.
 constexpr std::size_t kMostSurfacePairs = most_of(PictureLimit::coincident_pairs);
-/// Surfaces that are looked at only to find whether their order would matter.
+/// Limit on surfaces if they are examined only to find out whether their order matters.
 constexpr std::size_t kMostSurfacesWithoutOrder = 8192;
 
-/// A surface of an object, and where that may show it.
+/// A surface of an object, and the region in which the object may show it.
 struct PlacedSurface {
   std::uint32_t kind;
   std::array<float, 14> numbers; ///< geometry and parameters
   std::size_t object;
-  Index material; ///< kNoIndex: any
+  Index material; ///< kNoIndex if it has none of its own
   kernel::Aabb bounds;
 
   bool is_same_as(const PlacedSurface& other) const { return kind == other.kind && numbers == other.numbers; }
@@ -36,7 +36,7 @@ struct PlacedSurface {
 
 class PlacedSurfaces {
 public:
-  /// Surfaces behind the first `most` are left out.
+  /// Collects the surfaces of the objects; those after the first `most` are left out.
   PlacedSurfaces(const Scene& scene, std::size_t count, const CsgParts& parts, std::size_t most)
       : most_(most) {
     for (const CsgPart& part : parts.parts)
@@ -55,8 +55,9 @@ public:
     });
   }
 
-  /// Calls `visit(a, b, middle)` for surfaces of different objects that are the same one, with the middle of
-  /// where both may be shown, until it returns false. False then, and if there are too many.
+  /// Calls `visit(a, b, middle)` for each pair of coinciding surfaces of different objects, with the middle
+  /// of the region that may show both, until it returns false. Returns false if a call did, or if there are
+  /// too many pairs.
   template <class Visit> bool for_each_pair(const Visit& visit) const {
     std::size_t pairs = 0;
     for (std::size_t first = 0, last; first < surfaces_.size(); first = last) {
@@ -75,7 +76,7 @@ public:
   }
 
 private:
-  /// Nothing if the two have no point in common.
+  /// Returns the middle of the intersection; nothing if the two have no point in common.
   static std::optional<Vec3> middle_of(const kernel::Aabb& a, const kernel::Aabb& b) {
     const kernel::Aabb both = intersected(a, b);
     Vec3 middle;
@@ -113,8 +114,8 @@ bool any_differ(const PlacedSurfaces& surfaces) {
   return any;
 }
 
-/// The objects of `order`, but each behind those of `before`, by object; where these go in circles, one of
-/// them does not count.
+/// Returns the objects of `order`, each after those that `before` lists for it; in a cycle, one object's
+/// requirement is ignored.
 std::vector<std::size_t> sorted(const std::vector<std::size_t>& order,
                                 std::vector<std::vector<std::size_t>> before) {
   std::vector<std::size_t> result;

@@ -1,5 +1,5 @@
-// The order in which POV-Ray tests objects that have a surface in common: parts of two CSGs that are of one
-// shape at one place. There rounding is the same for both, and the one is seen that is tested first.
+// The order in which POV-Ray tests objects that share a surface: parts of two CSGs with the same shape at the
+// same place. Both crossings round alike, so that the object tested first is seen.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,14 +11,14 @@
 
 namespace celltrace {
 
-/// Numbers of the first `count` objects of a scene, of which `parts` are the CSGs': in the scene's order,
-/// CSGs behind the others, but for those that have to come before others so that they are seen. Not if there
-/// are very many: then their order does not matter.
-/// Says which limits the scene passes.
+/// Returns the numbers of the first `count` objects of a scene in the order of POV-Ray's tests; `parts` are
+/// the parts of the CSGs. The order is the scene's with CSGs behind the others, except for objects that have
+/// to come earlier so that they are seen. Scenes with very many objects skip these exceptions. Sets in
+/// `limits` which limits the scene passes.
 std::vector<std::size_t> order_of_tests(const Scene& scene, const Eye& eye, std::size_t count,
                                         const CsgParts& parts, PassedLimits& limits);
 
-/// Whether any may have to come before others: there are CSGs, and not very many objects.
+/// Returns whether an object may have to come earlier: there are CSGs, and not very many objects.
 bool has_order_of_tests(std::size_t count, const CsgParts& parts);
 
 } // namespace celltrace

@@ -16,18 +16,19 @@ namespace celltrace {
 
 namespace {
 
-/// Of a box's sizes or of the space around a solid: less is flat, and no distance.
+/// A smaller share of a box's longest side, or of the size of the space around a solid, counts as flat, and
+/// as no distance.
 constexpr double kFlat = 1e-6;
-/// Unit normals that differ by less are one.
+/// Unit normals that differ by less count as equal.
 constexpr double kParallel = 1e-9;
 
-/// Whether rays take two objects for the same, but for materials.
+/// Returns whether two objects are the same to rays, except for their materials.
 bool are_alike(const Object& a, const Object& b) {
   return a.no_shadow == b.no_shadow && a.no_image == b.no_image && a.no_reflection == b.no_reflection &&
          a.light_group == b.light_group && a.is_lit_through == b.is_lit_through && a.interior == b.interior;
 }
 
-/// The triangles of convex faces, in which each corner is the same vertex.
+/// The triangles of convex faces, which share the vertices at their common corners.
 class MeshOfFaces {
 public:
   explicit MeshOfFaces(double tolerance) : tolerance_(tolerance) {}
@@ -38,14 +39,15 @@ public:
       const Index vertex = vertex_at(corner);
       if (around.empty() || (vertex != around.back() && vertex != around.front())) around.push_back(vertex);
     }
-    // A flat triangle's normal is opposite to the cross product of its edges.
+    // The normal of a flat triangle is opposite to the cross product of its edges.
     if (around.size() >= 3 && glm::dot(area(around), normal) > 0) std::reverse(around.begin(), around.end());
     halve(around, material);
   }
   Mesh take() { return std::move(mesh_); }
 
 private:
-  /// Between neighbours to the corner in the middle, so that triangles are not all thin.
+  /// Cuts off the triangle of two neighbours and the corner in the middle, so that not all triangles are
+  /// thin.
   void halve(const std::vector<Index>& around, Index material) {
     if (around.size() < 3) return;
     if (around.size() == 3) {
@@ -125,7 +127,7 @@ bool ConvexSolid::cut(const Object& object) {
   return true;
 }
 
-/// Where all corners of the box are, as seen from another half-space.
+/// Returns on which side of another half-space's plane the corners of the box are.
 ConvexSolid::Side ConvexSolid::side_of(const HalfSpace& half_space, double tolerance) const {
   double least = std::numeric_limits<double>::max(), most = -least;
   for (const Vec3& corner : box_->corners) {
@@ -142,8 +144,8 @@ bool ConvexSolid::is_surely_empty() const {
          });
 }
 
-/// The faces of the box from the last one on, if no other half-space cuts it and it is not flat for a space
-/// of that size; else nothing.
+/// Returns the faces of the box that has cut the solid, in reverse order, if no other half-space cuts the
+/// box, and it is not flat compared with a space of this size; else nothing.
 std::vector<ConvexSolid::HalfSpace> ConvexSolid::faces_of_whole_box(double size) const {
   if (!box_) return {};
   const double tolerance = kFlat * std::max(size, box_->reach);
@@ -164,7 +166,7 @@ std::vector<ConvexSolid::HalfSpace> ConvexSolid::faces_of_whole_box(double size)
 }
 
 std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
-  // Planes just on the faces of the box around would not cut it.
+  // Starts a little larger, so that planes exactly on the faces of the box around do not cut it.
   kernel::Aabb start = around;
   double size = 0;
   for (int i = 0; i < 3; ++i)
@@ -196,7 +198,7 @@ std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
     if (face.source == Polytope::kBox) return {};
     shown.push_back(half_spaces_[face.source]);
   }
-  // Of what is flat, both sides are seen at one place.
+  // A flat solid would show both of its sides at one place.
   const auto is_flat_below = [&](const HalfSpace& face) {
     return std::none_of(polytope.faces().begin(), polytope.faces().end(), [&](const Polytope::Face& other) {
       return std::any_of(other.corners.begin(), other.corners.end(), [&](const Vec3& corner) {
@@ -218,7 +220,8 @@ std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
   return object;
 }
 
-/// Where the box from 0 to 1 is that has these faces, if they are parallel in pairs and of one material.
+/// Returns the transformation of the box from 0 to 1 to the box with these faces, if they are parallel in
+/// pairs and of one material.
 std::optional<Transform> ConvexSolid::box_between(const std::vector<HalfSpace>& faces) {
   if (faces.size() != 6) return {};
   Vec3 normal[3];
@@ -238,7 +241,7 @@ std::optional<Transform> ConvexSolid::box_between(const std::vector<HalfSpace>& 
   Transform box;
   box.rows[3] = Vec3(0);
   for (int i = 0; i < 3; ++i) {
-    // Along the edge that the other two planes share.
+    // The axis lies along the edge that the other two planes share.
     const Vec3 edge = glm::cross(normal[(i + 1) % 3], normal[(i + 2) % 3]);
     const Vec3 unit = edge / glm::dot(edge, normal[i]);
     box.rows[i] = unit * (high[i] - low[i]);

@@ -1,5 +1,4 @@
-// Solids between planes, as the triangles of their faces: what CSG makes of planes and boxes, if it is
-// convex.
+// Convex solids between planes, which CSG makes of planes and boxes, as the triangles of their faces.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -10,33 +9,36 @@
 
 namespace celltrace {
 
-/// An intersection of half-spaces, each of the material that its face shows.
+/// An intersection of half-spaces. Each half-space has the material that its face shows.
 class ConvexSolid {
 public:
-  /// Takes away what is outside of an object, placed in the world. False: it is no plane with a normal, and
-  /// no box that is not inverse, or of another kind to rays than those before; the solid is of no use then.
+  /// Cuts away what is outside of an object, which is placed in the world. Returns false, and leaves the
+  /// solid unusable, if the object is neither a plane with a normal nor a box that is neither inverse nor
+  /// flat, or if its visibility to rays differs from that of the objects before.
   bool cut(const Object& object);
 
-  /// Whether a box of it lies outside of one of the half-spaces as a whole: there is nothing to see.
+  /// Returns whether the box that has cut the solid lies completely outside of one of the half-spaces, so
+  /// that nothing is seen.
   bool is_surely_empty() const;
 
-  /// The object that rays see in its place: a box of one material, or a mesh in the world with the materials
-  /// of the planes. Of faces in one plane it shows the last one. `around` is a box around all of it. Nothing
-  /// if the solid is not bounded by planes on all sides, or is empty or flat.
+  /// Returns the object that rays see in place of the solid: a box of one material, or a mesh in the world
+  /// with the materials of the planes. If several faces lie in one plane, the last one is shown. `around` is
+  /// a box around the whole solid. Returns nothing if the solid is not bounded by planes on all sides, or is
+  /// empty or flat.
   std::optional<Object> as_object(const kernel::Aabb& around) const;
 
 private:
   struct HalfSpace {
-    Vec3 normal; ///< outward
+    Vec3 normal; ///< points outward
     double offset;
     Index material;
   };
 
-  /// A box among what it was cut by: all of the solid is in it.
+  /// A box among the objects that cut the solid; it contains the whole solid.
   struct WholeBox {
     Vec3 corners[8];
-    std::size_t first; ///< of its six half-spaces
-    double reach;      ///< the largest distance of two corners along an axis
+    std::size_t first; ///< index of the first of its six half-spaces
+    double reach;      ///< largest distance of two corners along an axis
   };
   enum class Side { inside, outside, cut };
 
@@ -45,7 +47,7 @@ private:
   std::vector<HalfSpace> faces_of_whole_box(double size) const;
 
   std::vector<HalfSpace> half_spaces_;
-  std::optional<WholeBox> box_; ///< the first one
+  std::optional<WholeBox> box_; ///< the first box that has cut the solid
   Object first_;
 };
 

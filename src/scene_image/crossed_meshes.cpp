@@ -16,7 +16,7 @@ using namespace kernel;
 
 namespace {
 
-/// Triangles below the lowest boxes: a box pays for no fewer.
+/// Limit on triangles in the lowest boxes; a box around fewer is not worth its test.
 constexpr std::size_t kMostInBox = 4;
 
 struct Corners {
@@ -24,7 +24,7 @@ struct Corners {
 
   Vec3f least() const { return glm::min(glm::min(corner[0], corner[1]), corner[2]); }
   Vec3f greatest() const { return glm::max(glm::max(corner[0], corner[1]), corner[2]); }
-  /// Twice the middle of its box.
+  /// Returns twice the middle of the triangle's box.
   Vec3f middle() const { return least() + greatest(); }
 };
 
@@ -37,8 +37,8 @@ class TreeWriter {
 public:
   explicit TreeWriter(std::vector<CrossedMeshRecord>& records) : records_(records) {}
 
-  /// Appends a box around the triangles and what is in it, halved along the axis where they are farthest
-  /// apart.
+  /// Appends a box around the triangles, followed by its contents, which are halved along the axis with the
+  /// largest extent.
   void add(std::span<Corners> triangles) {
     BuildWatch::look_at(records_.size());
     const std::size_t box = records_.size();

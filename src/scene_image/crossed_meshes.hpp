@@ -1,5 +1,5 @@
-// Meshes without an inside vector in CSG, of which POV-Ray does not find all crossings of a ray: their
-// triangles in a tree of boxes, as the kernel wants it.
+// Meshes in CSG without an inside vector, of which POV-Ray misses some crossings of a ray: their triangles in
+// a tree of boxes, laid out for the kernel.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,14 +11,15 @@
 
 namespace celltrace {
 
-/// The trees of all such meshes of a scene, one for each mesh. Indices become offsets in the scene image.
+/// The trees of all such meshes of a scene, one for each mesh. TableWriter turns their indices into offsets
+/// in the scene image.
 class CrossedMeshes {
 public:
-  /// Returns the index of the first record of a mesh's tree. The mesh has a triangle with an area, and has to
-  /// stay.
+  /// Returns the index of the first record of a mesh's tree. The mesh has a triangle with an area, and must
+  /// outlive this object.
   std::uint32_t of(const Mesh& mesh);
 
-  /// `next` is an index.
+  /// Returns the records of all trees; `next` is an index.
   const std::vector<kernel::CrossedMeshRecord>& records() const { return records_; }
 
 private:

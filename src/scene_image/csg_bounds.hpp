@@ -1,4 +1,4 @@
-// What bounds of parts of CSG have in common.
+// Helpers shared by the code that computes bounds of CSG parts.
 #pragma once
 
 #include "kernel/aabb.hpp"
@@ -8,7 +8,7 @@
 
 namespace celltrace {
 
-/// Coordinates of bounds that reach to infinity.
+/// The coordinate that stands for infinity in bounds.
 inline constexpr float kInfinite = std::numeric_limits<float>::max();
 inline constexpr kernel::Aabb kEverywhere = {{-kInfinite, -kInfinite, -kInfinite},
                                              {kInfinite, kInfinite, kInfinite}};
@@ -26,8 +26,8 @@ inline bool is_bounded(const kernel::Aabb& box) {
   return true;
 }
 
-/// How much wider bounds are than a face at a coordinate: more than single precision is wrong by, for what is
-/// not too far away.
+/// Returns how much wider than a face at a coordinate bounds are: more than the error of single precision for
+/// objects that are not too far away.
 inline float slack_at(float coordinate) {
   constexpr float kSlack = 1e-4f;
   return kSlack * (1.0f + std::abs(coordinate));

@@ -22,8 +22,8 @@ using namespace kernel;
 
 namespace {
 
-/// Cuts a solid by all that a node consists of. False: that is not convex, or its materials ask for more than
-/// triangles tell.
+/// Cuts a solid by all solids of a node. Returns false if the result is not convex, or if the materials need
+/// more than triangles have.
 bool cut(ConvexSolid& solid, const Node& node, const std::vector<std::uint32_t>& material_flags) {
   if (!node.shows || node.is_clipped) return false;
   if (node.kind == Node::Kind::solid)
@@ -34,14 +34,14 @@ bool cut(ConvexSolid& solid, const Node& node, const std::vector<std::uint32_t>&
                      [&](const Node& child) { return cut(solid, child, material_flags); });
 }
 
-/// Appends what a tree shows to the tables.
+/// Appends the visible surfaces of a tree to the tables.
 class Flattener {
 public:
-  /// Makes boxes or meshes of solids between planes if `material_flags` is not null.
+  /// Collects into `to`. Turns solids between planes into boxes or meshes if `material_flags` is not null.
   Flattener(CsgParts& to, const std::vector<std::uint32_t>* material_flags)
       : to_(to), material_flags_(material_flags) {}
 
-  /// A condition that holds inside of a tree.
+  /// Adds a condition that is true inside of a tree.
   void add_inside(const Node& tree) {
     CsgRecord record{};
     record.next = kNoCondition;
@@ -51,7 +51,7 @@ public:
     to_.conditions.push_back(record);
   }
 
-  /// The surfaces in `node` are there where the condition holds and inside `bounds`.
+  /// Adds the surfaces in `node`, which exist where the condition is true and inside of `bounds`.
   void show(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     if (!node.shows || is_empty(bounds)) return;
     if (node.kind == Node::Kind::solid) return show_solid(node, condition, bounds);
@@ -71,7 +71,7 @@ public:
       filled.assign(node.children.size(), kEverywhere);
       for_each_child(node, [&](const Node& child, std::size_t i) {
         filled[i] = solid_bounds(child, all);
-        // What has no inside shows what is in all others.
+        // A child without an inside is visible where the point is in all other children.
         if (!child.is_bare) all = intersected(all, filled[i]);
       });
       if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))
@@ -109,9 +109,9 @@ public:
   }
 
 private:
-  /// Of surfaces at one place the kernel shows that of the first part. In POV-Ray the last one that is found
-  /// counts, and an intersection or a merge takes what is found of each part from the last on; so does a
-  /// clipped union.
+  /// Adds the surfaces in the reverse order of the parts. Where surfaces coincide the kernel shows that of
+  /// the first part, but POV-Ray the last one it finds; an intersection, a merge and a clipped union collect
+  /// crossings of each part from the last part on.
   void show_reversed(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     const std::size_t first = to_.parts.size();
     show(node, condition, bounds);
@@ -121,8 +121,8 @@ private:
     std::reverse(to_.parts.begin() + static_cast<std::ptrdiff_t>(first), to_.parts.end());
   }
 
-  /// The program of which every child's condition leaves out the child itself: in an intersection all others
-  /// have to be filled, in a merge none.
+  /// Compiles the program in which every child's condition skips the child itself: a point must be in all
+  /// other children of an intersection, and in none of a merge.
   void compile_siblings(const Node& node) {
     const bool all = node.kind == Node::Kind::intersection;
     const std::uint32_t count = node.steps();
@@ -139,7 +139,8 @@ private:
   static std::uint32_t first_solid(const Node& node) {
     return node.children.empty() ? node.record : first_solid(node.children.front());
   }
-  /// Goes on at step `if_inside` where a point is in the node, else at `if_outside`.
+  /// Compiles the test of a node: continues at step `if_inside` if a point is in the node, else at
+  /// `if_outside`.
   void compile(const Node& node, std::uint32_t position, std::uint32_t if_inside, std::uint32_t if_outside) {
     if (node.kind == Node::Kind::solid) {
       if (node.inverse && !node.has_no_inside()) std::swap(if_inside, if_outside);
@@ -156,7 +157,8 @@ private:
     }
   }
 
-  /// Shows it if it is a solid between planes. False: it is none, and nothing is shown.
+  /// Shows a node as a box or mesh if it is a solid between planes. Returns false, and shows nothing, if it
+  /// is not.
   bool show_convex(const Node& node) {
     constexpr std::uint32_t kMostSolids = 300; // the time grows with the square
     if (material_flags_ == nullptr || node.kind != Node::Kind::intersection || node.leaves > kMostSolids)
@@ -209,13 +211,13 @@ private:
     if (is_empty(part.bounds)) return;
     part.bounds = intersected(part.bounds, bounds_in_own_space(node, limits_));
     if (is_empty(part.bounds)) return;
-    // Meshes that are too large are refused with their triangles.
+    // Bounds of a mesh always count as finite; too large ones are rejected with the mesh's triangles.
     part.is_bounded = node.mesh() != nullptr || is_bounded(part.bounds);
     to_.parts.push_back(std::move(part));
   }
 
-  /// Whether CSG gets to see a part of the crossings with a mesh only. What clips the mesh by itself comes
-  /// before that.
+  /// Returns whether CSG uses only some of the crossings with a mesh. An object that clips the mesh alone
+  /// comes before that choice.
   bool is_crossed_in_part(const Node& node, std::uint32_t condition) const {
     if (condition == kNoCondition || node.mesh() == nullptr || node.mesh()->has_inside() ||
         node.mesh()->triangles.size() < 2)
@@ -225,7 +227,7 @@ private:
                              &limits_.back().intersection->children.front() == &node;
     return !clips_alone;
   }
-  /// The condition that a crossing is found, besides another one.
+  /// Returns a condition that requires a crossing to be found, in addition to another condition.
   std::uint32_t add_crossed_mesh(const Node& node, std::uint32_t condition) {
     SolidRecord solid{};
     solid.object.kind_and_flags = kCrossedMeshSolid;
@@ -242,8 +244,8 @@ private:
   }
 
   CsgParts& to_;
-  const std::vector<std::uint32_t>* material_flags_; ///< null: solids stay as they are
-  std::vector<Limit> limits_;                        ///< of what is being shown
+  const std::vector<std::uint32_t>* material_flags_; ///< null: solids stay what they are
+  std::vector<Limit> limits_;                        ///< of the node being shown
 };
 
 } // namespace
@@ -262,7 +264,7 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
     patterns_flattener.add_inside(tree);
     add_boundaries(tree, boundaries);
   }
-  // Most CSGs show a part at least.
+  // Most CSGs show at least one part.
   parts.reserve(
       static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(), contains)));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -272,7 +274,7 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
     const std::size_t first_solid = solids.size(), first_step = steps.size();
     const Node tree = build_tree(scene.objects[i], solids, meshes);
     Flattener(*this, i < convex ? &material_flags : nullptr).show(tree, kNoCondition, kEverywhere);
-    // Nothing asks what is inside of solids that no program names.
+    // Solids that no program names are never tested.
     if (steps.size() == first_step)
       solids.resize(first_solid);
     else

@@ -1,5 +1,5 @@
-// CSG taken apart: the shapes whose surfaces it shows, each with the condition under which a point of the
-// surface is there, and the tables that say so to the kernel.
+// CSG taken apart: the shapes whose surfaces are visible, each with the condition under which a point of its
+// surface exists, and the tables of these conditions for the kernel.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -19,13 +19,13 @@ namespace celltrace {
 /// The surface of a shape that CSG limits.
 struct CsgPart {
   Object object;           ///< no CSG; placed in the world
-  PlacedShape shape;       ///< of no mesh
+  PlacedShape shape;       ///< unset if it is a mesh
   std::uint32_t condition; ///< index in CsgParts::conditions, or kNoCondition
-  kernel::Aabb bounds;     ///< of what may be there of it
-  bool is_bounded;         ///< false: `bounds` reach to infinity
-  std::size_t whole = 0;   ///< index of the object of the scene that it is a part of
+  kernel::Aabb bounds;     ///< of the part of the surface that may exist
+  bool is_bounded;         ///< false if `bounds` are infinite
+  std::size_t whole = 0;   ///< index in the scene of the object that it belongs to
 
-  /// Whether its record needs the CSG: parts of plain unions are objects like others.
+  /// Returns whether its record refers to the CSG: parts of plain unions are ordinary objects.
   bool is_limited() const;
 };
 constexpr std::uint32_t kNoCondition = 0xFFFFFFFF;
@@ -33,14 +33,14 @@ inline bool CsgPart::is_limited() const {
   return condition != kNoCondition;
 }
 
-/// A shape whose faces are shown as those of a part of another shape.
+/// A shape whose faces are shown as faces of a part with another shape.
 struct CsgSurface {
   PlacedShape shape;
   kernel::Aabb bounds;   ///< around those faces
-  std::size_t whole = 0; ///< as of a part
+  std::size_t whole = 0; ///< as CsgPart::whole
 };
 
-/// Of all CSGs of a scene. Indices become offsets in the scene image.
+/// The parts of all CSGs of a scene. TableWriter turns indices into offsets in the scene image.
 struct CsgParts {
   std::vector<CsgPart> parts;
   std::vector<CsgSurface> replaced;
@@ -50,20 +50,20 @@ struct CsgParts {
   std::vector<kernel::CsgStep> steps;
   /// `extra` of a mesh is an index in meshes.grids(), or in crossed_meshes.records().
   std::vector<kernel::SolidRecord> solids;
-  std::vector<SolidBoundary> boundaries; ///< of solids, written for the eye
+  std::vector<SolidBoundary> boundaries; ///< of solids, whose records are written for the eye
   MeshInsides meshes;
   CrossedMeshes crossed_meshes;
 
   CsgParts() = default;
-  /// Takes every object of the scene apart that is a CSG or clipped. The first conditions say what is inside
-  /// of `patterns`, objects without meshes, one each. Of the first `convex` objects, solids between planes
-  /// become boxes or meshes, where the flags of their materials allow it. Throws InputError if one nests too
-  /// deeply or a transformation is singular.
+  /// Takes apart every object of the scene that is a CSG or clipped. The first conditions, one each, describe
+  /// the insides of `patterns`, which are objects without meshes. Among the first `convex` objects, solids
+  /// between planes become boxes or meshes if the flags of their materials allow it. Throws InputError if a
+  /// CSG nests too deeply or a transformation is singular.
   CsgParts(const Scene& scene, const Eye& eye,
            const std::vector<std::shared_ptr<const Object>>& patterns = {}, std::size_t convex = 0,
            const std::vector<std::uint32_t>& material_flags = {});
 
-  /// Whether an object is among them.
+  /// Returns whether an object is taken apart.
   static bool contains(const Object& object);
 };
 

@@ -16,17 +16,18 @@ using namespace kernel;
 
 namespace {
 
-/// What comes to an object from around it.
+/// The properties that an object inherits from the objects around it.
 struct Surroundings {
   Transform transform;
   bool no_shadow = false, no_image = false, no_reflection = false;
-  /// Whether what the object says of these counts. So it is in POV-Ray: in unions all of it, but where they
-  /// are clipped or parts of other operations only no_reflection; in merges all but no_shadow; in
-  /// intersections and differences nothing. What is inverted counts as what it becomes.
+  /// True where the object's own no_shadow, no_image and no_reflection count. As in POV-Ray, all three count
+  /// in unions, but only no_reflection if a union is clipped or part of another operation; all but no_shadow
+  /// count in merges; none in intersections and differences. An inverted operation follows the rule of the
+  /// operation that it becomes.
   bool hides_shadow = true, hides_image = true, hides_reflection = true;
-  bool is_in_unions = true; ///< alone, and in none that is clipped
+  bool is_in_unions = true; ///< in unions alone, none of which is clipped
   bool inverse = false;
-  bool was_inverse = false; ///< somewhere on the way
+  bool was_inverse = false; ///< an object around it is inverse
   bool shows = true;
   int depth = 0;
 };
@@ -38,7 +39,7 @@ public:
   Node build(const Object& object, Surroundings around) {
     if (around.depth++ > kDeepestCsg) throw InputError("the scene has a CSG that nests too deeply");
     if (!object.clipped_by || object.clipped_by->empty()) return build_unclipped(object, around);
-    // What clips is not inverted with what it clips.
+    // The objects that clip are not inverted with the clipped one.
     Node clipped;
     clipped.kind = Node::Kind::intersection;
     clipped.is_clipped = true;
@@ -81,7 +82,7 @@ private:
     node.shows = around.shows;
     if (joins == around.inverse)
       node.kind = Node::Kind::intersection;
-    else // in POV-Ray an intersection that is inverted becomes a merge, whatever it was before
+    else // in POV-Ray any inverted intersection becomes a merge, whatever it was before
       node.kind =
           csg.operation == Operation::union_ && !around.was_inverse ? Node::Kind::union_ : Node::Kind::merge;
     around.is_in_unions = around.is_in_unions && node.kind == Node::Kind::union_;

@@ -1,4 +1,4 @@
-// CSG as a tree whose solids alone are inverse.
+// CSG as a tree in which only solids (leaves) are inverse.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -22,50 +22,52 @@ namespace celltrace::csg {
 using kernel::Aabb;
 using kernel::SolidRecord;
 
-/// A node of the tree of one object, in which only solids are inverse: the inverse of an intersection is the
-/// merge of the inverse parts, that of a union or merge the intersection, as POV-Ray has it.
+/// A node of the tree of one object. Only solids are inverse: as in POV-Ray, the inverse of an intersection
+/// becomes the merge of the inverse parts, and the inverse of a union or merge the intersection of them.
 struct Node {
   enum class Kind { solid, union_, merge, intersection };
   Kind kind = Kind::solid;
-  bool inverse = false;        ///< of a solid
-  bool shows = true;           ///< its surfaces are seen; not those of what clips
-  bool is_clipped = false;     ///< its first child is, by the others
-  Object object;               ///< of a solid
-  PlacedShape shape;           ///< of a solid that is no mesh
-  Aabb mesh_bounds;            ///< of a mesh
-  std::optional<Aabb> box;     ///< of a solid that is a box along the axes of the world
-  std::uint32_t record = 0;    ///< of a solid: index in CsgParts::solids
-  std::uint32_t leaves = 1;    ///< solids in it
-  std::uint32_t unseen_by = 0; ///< of object_flag::selective: rays that see none of it
-  bool is_bare = false;        ///< it has a solid without an inside, which shows beyond what is inside of it
-  bool needs_bounds = false;   ///< it has a quadric or an inverse box: what these leave depends on others
+  bool inverse = false;        ///< solids only
+  bool shows = true;           ///< its surfaces are visible; false for the objects that clip another
+  bool is_clipped = false;     ///< the other children clip the first one
+  Object object;               ///< solids only
+  PlacedShape shape;           ///< solids other than meshes
+  Aabb mesh_bounds;            ///< meshes only
+  std::optional<Aabb> box;     ///< solids that are boxes along the axes of the world
+  std::uint32_t record = 0;    ///< solids only: index in CsgParts::solids
+  std::uint32_t leaves = 1;    ///< number of solids in the tree below
+  std::uint32_t unseen_by = 0; ///< flags of object_flag::selective: rays that do not see any of the node
+  bool is_bare = false;      ///< has a solid without an inside, which is visible outside of the node's inside
+  bool needs_bounds = false; ///< has a quadric or an inverse box, whose bounds depend on other children
   std::vector<Node> children;
 
-  /// Of a solid; null: no mesh.
+  /// Returns the mesh of a solid; null if it is none.
   const Mesh* mesh() const {
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
     return mesh != nullptr ? mesh->get() : nullptr;
   }
-  /// Of a solid that has no bounds by itself; null: no quadric.
+  /// Returns the quadric of a solid without bounds of its own; null for any other node.
   const Quadric* quadric() const {
     const bool may_be = kind == Kind::solid && !shape.is_empty && !shape.is_bounded;
     return may_be ? std::get_if<Quadric>(&object.shape) : nullptr;
   }
-  /// No point is in it, nor in its inverse: a polygon, or a mesh without an inside vector.
+  /// Returns whether no point is in the solid nor in its inverse: true for a polygon and for a mesh without
+  /// an inside vector.
   bool has_no_inside() const {
     return mesh() != nullptr ? !mesh()->has_inside()
                              : std::holds_alternative<std::shared_ptr<const Polygon>>(object.shape);
   }
 
-  /// Rays that see other parts, but not this one. It hides nothing from them if the node is a merge.
+  /// Returns flags of rays that see the node, but not this child. In a merge, such a child hides nothing from
+  /// these rays.
   std::uint32_t hidden_from(const Node& child) const {
     return kind == Kind::merge ? child.unseen_by & ~unseen_by : 0;
   }
-  /// Of the program that says whether a point is in a child.
+  /// Returns the number of steps in the program that tests whether a point is in a child.
   std::uint32_t steps_for(const Node& child) const {
     return child.leaves + (hidden_from(child) != 0 ? 1 : 0);
   }
-  /// Whether it is in any.
+  /// Returns the number of steps in the program that tests whether a point is in any child.
   std::uint32_t steps() const {
     return std::accumulate(children.begin(), children.end(), 0u,
                            [this](std::uint32_t sum, const Node& child) { return sum + steps_for(child); });
@@ -79,16 +81,16 @@ struct Node {
   }
 };
 
-/// Returns the tree of an object. Adds its solids to `solids` and what is inside of its meshes to `meshes`.
-/// Throws InputError if it nests too deeply or has no CSG where one should be.
+/// Returns the tree of an object. Adds its solids to `solids` and the insides of its meshes to `meshes`.
+/// Throws InputError if the object nests too deeply or contains no CSG where one is required.
 Node build_tree(const Object& object, std::vector<SolidRecord>& solids, MeshInsides& meshes);
 
-/// Appends the boundaries of a tree's solids, of which programs ask what is inside.
+/// Appends the boundaries of the solids of a tree, whose insides programs test.
 void add_boundaries(const Node& node, std::vector<SolidBoundary>& boundaries);
 
 bool is_plane(const Node& node);
 
-/// Around all triangles in the world, and a little more.
+/// Returns slightly enlarged bounds of all triangles in the world.
 Aabb bounds_of(const Mesh& mesh, const Transform& transform);
 
 } // namespace celltrace::csg

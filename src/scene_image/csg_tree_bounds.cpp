@@ -17,16 +17,17 @@ using namespace kernel;
 
 namespace {
 
-/// Of more planes than this the others are left out: the time grows with the square.
+/// Limit on planes that are cut out; further ones are ignored, since the time grows with the
+/// square.
 constexpr std::size_t kMostPlanes = 1000;
 
-/// The half-space of a plane that is at right angles to an axis; else everywhere.
+/// Returns the half-space of a plane that is at right angles to an axis; kEverywhere for any other plane.
 Aabb half_space(const PlacedShape& plane, bool inverse) {
   Aabb box = kEverywhere;
   const float* n = plane.geometry + 8;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(n[(i + 1) % 3]) > 1e-6f || std::abs(n[(i + 2) % 3]) > 1e-6f) continue;
-    // n x + d < 0.
+    // The half-space is n x + d < 0.
     const float at = -n[3] / n[i];
     if ((n[i] > 0) != inverse)
       box.max[i] = at + slack_at(at);
@@ -36,7 +37,7 @@ Aabb half_space(const PlacedShape& plane, bool inverse) {
   return box;
 }
 
-/// Around a box after a transformation, and a little more.
+/// Returns slightly enlarged bounds of a box after a transformation.
 Aabb moved(const Aabb& box, const Transform& transform) {
   const Extent around =
       Extent{Vec3(box.min[0], box.min[1], box.min[2]), Vec3(box.max[0], box.max[1], box.max[2])};
@@ -50,7 +51,8 @@ Aabb moved(const Aabb& box, const Transform& transform) {
   return result;
 }
 
-/// A solid that is no mesh, in a space that the world is taken to, if that is not null.
+/// Returns the shape of a solid that is no mesh, in the space that `space` takes the world to, or in the
+/// world if it is null.
 PlacedShape placed_in(const Transform* space, const Node& node) {
   if (space == nullptr) return node.shape;
   Object object = node.object;
@@ -58,7 +60,7 @@ PlacedShape placed_in(const Transform* space, const Node& node) {
   return place_shape(object);
 }
 
-/// Whether a transformation takes some axis to what is none.
+/// Returns whether a transformation takes an axis to a direction that is no axis.
 bool turns_axes(const Transform& transform) {
   for (int i = 0; i < 3; ++i) {
     const Vec3 row = glm::abs(transform.rows[i]);
@@ -106,7 +108,7 @@ Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space) 
       return bounds_of_quadric(*quadric, space != nullptr ? transform.then(*space) : transform, true, within);
     }
     if (node.box && node.inverse && space == nullptr) return left_by_box(*node.box, within);
-    // The inside of a disc is a half-space.
+    // A disc's inside is a half-space, so that only its surface is bounded.
     if (node.inverse || !node.shape.is_bounded ||
         (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
       return kEverywhere;
@@ -130,7 +132,7 @@ Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space) 
 Aabb bounds_in_own_space(const Node& node, const std::vector<Limit>& limits) {
   if (node.mesh() != nullptr || node.shape.is_bounded || !turns_axes(node.object.transform))
     return kEverywhere;
-  constexpr std::uint32_t kMostSolids = 100; // of all that is asked for each of many shapes
+  constexpr std::uint32_t kMostSolids = 100; // limits the cost over many shapes
   std::uint32_t solids = 0;
   for (const Limit& limit : limits)
     solids += limit.intersection->leaves;

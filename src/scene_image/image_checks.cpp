@@ -25,7 +25,7 @@ std::uint32_t solid_kind(const SolidRecord& solid) {
   return solid.object.kind_and_flags & object_flag::kind_mask;
 }
 
-/// Triangles of meshes that instances share: the lowest and the highest of those below a node.
+/// The lowest and the highest number of the triangles below a node of a shared mesh.
 struct TriangleSpan {
   std::uint32_t lowest = kNoOffset, highest = 0;
 
@@ -35,7 +35,6 @@ struct TriangleSpan {
   }
 };
 
-/// Looks at the tables of instances.
 class InstanceCheck {
 public:
   InstanceCheck(const std::byte* base, const ImageHeader& h)
@@ -66,7 +65,7 @@ private:
                    : object.extra == kNoOffset);
   }
 
-  /// Children come after their node.
+  /// Children come after their parent, so that a pass from the last node on has checked them.
   bool nodes_are_valid() {
     for (std::uint32_t i = h_.mesh_node_count; i-- > 0;)
       for (std::uint32_t child = 0; child < std::size(nodes_[i].child); ++child)
@@ -77,7 +76,7 @@ private:
     if ((child | leaf) == 0) return true;
     if (leaf != 0) {
       const std::uint32_t count = leaf_word::count(leaf);
-      // Rays that go alone test them in lanes.
+      // Single rays test all triangles of a leaf in one vector of lanes.
       if (leaf != leaf_word::make(count, 1) || count == 0 || count > kSimdLanes ||
           !refers_to(child, h_.mesh_object_offset, h_.mesh_object_count, sizeof(ObjectRecord)))
         return false;
@@ -121,7 +120,7 @@ private:
   const ObjectRecord* objects_;
   const NodeRecord* nodes_;
   std::vector<TriangleSpan> spans_;   ///< by node
-  std::vector<std::uint32_t> levels_; ///< by node, those below it
+  std::vector<std::uint32_t> levels_; ///< by node: number of levels below it
 };
 
 } // namespace
@@ -244,7 +243,7 @@ bool mesh_insides_are_valid(const std::byte* base, const ImageHeader& h) {
     if (lists > h.mesh_word_count || lists < starts) return false;
     std::uint32_t at = lists;
     for (std::uint32_t cell = starts; cell < lists; ++cell) {
-      // Behind the last list there may be no more words.
+      // The last list may be empty at the end of the words.
       if (words[cell] < h.mesh_word_offset || (words[cell] - h.mesh_word_offset) % kWord != 0 ||
           index_of(words[cell]) < at || index_of(words[cell]) > h.mesh_word_count)
         return false;
@@ -260,7 +259,7 @@ bool crossed_meshes_are_valid(const std::byte* base, const ImageHeader& h) {
   constexpr auto kBytes = static_cast<std::uint32_t>(sizeof(CrossedMeshRecord));
   const auto* records = reinterpret_cast<const CrossedMeshRecord*>(base + h.crossed_mesh_offset);
   const auto* solids = reinterpret_cast<const SolidRecord*>(base + h.solid_offset);
-  // A walk only goes forward, and ends where the first record says.
+  // A walk only goes forward, and ends at the record that its first record names.
   std::vector<std::uint32_t> ends;
   for (std::uint32_t i = 0; i < h.solid_count; ++i) {
     if (solid_kind(solids[i]) != kCrossedMeshSolid) continue;

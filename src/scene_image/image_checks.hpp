@@ -1,5 +1,5 @@
-// What the tables of a scene image have to be, whoever wrote it, so that kernels can follow its offsets. All
-// of these take the image's first byte and its header, and need each table to lie within the image.
+// Checks that the tables of a scene image are well formed, whoever wrote it, so that kernels can follow its
+// offsets. All functions take the image's first byte and its header; each table must lie within the image.
 #pragma once
 
 #include "records/image.hpp"
@@ -9,38 +9,41 @@
 
 namespace celltrace {
 
-/// True if `offset` is that of a record of a table of `count` of them.
+/// Returns true if `offset` is the offset of a record in a table of `count` records.
 inline bool refers_to(std::uint32_t offset, std::uint32_t table, std::uint32_t count, std::size_t record) {
   return offset >= table && (offset - table) % record == 0 && (offset - table) / record < count;
 }
 
-/// True if objects are of kinds that there are, and refer to materials, interiors and what their kinds need.
+/// Returns true if objects have known kinds, and refer to materials, interiors and the tables that their
+/// kinds need.
 bool objects_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
 bool lights_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if every reference of textures is to a record of its table, no walk through maps and layers is too
-/// long, and objects say what their textures ask. Objects and blends are valid.
+/// Returns true if every reference among textures leads to a record of the right table, walks through maps
+/// and layers are short enough, and objects' flags say what their textures need. Objects and blends must be
+/// valid.
 bool textures_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if conditions end, so do their programs, and solids are of kinds that there are.
+/// Returns true if conditions and their programs end, and solids have known kinds.
 bool csg_is_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if the insides of meshes have grids, and their cells lists of triangles.
+/// Returns true if the insides of meshes have grids, and the cells of these have lists of triangles.
 bool mesh_insides_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if the boxes around triangles of crossed meshes are nested, and solids refer to some of them.
+/// Returns true if the boxes around triangles of crossed meshes are nested, and solids refer to some of these
+/// boxes.
 bool crossed_meshes_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if instances have meshes and numbers of their own for the triangles of these, whose nodes lead to
-/// them in few steps.
+/// Returns true if instances have meshes and separate numbers for their triangles, and the nodes of these
+/// meshes lead to the triangles in few steps.
 bool instances_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if there are no groups, or each object is in one.
+/// Returns true if there are no groups, or each object is in one.
 bool groups_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// True if there are no copies, or each of them and its prototype are of one number of objects, and not many.
-/// The groups are valid.
+/// Returns true if there are no copies, or each copy has as many objects as its prototype, and not many. The
+/// groups must be valid.
 bool prototypes_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
 } // namespace celltrace

@@ -1,5 +1,4 @@
-// What the records of a scene image consist of, field by field, for SPEs of another byte order:
-// celltrace/spe/byte_order.hpp.
+// The fields of the records of a scene image, for SPEs of another byte order: celltrace/spe/byte_order.hpp.
 #pragma once
 
 #include "celltrace/spe/byte_order.hpp"

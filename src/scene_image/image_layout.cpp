@@ -17,7 +17,7 @@ using namespace kernel;
 
 namespace {
 
-/// Appends tables to a block whose size is known afterwards.
+/// Appends tables to a block whose size is the sum of them.
 class Layout {
 public:
   explicit Layout(std::size_t begin) : end_(begin) {}
@@ -36,7 +36,7 @@ private:
   std::size_t end_;
 };
 
-/// `has_blends`: some surfaces are of several materials.
+/// Returns the light_way flags of a scene. `has_blends`: some surfaces have several materials.
 std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, bool has_blends) {
   std::uint32_t ways = scene.fogs.empty() && textures.rainbows.empty() ? 0 : light_way::atmosphere;
   bool has_fading = false;
@@ -58,8 +58,8 @@ std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, b
   return ways | light_way::fading | light_way::stepwise;
 }
 
-/// The tables that come first: all that does not say where objects are. `blended`: objects of several
-/// materials.
+/// Places the tables that come first, those without positions of objects. `blended` is the number of objects
+/// with several materials.
 void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, std::size_t interiors,
                     const LightSets& light_sets, const TextureTables& textures, std::uint32_t blended) {
   layout.place<LightRecord>(scene.lights.size(), header.light_offset, header.light_count);
@@ -107,7 +107,7 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, interior_records(scene), light_sets, textures, census.blended);
   if (has_near_surfaces) header.light_ways |= light_way::near_surfaces;
-  // A ray that goes on behind a surface may find crossings that it did not find from where it started.
+  // A ray that continues behind a surface may find crossings that it did not find from its first origin.
   if (textures.filters && !objects.csg().crossed_meshes.records().empty())
     header.light_ways |= light_way::near_surfaces | light_way::restarts;
   if (!objects.are_all_seen()) header.light_ways |= light_way::unseen;

@@ -1,4 +1,4 @@
-// Where the tables of a scene image lie.
+// Offsets of the tables in a scene image.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -16,27 +16,28 @@
 
 namespace celltrace {
 
-/// Rounded up to lines.
+/// Returns a size rounded up to whole cache lines.
 std::size_t whole_lines(std::size_t bytes);
 
-/// How many records are before those of other objects for ones without bounds: whole lines.
+/// Returns how many records are reserved for objects without bounds, in front of the other objects: whole
+/// cache lines.
 std::uint32_t room_of_unbounded(std::uint32_t count);
 
-/// Of all objects, but for their bounds; `groups` are those of the objects that are no instances. Throws
-/// InputError if the image would pass 4 GB.
+/// Returns the header of an image of all objects, without their bounds. `groups` are those of the objects
+/// that are no instances. Throws InputError if the image would pass 4 GB.
 kernel::ImageHeader make_header(const Scene& scene, const LightSets& light_sets,
                                 const TextureTables& textures, const SceneObjects& objects,
                                 const ObjectCensus& census, std::span<const std::uint32_t> groups,
                                 const InstancedMeshes& instanced, const MeshInstances& instances,
                                 bool has_near_surfaces);
 
-/// As `old`, but for the tables of a scene whose objects are where they were; `own_interiors` are the records
-/// of those without an interior.
+/// Returns `old` with new places for the tables of surfaces and lights, for a scene whose objects have not
+/// changed. `own_interiors` is the number of interior records of objects without an interior.
 kernel::ImageHeader with_surfaces(const kernel::ImageHeader& old, const Scene& scene,
                                   std::size_t own_interiors, const LightSets& light_sets,
                                   const TextureTables& textures);
 
-/// Whether all tables have the same places.
+/// Returns whether all tables have the same offsets in both images.
 bool have_same_layout(const kernel::ImageHeader& a, const kernel::ImageHeader& b);
 
 } // namespace celltrace

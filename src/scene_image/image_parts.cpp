@@ -14,7 +14,7 @@ using namespace kernel;
 
 namespace {
 
-/// Says how much of the image is made when the next part is begun, of a scene.
+/// Reports the progress that has been made before the next part is built; returns the scene.
 const Scene& reached(double fraction, const Scene& scene) {
   BuildWatch::reach(fraction);
   return scene;
@@ -76,7 +76,7 @@ void ImageParts::write(std::byte* base, const ImageHeader& header, const ObjectP
   else if (!places.are_written)
     writer.send_objects(objects, places.by_object, threads);
   BuildWatch::reach(0.9);
-  // Where there are no instances, only what builds a BVH reads groups.
+  // If there are no instances, groups are only used to build a BVH.
   if (!places.are_known || header.prototype_count != 0) writer.write_groups(places.groups, threads);
   writer.write_instances(instances, threads);
   ObjectCensus census = places.census;

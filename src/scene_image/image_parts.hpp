@@ -1,4 +1,4 @@
-// The parts that a scene image is made of, whether it is a new one or one that is updated in place.
+// The parts that a scene image is made of, whether it is built anew or updated in place.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -22,30 +22,30 @@
 
 namespace celltrace {
 
-/// How a scene's surfaces look and what lights them.
+/// The textures and the light sets of a scene.
 struct SurfaceParts {
   TextureTables textures;
   LightSets light_sets;
 
   explicit SurfaceParts(const Scene& scene) : textures(scene), light_sets(scene) {}
 
-  /// Writes their tables. References among the textures become offsets.
+  /// Writes the tables of both. References among the textures become offsets.
   void write(TableWriter& writer, std::span<const std::uint32_t> projector_sizes) {
     writer.write_lights(light_sets, projector_sizes);
     writer.write_surfaces(textures);
   }
 };
 
-/// All parts of an image but the places of its objects; each is made of those before it.
+/// All parts of an image except the places of its objects; each part is made from those before it.
 struct ImageParts {
-  /// `given` is valid and stays as it is as long as this lives. Throws InputError if a scene that is valid
-  /// cannot be laid out.
+  /// Builds the parts. `given` must be valid, and must not change while this object lives. Throws InputError
+  /// if a valid scene cannot be laid out.
   ImageParts(const Scene& given, Eye eye, unsigned threads);
 
   const Scene& given;
   Eye eye;
   PassedLimits limits;
-  const std::optional<Scene> with_projectors; ///< of the scene as given: projectors have a material
+  const std::optional<Scene> with_projectors; ///< the given scene, in which projectors have a material
   SurfaceParts surfaces;
   const PreparedScene prepared;
   const InstancedMeshes instanced;
@@ -54,17 +54,17 @@ struct ImageParts {
 
   /// Returns the scene whose objects are the image's.
   const Scene& scene() const { return prepared.scene(); }
-  /// Returns how many threads are worth while if each is to have so many objects at least.
+  /// Returns how many threads are worth starting if each is to have at least `objects_a_thread` objects.
   unsigned threads_for(std::uint32_t objects_a_thread, unsigned threads) const;
-  /// Returns the form of each of the scene's objects.
   std::vector<ObjectForm> forms() const;
-  /// Returns the object of the scene that each record of an object is of, with objects that are no instances
-  /// as they lie in the image.
+  /// Returns, by object record, the index of the scene's object that it belongs to; objects that are no
+  /// instances come in the order of the image.
   std::vector<Index> owners(std::span<const PlacedObject> in_order) const;
 
-  /// Returns the header of the image with objects in these places; their bounds are written with them.
+  /// Returns the header of the image with objects in these places. The bounds in the header are written with
+  /// the objects.
   kernel::ImageHeader header(const ObjectPlaces& places) const;
-  /// Returns what writes the tables of an image with such a header, at `base`.
+  /// Returns a writer of the tables of an image that begins at `base` with this header.
   TableWriter writer(std::byte* base, const kernel::ImageHeader& header) const {
     return {base, header, scene(), surfaces.textures, other_extras()};
   }
@@ -73,7 +73,7 @@ struct ImageParts {
              unsigned threads);
 
 private:
-  /// Returns how many ExtraRecords lie behind those of objects that an accelerator has.
+  /// Returns how many ExtraRecords follow those of the objects that an accelerator holds.
   std::uint32_t other_extras() const { return objects.unbounded_extras() + instanced.extra_count(); }
 };
 

@@ -1,4 +1,4 @@
-// What the tables of textures in a scene image have to be.
+// Checks the tables of textures in a scene image.
 #include "kernel/textures/list.hpp"
 #include "kernel/textures/map_walk.hpp"
 #include "records/light_way.hpp"
@@ -14,7 +14,6 @@ using namespace kernel;
 
 namespace {
 
-/// Looks at the tables of textures.
 class TextureCheck {
 public:
   TextureCheck(const std::byte* base, const ImageHeader& h)
@@ -24,7 +23,8 @@ public:
         entries_(base, h.map_entry_offset, h.map_entry_count),
         normals_(base, h.normal_offset, h.normal_count) {}
 
-  /// True if every reference is to a record of its table, and no walk through maps and layers is too long.
+  /// Returns true if every reference leads to a record of the right table, and no walk through maps and
+  /// layers is too long.
   bool holds() {
     for (std::uint32_t i = 0; i < h_.pattern_count; ++i)
       if (!is_sound(patterns_[i])) return false;
@@ -43,7 +43,7 @@ public:
     find_pigment_depths();
     for (std::uint32_t i = 0; i < h_.normal_count; ++i)
       if (!normal_is_sound(i)) return false;
-    // Materials refer to later ones only.
+    // Materials refer to later ones only, so that the last one is checked first.
     for (std::uint32_t i = h_.material_count; i-- > 0;)
       if (!material_is_sound(i)) return false;
     if (!surfaces_are_told_of()) return false;
@@ -60,7 +60,7 @@ private:
     Table(const std::byte* base, std::uint32_t at, std::uint32_t n)
         : records(reinterpret_cast<const Record*>(base + at)), offset(at), count(n) {}
     const Record& operator[](std::uint32_t i) const { return records[i]; }
-    /// The index of the record at an offset; `count` if there is none.
+    /// Returns the index of the record at an offset; `count` if there is none.
     std::uint32_t find(std::uint32_t at) const {
       return refers_to(at, offset, count, sizeof(Record)) ? (at - offset) / std::uint32_t{sizeof(Record)}
                                                           : count;
@@ -82,7 +82,7 @@ private:
         return false;
     return table_is_sound(r);
   }
-  /// A black hole may do without the table, but not read it anywhere else.
+  /// A black hole may lack the table, but may not refer to another place.
   bool is_sound(const SpaceStepRecord& r) const {
     const std::uint32_t kind = r.kind_and_flags & warp_flag::kind_mask;
     if (kind >= kWarpKinds || !turbulence_is_sound(r.turbulence)) return false;
@@ -94,7 +94,8 @@ private:
   bool features_are_at(std::uint32_t offset) const {
     return h_.feature_count == kFeatures && offset == h_.feature_offset;
   }
-  /// The table that a pattern reads is there, and whole; hashes lead to no other place.
+  /// Returns true if the table that a pattern reads exists and is complete, and hashes lead to no other
+  /// place.
   bool table_is_sound(const PatternRecord& r) const {
     switch (pattern_table(r.kind_and_flags)) {
     case PatternTable::none:
@@ -118,8 +119,8 @@ private:
     return false;
   }
 
-  /// How deep the maps of pigments nest, by pattern; 0: it has none, or they are not sound. Patterns refer to
-  /// earlier ones only.
+  /// Finds how deep the maps of pigments nest, by pattern; 0 if there is no map, or an invalid one. Patterns
+  /// refer to earlier ones only.
   void find_pigment_depths() {
     pigment_depth_.assign(h_.pattern_count, 0);
     pattern_asks_.assign(h_.pattern_count, false);
@@ -133,22 +134,23 @@ private:
       pattern_asks_[i] = asks;
     }
   }
-  /// Whether it is asked at more than points.
+  /// Returns whether a pattern itself needs more than a point.
   static bool asks_by_itself(const PatternRecord& r) {
     return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
            Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
   }
-  /// Of earlier patterns this has been found out.
+  /// Returns whether a pattern, or a pigment that it is, needs more than a point; earlier patterns have their
+  /// result already.
   bool pattern_asks(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
     return asks_by_itself(r) || (is_pigment(r) && pattern_asks_[patterns_.find(r.table)]);
   }
-  /// How deep the maps of the pigment nest that a pattern is; 0: it is none.
+  /// Returns how deep the maps nest in the pigment that a pattern is; 0 if it is no pigment.
   std::uint32_t depth_inside(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
     return is_pigment(r) ? pigment_depth_[patterns_.find(r.table)] : 0;
   }
-  /// Whether a pattern, if it is a pigment, is one that is known, and found by looking for its value.
+  /// Returns true if a pattern is no pigment, or a valid, earlier pigment that is marked as nested.
   bool inside_is_sound(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
     if (!is_pigment(r)) return true;
@@ -173,12 +175,12 @@ private:
     }
     return deepest + 1;
   }
-  /// Then it is a pigment's, and what its entries are is its own business.
+  /// Returns true for the pattern of a pigment, which checks its entries itself.
   static bool is_of_colours(const PatternRecord& r) {
     return (r.kind_and_flags & pattern_flag::average) == 0 &&
            is_colour(r.kind_and_flags & pattern_flag::kind_mask);
   }
-  /// Then it is in no other map.
+  /// Returns true for a relative pattern, which may not be nested in another map.
   bool is_relative(std::uint32_t pattern) const {
     return (patterns_[pattern].kind_and_flags & pattern_flag::relative) != 0;
   }
@@ -186,7 +188,7 @@ private:
     return entries_[entries_.find(r.entries) + entry].child;
   }
 
-  /// Normals refer to earlier ones only.
+  /// Normals refer to earlier ones only, so that the first one is checked first.
   bool normal_is_sound(std::uint32_t normal) {
     const NormalRecord& r = normals_[normal];
     const std::uint32_t pattern = patterns_.find(r.pattern);
@@ -258,8 +260,8 @@ private:
     return (r.flags & material_flag::mapped) != 0 && is_relative(patterns_.find(r.pattern));
   }
 
-  /// Patterns are asked at more than points only where this is found out: on objects that say so, and in
-  /// shadows of those that let light through, of scenes that say so.
+  /// Returns true if flags say where patterns need more than points: the flags of objects, and those of the
+  /// scene for shadows of such objects that let light through.
   bool surfaces_are_told_of() const {
     const auto* objects =
         reinterpret_cast<const ObjectRecord*>(base_ + h_.object_offset) - h_.unbounded_count;
@@ -285,7 +287,7 @@ private:
           light_way::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_way::stepwise});
       if (!has(object_flag::by_surface) || (h_.light_ways & ways) != ways) return false;
     }
-    // Triangles of instances are not told of at all.
+    // Triangles of instances have no such flags at all.
     const auto is_plain = [&](std::uint32_t offset) {
       const std::uint32_t material = materials_.find(offset);
       return material == materials_.count || !material_asks_[material];
@@ -306,7 +308,8 @@ private:
   Table<MapEntryRecord> entries_;
   Table<NormalRecord> normals_;
   std::vector<std::uint32_t> pigment_depth_, normal_depth_, material_depth_, layers_;
-  std::vector<bool> pattern_asks_, normal_asks_, material_asks_; ///< by record, if at more than points
+  std::vector<bool> pattern_asks_, normal_asks_,
+      material_asks_; ///< by record: whether it needs more than points
 };
 
 } // namespace

@@ -24,7 +24,8 @@ namespace {
 constexpr float kFar = std::numeric_limits<float>::max();
 constexpr Aabb kUnbounded = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
-/// Whether a point is in the box of a sphere: hardly any of a million spheres is worth an inverse.
+/// Returns whether a point is in the box of a sphere. The test saves an inverse of the transformation for
+/// almost all of a million spheres.
 bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point) {
   const Vec3 away = point - transform.point(sphere.centre);
   constexpr double kRoundedUp = 1.000001;
@@ -36,16 +37,18 @@ bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point
   return true;
 }
 
-/// `part`: one of the CSG's own.
+/// Returns whether a CSG subtracts a part, which must be one of its own.
 bool is_taken_away(const Object& part, const Csg& csg) {
   return csg.operation == Csg::Operation::difference && &part != &csg.parts.front();
 }
 
-/// `around`: the transformation of the CSG that it is a part of. `is_turned`: that turns its inside out,
-/// which leaves its clips as they are: as in POV-Ray, nothing is inside beyond these.
+/// Returns whether a point is inside of an object. `around` is the transformation of the CSG that contains
+/// the object. `is_turned`: the CSG inverts the object, but not its clips: as in POV-Ray, nothing beyond a
+/// clip is inside.
 bool is_inside(const Object& object, const Transform& around, const Vec3& point, bool is_turned);
 
-/// `is_inverse`: an inverse union is the intersection of its parts' inverses, and the other way round.
+/// Returns whether a point is inside of a CSG. `is_inverse`: an inverse union is the intersection of its
+/// parts' inverses, and vice versa.
 bool is_inside(const Csg& csg, const Transform& transform, const Vec3& point, bool is_inverse) {
   const auto in = [&](const Object& part) {
     return is_inside(part, transform, point, is_inverse != is_taken_away(part, csg));
@@ -73,8 +76,8 @@ bool is_inside(const Object& object, const Transform& around, const Vec3& point,
   return inside != is_inverse;
 }
 
-/// Whether what a ray is in can make a difference where it hits the material. Maps are taken for ones with
-/// such entries.
+/// Returns whether the object that a ray is in can make a difference where the ray hits the material. A
+/// material with a map counts as if its entries did.
 bool asks_for_interiors(const Material& material) {
   if (material.map) return true;
   for (const Material* layer = &material; layer != nullptr; layer = layer->below.get())
@@ -82,7 +85,8 @@ bool asks_for_interiors(const Material& material) {
   return false;
 }
 
-/// What the parts of a CSG have that have no interior of their own, or else the first one's.
+/// Returns the interior that parts of a CSG get if they have none of their own: the object's, or else that of
+/// its first part that has one.
 std::optional<Index> interior_of(const Object& object) {
   const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
   if (csg == nullptr) return object.interior;
@@ -99,7 +103,7 @@ bool may_have_inside(const Object& object) {
   return sphere == nullptr || sphere->radius != 0;
 }
 
-/// Extents of meshes in their own spaces, of which instances share one.
+/// The extents of meshes in their own spaces; instances share their mesh's extent.
 class MeshExtents {
 public:
   const Extent& of(const Mesh& mesh) {
@@ -114,8 +118,8 @@ private:
 
 Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes);
 
-/// Of what all parts of an intersection or difference have in common. What is inverse does not limit it, nor
-/// what is taken away, which counts as inverse. Nothing is a point, as in POV-Ray.
+/// Returns bounds of the region that all parts of an intersection or difference share. Inverse parts do not
+/// limit it, nor do subtracted ones, which count as inverse. An empty region becomes a point, as in POV-Ray.
 Aabb common_box(const Csg& csg, const Transform& transform, MeshExtents& meshes) {
   Aabb box = kUnbounded;
   for (const Object& part : csg.parts)
@@ -125,7 +129,7 @@ Aabb common_box(const Csg& csg, const Transform& transform, MeshExtents& meshes)
   return box;
 }
 
-/// Of an object that is not clipped. `transform`: all of its own.
+/// Returns bounds of an object without its clips. `transform` is its whole transformation.
 Aabb box_of_shape(const Object& object, const Transform& transform, MeshExtents& meshes) {
   if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
     using Operation = Csg::Operation;
@@ -154,8 +158,9 @@ Aabb box_of_shape(const Object& object, const Transform& transform, MeshExtents&
   return placed.is_empty || !placed.is_bounded ? kUnbounded : placed.bounds();
 }
 
-/// Around what POV-Ray takes for the object when it asks what the camera is in: what is inverse counts as if
-/// it were not, in merges too. As far as it is worth finding out.
+/// Returns bounds of what POV-Ray takes for the object when it finds out what the camera is in: inverse
+/// objects count as if they were not inverse, in merges too. The bounds are only as tight as they are worth
+/// computing.
 Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes) {
   Aabb box = box_of_shape(object, object.transform.then(around), meshes);
   if (object.clipped_by)
@@ -164,7 +169,7 @@ Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes) 
   return box;
 }
 
-/// As the former; a sphere of its own is not worth a box, of which there may be a million.
+/// Returns bounds as box_of() does, but none for a sphere by itself, since there may be a million of them.
 Aabb box_around(const Object& object, MeshExtents& meshes) {
   if (std::holds_alternative<Sphere>(object.shape) && !object.inverse && !object.clipped_by)
     return kUnbounded;

@@ -1,4 +1,4 @@
-// Which objects of a scene a point is in.
+// Finds the objects of a scene that contain a point.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,16 +11,17 @@ namespace celltrace {
 /// An object that a camera may be in.
 struct Medium {
   Object object;
-  Index interior;   ///< that rays begin in there
-  kernel::Aabb box; ///< around it
+  Index interior;   ///< in which rays begin that start inside
+  kernel::Aabb box; ///< bounds of the object
 
-  /// By the rules of CSG; a mesh has an inside if it has an inside vector.
+  /// Returns whether a point is inside by the rules of CSG; a mesh has an inside if it has an inside vector.
   bool contains(const Vec3& point) const;
-  /// Of its box, or of a sphere itself.
+  /// Returns the volume of a sphere, or else of the object's box.
   double volume() const;
 };
 
-/// All objects of a scene that have an inside; none where no material asks what a ray is in, nor fog does.
+/// Returns all objects of a scene that have an inside; none if no material and no fog depends on the object
+/// that a ray is in.
 std::vector<Medium> media_of(const Scene& scene);
 
 } // namespace celltrace

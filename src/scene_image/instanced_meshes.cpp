@@ -25,16 +25,17 @@ using namespace kernel;
 
 namespace {
 
-/// Triangles beyond those of the meshes themselves. Of copies, rays test tighter bounds and find less to do
-/// for each of them, but a triangle of a copy takes about 100 bytes, and 0.1 to 0.3 microseconds before the
-/// first ray. Larger: faster frames of scenes with some instances; smaller: less memory and a faster first
-/// frame of those, and where instances reach into each other, faster ones later on. 'first frame' and 'trace
-/// time' of scenes with instances.
+/// The number of triangles, beyond those of the meshes themselves, up to which meshes are copied. Copies give
+/// rays tighter bounds and cheaper tests, but each copied triangle takes about 100 bytes, and 0.1 to 0.3
+/// microseconds before the first ray. Larger: faster frames of scenes with some instances; smaller: less
+/// memory and a faster first frame of those, and where instances reach into each other, faster later frames.
+/// 'first frame' and 'trace time' of scenes with instances.
 constexpr std::uint64_t kMostCopies = 500'000;
-/// Smaller meshes are always copied: to take rays to their space would be most of the work.
+/// Smaller meshes are always copied: transforming rays to their space would be most of the work.
 constexpr std::size_t kFewestTrianglesToShare = 128;
 
-/// Of an object all of which is a large mesh, seen by all rays in the light of all global lights.
+/// Returns the mesh of an object that is one large mesh, visible to all rays and lit by all global lights;
+/// else null.
 const Mesh* plain_mesh_of(const Object& object) {
   if (CsgParts::contains(object)) return nullptr;
   if (object.no_shadow || object.no_image || object.no_reflection || object.is_lit_through ||
@@ -44,8 +45,8 @@ const Mesh* plain_mesh_of(const Object& object) {
   return mesh != nullptr && (*mesh)->triangles.size() >= kFewestTrianglesToShare ? mesh->get() : nullptr;
 }
 
-/// Whether rays can be taken to the mesh's space: the determinants of its triangles neither vanish nor
-/// overflow there.
+/// Returns whether rays can be transformed to the mesh's space: the determinants of its triangles neither
+/// vanish nor overflow there.
 bool has_moderate_size(const MeshPrototype& mesh, const Transform& transform) {
   constexpr float kFarthest = 1e8f;
   constexpr double kLeastFactor = 1e-5, kMostFactor = 1e5;
@@ -60,7 +61,7 @@ bool has_moderate_size(const MeshPrototype& mesh, const Transform& transform) {
          });
 }
 
-/// A little around it: rays are rounded, and what they hit.
+/// Returns slightly enlarged bounds, since rays and the geometry that they hit are rounded.
 Aabb around(const WorldBox& box) {
   Aabb result{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -86,11 +87,11 @@ std::uint32_t sum_of(std::uint32_t a, std::size_t b) {
   return a + static_cast<std::uint32_t>(b);
 }
 
-/// How a mesh is used.
+/// The uses of a mesh: how many objects have it, and whether they share it.
 struct MeshUses {
   std::uint32_t count = 0;
   bool is_shared = false;
-  Index mesh = kNoIndex; ///< once it is shared, its number
+  Index mesh = kNoIndex; ///< number of the mesh once it is shared
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// Meshes of which the scene image has one copy, whatever number of objects consists of them.
+// Meshes that the scene image holds once, however many objects consist of them.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -14,7 +14,7 @@
 
 namespace celltrace {
 
-/// Where their records go.
+/// The tables that their records go to.
 struct InstancedMeshTables {
   RecordTables records;
   kernel::InstanceRecord* instances;
@@ -22,7 +22,7 @@ struct InstancedMeshTables {
   std::uint32_t object_offset;
   kernel::NodeRecord* nodes;
   std::uint32_t node_offset;
-  std::uint32_t first_extra; ///< in the table of all
+  std::uint32_t first_extra; ///< index in the table of all extra records
 };
 
 class InstancedMeshes {
@@ -31,22 +31,23 @@ public:
   struct Instance {
     const Object* object;
     std::uint32_t mesh;
-    std::uint32_t first_number; ///< of its triangles
-    kernel::Aabb box;           ///< around it, in the world
+    std::uint32_t first_number; ///< number of its first triangle
+    kernel::Aabb box;           ///< bounds in the world
   };
 
-  /// Of the first `objects` objects of `scene`, which is valid and stays as it is as long as this lives.
-  /// None, unless copies of all of them would be so many triangles that rays had better take the way to each
-  /// mesh's space. `material_flags`: what objects have that consist of a material. Throws InputError if there
-  /// are too many triangles, or if coordinates leave what single precision can hold.
+  /// Finds the instances among the first `objects` objects of `scene`, which must be valid and must not
+  /// change while this object lives. There are none unless copies of all meshes would be so many triangles
+  /// that transforming rays to each mesh's space is cheaper. `material_flags` are the object flags of each
+  /// material. Throws InputError if there are too many triangles, or if coordinates exceed the range of
+  /// single precision.
   InstancedMeshes(const Scene& scene, std::size_t objects, const std::vector<std::uint32_t>& material_flags,
                   unsigned threads);
 
-  /// Whether an object of the scene is among them.
+  /// Returns whether an object of the scene is an instance.
   bool contains(std::size_t object) const {
     return object < instance_of_.size() && instance_of_[object] != kNoIndex;
   }
-  /// The same, of one of the scene's; null: none.
+  /// Returns the instance of an object of the scene; null if it is none.
   const Instance* find(const Object& object) const {
     const auto index = static_cast<std::size_t>(&object - objects_);
     return contains(index) ? &instances_[instance_of_[index]] : nullptr;
@@ -57,7 +58,7 @@ public:
   std::uint32_t extra_count() const { return extra_count_; }
   std::uint32_t node_count() const { return node_count_; }
 
-  /// Their number and the box around an instance, for the record of its object.
+  /// Returns the record of an instance's triangle numbers and its box.
   kernel::ExtraRecord extra_of(const Instance& instance, std::uint32_t table_offset) const;
   void write(const InstancedMeshTables& tables) const;
 
@@ -76,7 +77,7 @@ private:
   const Object* objects_;
   std::vector<SharedMesh> meshes_;
   std::vector<Instance> instances_;
-  std::vector<Index> instance_of_; ///< by object of the scene; kNoIndex: none
+  std::vector<Index> instance_of_; ///< by object of the scene; kNoIndex if it is no instance
   std::uint32_t object_count_ = 0, extra_count_ = 0, node_count_ = 0;
   std::uint32_t next_number_ = 1;
 };

@@ -1,5 +1,5 @@
-// Which record of an interior an object has. Rays tell objects apart by these records, so that an object
-// without an interior has a record as well: its own, behind those of the scene's interiors.
+// Indices of the interior records of objects. Rays tell objects apart by these records, so that an object
+// without an interior has a record of its own, behind those of the scene's interiors.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -13,15 +13,14 @@ inline Index own_interior(const Scene& scene, std::size_t object) {
   return static_cast<Index>(scene.interiors.size() + object);
 }
 
-/// Returns the record of a part of an object, by the interior that the part has itself: this one, or that of
-/// the whole object.
+/// Returns the index of the record of a part: `interior` if the part has one, else the record of the whole
+/// object.
 inline Index interior_or_own(Index interior, const Scene& scene, std::size_t whole) {
   if (interior != kNoIndex) return interior;
   const Index shared = scene.objects[whole].interior;
   return shared != kNoIndex ? shared : own_interior(scene, whole);
 }
 
-/// Returns how many records a scene has.
 std::size_t interior_records(const Scene& scene);
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// Which lights shine on which objects, as bits for the kernel.
+// The lights that illuminate each object, as bits for the kernel.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,15 +8,15 @@
 
 namespace celltrace {
 
-/// The sets of lights that objects are lit by: set 0 has all that are global, set i + 1 is light group i's.
-/// What is in all sets takes no words.
+/// The sets of lights that illuminate objects: set 0 has all global lights, set i + 1 has those of light
+/// group i. A light in all sets takes no words.
 class LightSets {
 public:
   explicit LightSets(const Scene& scene);
 
   std::uint32_t count() const { return count_; }
-  /// By light, the index of the first of its words, of which bit b of word w says whether set 32 w + b has
-  /// it; kNoIndex: all have.
+  /// Returns, by light, the index of its first word; kNoIndex if the light is in all sets. Bit b of a light's
+  /// word w says whether set 32 w + b has the light.
   const std::vector<Index>& first_words() const { return first_words_; }
   const std::vector<std::uint32_t>& words() const { return words_; }
 
@@ -26,7 +26,7 @@ private:
   std::vector<std::uint32_t> words_;
 };
 
-/// Throws InputError if there are too many groups, or one refers to a light that is not there.
+/// Throws InputError if there are too many groups, or if one refers to a light that does not exist.
 void validate_light_groups(const Scene& scene);
 
 } // namespace celltrace

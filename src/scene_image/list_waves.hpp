@@ -1,4 +1,5 @@
-// The waves and frequencies of lists, which the kernel does not know: their entries are blended beforehand.
+// Waves and frequencies of list patterns, which the kernel does not implement: the entries are blended
+// beforehand.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,22 +12,24 @@
 
 namespace celltrace {
 
-/// As many entries as any list has.
+/// Limit on entries of a list.
 constexpr std::size_t kMostListEntries = 6;
 
-/// Whether a pattern chooses an entry of its map by a number, as checker does.
+/// Returns whether a pattern chooses an entry of its map by an index, as checker does.
 bool is_list(const Pattern& pattern);
 
-/// Whether a pattern is a colour at every point, for which the entries of its map are what it is made of.
+/// Returns whether a pattern is a colour at every point, computed from the entries of its map.
 bool is_colour(const Pattern& pattern);
 
-/// Whether the numbers of a list become others, between which its entries are blended.
+/// Returns whether a list's wave or frequency turns its indices into other numbers, so that entries are
+/// blended.
 bool blends_list(const Pattern& pattern);
 
-/// What becomes of a number of a list. Frequency 1 is as good as none: then there is no phase either.
+/// Returns the number that an index of a list becomes. Frequency 1 counts as none, so that it has no phase
+/// either.
 double in_wave(const Pattern& pattern, std::size_t number);
 
-/// Whether blends of its entries are averages, which are maps.
+/// Returns whether blends of the map's entries have to be averages, which are maps.
 inline bool needs_averages(const PatternMap<Pigment>& map) {
   return std::any_of(map.entries.begin(), map.entries.end(),
                      [](const auto& entry) { return entry.value.map != nullptr; });
@@ -35,7 +38,7 @@ template <class T> bool needs_averages(const PatternMap<T>&) {
   return true;
 }
 
-/// `share` of b, and the rest of a: as a map of both,
+/// Returns a map that blends a and b: `share` is the weight of b.
 template <class T> T average(const T& a, const T& b, double share) {
   auto map = std::make_shared<PatternMap<T>>();
   map->is_average = true;
@@ -44,7 +47,7 @@ template <class T> T average(const T& a, const T& b, double share) {
   blend.map = std::move(map);
   return blend;
 }
-/// or where that is possible without one.
+/// Returns a blend of a and b, without a map if that is possible.
 template <class T> T blended(const T& a, const T& b, double share) {
   return average(a, b, share);
 }
@@ -55,7 +58,7 @@ template <> inline Pigment blended(const Pigment& a, const Pigment& b, double sh
           rest * a.transmit + share * b.transmit};
 }
 
-/// A list of blends without a wave.
+/// Returns a list of blended entries, without a wave.
 template <class T> std::shared_ptr<const PatternMap<T>> without_wave(const PatternMap<T>& map) {
   auto list = std::make_shared<PatternMap<T>>();
   list->pattern = map.pattern;

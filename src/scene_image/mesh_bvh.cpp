@@ -14,9 +14,9 @@ using namespace kernel;
 
 namespace {
 
-/// About what a packet tests in the time of a node.
+/// The largest leaf; a packet tests about this many triangles in the time of one node.
 constexpr std::uint32_t kMostInLeaf = 4;
-/// Places at which the SAH looks to split a range: of small ones, all.
+/// Limit on places at which the SAH tries to split a range; short ranges try all.
 constexpr std::uint32_t kMostPlaces = 64;
 
 constexpr float kBeyond = 3e38f;
@@ -50,15 +50,15 @@ private:
     return all;
   }
 
-  /// Triangles that so many levels have room for.
+  /// Returns how many triangles fit into `levels` levels.
   static std::uint64_t room_of(std::uint32_t levels) { return std::uint64_t{kMostInLeaf} << (2 * levels); }
 
-  /// `levels`: that it may have, itself included.
+  /// Adds a node of at most `levels` levels, itself included.
   std::uint32_t add_node(const TriangleRange& all, std::uint32_t levels) {
     BuildWatch::look_at(nodes_.size());
     std::array<TriangleRange, 4> children = {all};
     std::size_t count = 1;
-    // What the levels below have no room for is split first, then what costs most.
+    // Splits the range first that does not fit into the levels below, then the most expensive one.
     const std::uint64_t room = room_of(levels - 1);
     const auto urgency = [room](const TriangleRange& r) {
       const float cost = r.count() > kMostInLeaf ? half_area(r.box) * static_cast<float>(r.count()) : -1.0f;
@@ -89,8 +89,8 @@ private:
     return number;
   }
 
-  /// Leaves `left` a part of it, and returns the rest; neither has more than `most`, unless that is less than
-  /// half.
+  /// Splits `left`: keeps a part of it there and returns the rest. Neither has more than `most` triangles,
+  /// unless that is less than half.
   TriangleRange split(TriangleRange& left, std::uint64_t most) {
     const std::uint32_t count = left.count(), places = std::min(count, kMostPlaces);
     const auto place = [&](std::uint32_t i) {
@@ -126,8 +126,8 @@ private:
 
   std::span<const Aabb> bounds_;
   std::vector<NodeRecord> nodes_;
-  std::vector<TriangleRange> parts_; ///< of the range that is split
-  std::vector<Aabb> behind_;         ///< around each of them and those that follow
+  std::vector<TriangleRange> parts_; ///< parts of the range that is split
+  std::vector<Aabb> behind_;         ///< bounds of each part and all that follow
 };
 
 } // namespace

@@ -17,11 +17,11 @@ using namespace kernel;
 
 namespace {
 
-/// A grid has at most so many list entries a triangle; else it gets fewer cells.
+/// Limit on list entries per triangle; a grid that would have more gets fewer cells.
 constexpr std::uint64_t kMostEntriesPerTriangle = 16;
 
-/// A space whose third axis is along the mesh's inside vector, and in which the mesh lies between 0 and 1.
-/// `extent`: what that is in the mesh's own space.
+/// Returns the transformation to a space whose third axis is along the mesh's inside vector, and in which the
+/// mesh lies between 0 and 1. `extent` becomes the size of that cube in the mesh's own space.
 Transform unit_space(const Mesh& mesh, Vec3& extent) {
   const Vec3 magnitude = glm::abs(mesh.inside_vector);
   const Vec3 along = glm::normalize(mesh.inside_vector / std::max({magnitude.x, magnitude.y, magnitude.z}));
@@ -38,7 +38,7 @@ Transform unit_space(const Mesh& mesh, Vec3& extent) {
     }
   if (mesh.triangles.empty()) low = high = Vec3(0);
   extent = high - low;
-  // A mesh may be flat.
+  // Keeps the extent of a flat mesh above zero.
   const double largest = std::max({extent.x, extent.y, extent.z});
   extent = glm::max(extent, Vec3(largest > 0 ? largest * 1e-6 : 1));
   Transform transform;
@@ -50,7 +50,7 @@ Transform unit_space(const Mesh& mesh, Vec3& extent) {
   return transform;
 }
 
-/// About as many cells as triangles, and as square as may be.
+/// Returns a grid with about as many cells as triangles, which are as square as possible.
 MeshGridRecord make_grid(std::size_t triangles, const Vec3& extent) {
   const double density = std::sqrt(static_cast<double>(triangles) / (extent.x * extent.y));
   const auto side = [&](double length) {
@@ -61,12 +61,12 @@ MeshGridRecord make_grid(std::size_t triangles, const Vec3& extent) {
 }
 
 float slope(const Vec3f& from, const Vec3f& to) {
-  constexpr float kMost = 1e30f; // where it is that large, no point is in the rows between
+  constexpr float kMost = 1e30f; // a slope that large: no point lies in the rows between
   const float quotient = (to.x - from.x) / (to.y - from.y);
   return std::isnan(quotient) ? 0.0f : std::clamp(quotient, -kMost, kMost);
 }
 
-/// `corners`: column, row and height.
+/// Returns the record of a triangle; `corners` are column, row and height.
 MeshTriangleRecord make_triangle(Vec3f (&corners)[3]) {
   std::sort(corners, corners + 3, [](const Vec3f& a, const Vec3f& b) { return a.y < b.y; });
   const auto& [a, b, c] = corners;
@@ -91,7 +91,7 @@ MeshTriangleRecord make_triangle(Vec3f (&corners)[3]) {
   return r;
 }
 
-/// Cells that a triangle may be in; more by what rounding may move points on its edges.
+/// The cells that a triangle may be in, widened by the rounding of points on its edges.
 struct CellRange {
   std::uint32_t column[2], row[2]; ///< first and last
 
@@ -141,7 +141,7 @@ MeshInsides::Inside MeshInsides::add(const Mesh& mesh) {
       for (int i = 0; i < 3; ++i)
         corners[i] = Vec3f(to_grid.point(Vec3(mesh.vertices[triangle.vertex[i]])));
       const MeshTriangleRecord record = make_triangle(corners);
-      if (record.row[0] == record.row[2]) continue; // no point is under it
+      if (record.row[0] == record.row[2]) continue; // no point lies below it
       triangles_.push_back(record);
       entries += CellRange(record, grid).count();
     }
@@ -153,7 +153,7 @@ MeshInsides::Inside MeshInsides::add(const Mesh& mesh) {
   }
 }
 
-/// Appends the words of a grid, by counting, and says where they are.
+/// Appends the words of a grid by counting sort, and sets their place in the grid.
 void MeshInsides::add_lists(MeshGridRecord& grid, std::uint32_t first_triangle) {
   const std::uint32_t cells = grid.columns * grid.rows;
   const auto triangle_count = static_cast<std::uint32_t>(triangles_.size());

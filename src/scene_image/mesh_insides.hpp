@@ -1,5 +1,5 @@
-// The insides of meshes that CSG asks for: the triangles of each as the kernel wants them, in a grid across
-// the mesh's inside vector.
+// The insides of meshes that CSG tests: the triangles of each, laid out for the kernel, in a grid across the
+// mesh's inside vector.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,19 +11,20 @@
 
 namespace celltrace {
 
-/// Of all such meshes of a scene. Indices become offsets in the scene image.
+/// The insides of all such meshes of a scene. TableWriter turns indices into offsets in the scene image.
 class MeshInsides {
 public:
   struct Inside {
     std::uint32_t grid;      ///< index in grids()
-    Transform to_grid_space; ///< from the mesh's own
+    Transform to_grid_space; ///< from the mesh's own space
   };
-  /// That of a mesh which has one. Each mesh is taken once, and has to stay.
+  /// Returns the inside of a mesh that has one. Each mesh is added once, and must outlive this object.
   const Inside& of(const Mesh& mesh);
 
-  /// `starts` is an index in words().
+  /// Returns the grids; `starts` is an index in words().
   const std::vector<kernel::MeshGridRecord>& grids() const { return grids_; }
-  /// Of each grid, indices in words() of its lists, and behind them the lists, indices in triangles().
+  /// Returns for each grid the indices in words() of its lists, followed by the lists, which are indices in
+  /// triangles().
   const std::vector<std::uint32_t>& words() const { return words_; }
   const std::vector<kernel::MeshTriangleRecord>& triangles() const { return triangles_; }
 

@@ -29,14 +29,14 @@ using LaneAabb = bvh::LaneAabb<Simd>;
 
 constexpr std::uint32_t kInstancesPerThread = 64;
 
-/// Of an object that is a mesh, all of it.
+/// Returns the mesh of an object that consists of one; else null.
 const Mesh* mesh_of(const Object& object) {
   if (CsgParts::contains(object)) return nullptr;
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
   return mesh != nullptr ? mesh->get() : nullptr;
 }
 
-/// Whether a material of a mesh asks for the surface coordinates that the mesh has.
+/// Returns whether a material of a mesh reads surface coordinates that the mesh has.
 bool has_mapped_triangles(const Mesh& mesh, Index material, const std::vector<std::uint32_t>& flags) {
   const auto asks = [&](Index index) {
     return (flags[index == kNoIndex ? material : index] & object_flag::by_surface) != 0;
@@ -50,7 +50,7 @@ Vec3f in_world(const Transform& transform, const Vec3f& vertex) {
   return Vec3f(transform.point(Vec3(vertex)));
 }
 
-/// Objects of the image that a scene has if all its triangles have an area.
+/// Returns the number of objects in the image of a scene if all its triangles have an area.
 std::uint64_t objects_of(const Scene& scene, const InstancedMeshes& instanced) {
   std::uint64_t count = 0;
   for (const Object& object : scene.objects) {
@@ -112,7 +112,8 @@ void MeshInstances::find(const Scene& scene, const InstancedMeshes& instanced,
   }
 }
 
-/// Throws InputError if single precision does not hold the coordinates.
+/// Returns whether all triangles keep an area. Throws InputError if single precision cannot hold the
+/// coordinates.
 bool MeshInstances::keeps_areas(const Instance& instance) const {
   const MeshPrototype& prototype = prototypes_[instance.prototype];
   const Transform& transform = instance.object->transform;
@@ -130,8 +131,9 @@ bool MeshInstances::keeps_areas(const Instance& instance) const {
   return std::all_of(prototype.triangles().begin(), prototype.triangles().end(), has_area_in_world);
 }
 
-/// Groups are not cut where those of other instances reach into them. Of n AABBs that fill a space and do not
-/// overlap, a ray hits about the cube root of n, and fewer where they lie on surfaces.
+/// Returns whether groups of instances overlap too much, since groups are not split where others reach into
+/// them. A ray hits about the cube root of n AABBs that fill a space without overlap, and fewer if they lie
+/// on surfaces.
 bool MeshInstances::are_tangled() const {
   constexpr double kMost = 1.5;
   double areas = 0;
@@ -145,12 +147,12 @@ bool MeshInstances::are_tangled() const {
     }
     groups += prototypes_[instance.prototype].group_count();
   }
-  // Half the surface in both cases: by Crofton's formula their quotient is the number of AABBs that a ray
-  // through all of it hits.
+  // Both areas are half the surface: by Crofton's formula their quotient is the number of AABBs that a ray
+  // through the whole box hits.
   return groups != 0 && areas > kMost * std::cbrt(static_cast<double>(groups)) * all.area();
 }
 
-/// Counts what there is, and tells the instances their places.
+/// Counts the records, and gives the instances their places.
 void MeshInstances::number() {
   constexpr std::uint32_t kNone = 0xFFFFFFFF;
   is_instance_.resize(scene_.objects.size());
@@ -177,7 +179,7 @@ void MeshInstances::number() {
 }
 
 class MeshInstances::Writer {
-  /// Its last word is 0.
+  /// A vertex, padded with a word of 0.
   struct alignas(16) Vertex {
     float at[4];
   };
@@ -198,7 +200,7 @@ public:
         write(prototype.triangles()[i], to[i], around);
       const std::uint32_t number = instance.first_group + group;
       bvh::Reference box;
-      around.min.store(box.min); // over the words beside
+      around.min.store(box.min); // also writes the neighbouring words, which are set next
       around.max.store(box.max);
       tables_.groups[number] = {{box.min[0], box.min[1], box.min[2]},
                                 tables_.first_object + instance.first_object + begin,
@@ -240,7 +242,8 @@ private:
     to = head_;
     for (int corner = 0; corner < 3; ++corner) {
       const float(&at)[4] = vertices_[triangle.vertex[corner]].at;
-      std::memcpy(to.geometry + 3 * corner, at, sizeof at); // over the word behind, where the next one begins
+      std::memcpy(to.geometry + 3 * corner, at,
+                  sizeof at); // also writes the next word, where the next corner begins
       const auto lanes = Simd::F4::load(at);
       around.grow(lanes);
     }
@@ -253,7 +256,7 @@ private:
 
   void write_normals(const MeshPrototype::Triangle& triangle, ObjectRecord& to) {
     to.kind_and_flags |= object_flag::smooth;
-    RecordTables::change_sides(to, *object_); // back: its outside is where its normals point
+    RecordTables::change_sides(to, *object_); // back, as the outside is where its normals point
     to.extra = tables_.records.offset_of_extra(next_extra_);
     ExtraRecord record{};
     for (int corner = 0; corner < 3; ++corner)
@@ -267,8 +270,8 @@ private:
   std::vector<Vertex> vertices_; ///< in the world
   std::vector<Vec3f> normals_;   ///< in the world
   std::uint32_t next_extra_ = 0;
-  Index material_ = kNoIndex; ///< as the triangles have it
-  ObjectRecord head_;         ///< of a triangle with that material
+  Index material_ = kNoIndex; ///< as the triangles name it
+  ObjectRecord head_;         ///< record of a triangle with that material, without geometry
 };
 
 void MeshInstances::append_owners(std::vector<Index>& owners) const {

@@ -1,4 +1,4 @@
-// Objects that are copies of one mesh: what depends on the mesh alone is worked out once.
+// Objects that are copies of one mesh: values that depend on the mesh alone are computed once.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -13,46 +13,46 @@
 
 namespace celltrace {
 
-/// Where the records of instances go, and where they lie in the tables.
+/// The tables that the records of instances go to, and the instances' places in them.
 struct InstanceTables {
   RecordTables records;
   kernel::ObjectRecord* objects; ///< of instances
-  std::uint32_t first_object;    ///< in the table of all
+  std::uint32_t first_object;    ///< index in the table of all objects
   std::uint32_t first_normals;
   kernel::GroupRecord* groups; ///< of instances
-  std::uint32_t* prototypes;   ///< a word per group of instances
-  std::uint32_t first_group;   ///< in the table of all
+  std::uint32_t* prototypes;   ///< one word per group of instances
+  std::uint32_t first_group;   ///< index in the table of all groups
 };
 
 class MeshInstances {
 public:
-  /// Those of `scene`, which is valid and stays as it is as long as this lives, that are not among
-  /// `instanced`: meshes that are worth while to share, placed at least twice, such that each triangle with
-  /// an area keeps one, and whose materials do not ask for surface coordinates that the mesh has. None in a
-  /// scene of few triangles. `material_flags`: what objects have that consist of a material. Throws
-  /// InputError if an object's coordinates leave what single precision can hold, or if there are too many
-  /// objects.
+  /// Finds the instances in `scene`, which must be valid and must not change while this object lives; objects
+  /// in `instanced` are not among them. Instances are meshes worth sharing that are placed at least twice,
+  /// whose triangles with an area keep it in each place, and whose materials do not read surface coordinates
+  /// that the mesh has. A scene of few triangles has none. `material_flags` are the object flags of each
+  /// material. Throws InputError if an object's coordinates exceed the range of single precision, or if there
+  /// are too many objects.
   MeshInstances(const Scene& scene, const InstancedMeshes& instanced,
                 const std::vector<std::uint32_t>& material_flags, unsigned threads);
 
-  /// Whether an object of the scene is among them.
+  /// Returns whether an object of the scene is an instance.
   bool contains(std::size_t object) const { return !is_instance_.empty() && is_instance_[object]; }
-  /// What all of them have, but for the box around.
+  /// Returns the census of all instances, without their bounds.
   const ObjectCensus& census() const { return census_; }
   std::uint32_t group_count() const { return group_count_; }
   std::uint32_t longest_group() const { return longest_group_; }
 
-  /// Appends the object of the scene that each of their records is of, in the order of write().
+  /// Appends, by record in the order of write(), the index of the scene's object that the record belongs to.
   void append_owners(std::vector<Index>& owners) const;
 
-  /// Makes the records of all of them, instance by instance in the order of the scene, and group by group.
+  /// Writes the records of all instances: instances in the order of the scene, and each group by group.
   void write(const InstanceTables& tables, unsigned threads) const;
 
 private:
   struct Instance {
     const Object* object;
     std::uint32_t prototype;
-    bool is_sound;                                          ///< keeps_areas()
+    bool is_sound;                                          ///< result of keeps_areas()
     std::uint32_t first_object, first_normals, first_group; ///< among those of all instances
   };
   class Writer;
@@ -66,8 +66,8 @@ private:
   const Scene& scene_;
   std::vector<MeshPrototype> prototypes_;
   std::vector<Instance> instances_;
-  std::vector<std::uint32_t> first_group_of_; ///< by prototype: of its first instance
-  std::vector<bool> is_instance_;             ///< by object
+  std::vector<std::uint32_t> first_group_of_; ///< by prototype: the first group of its first instance
+  std::vector<bool> is_instance_;             ///< by object of the scene
   ObjectCensus census_;
   std::uint32_t group_count_ = 0;
   std::uint32_t longest_group_ = 0;

@@ -22,12 +22,13 @@ namespace {
 using Simd = HostSimd<BaselineArch>;
 using Range = bvh::Range<Simd>;
 
-/// Below it, to place a group of each instance in the BVH takes longer than to build that anew.
+/// The least size of a mesh that is shared; below it, placing each instance's groups in the BVH takes longer
+/// than building the BVH anew.
 constexpr std::size_t kFewestTriangles = 32;
 constexpr std::uint32_t kTrianglesPerThread = 8192;
 constexpr std::uint32_t kTrianglesPerRun = 128;
 static_assert(kTrianglesPerRun <= kMaxCopiedObjects);
-/// About a leaf of the BVH: within it, order does not matter.
+/// About the size of a leaf of the BVH; the order within a leaf does not matter.
 constexpr std::uint32_t kTrianglesPerLeaf = 4;
 
 Reference reference_to(std::uint32_t number, const Mesh& mesh) {
@@ -41,7 +42,7 @@ Reference reference_to(std::uint32_t number, const Mesh& mesh) {
   return reference;
 }
 
-/// Orders references from the whole down to its parts.
+/// Orders references by dividing the whole range down to small parts.
 class Divider {
 public:
   explicit Divider(std::vector<Reference>& references) : references_(references), spare_(references.size()) {}
@@ -68,7 +69,7 @@ private:
   std::size_t looks_ = 0;
 };
 
-/// The triangles with an area in the order of their places in the mesh.
+/// Returns the triangles with an area, in the order of the mesh.
 std::vector<Reference> references_to_triangles(const Mesh& mesh) {
   std::vector<Reference> references;
   references.reserve(mesh.triangles.size());
@@ -81,7 +82,7 @@ std::vector<Reference> references_to_triangles(const Mesh& mesh) {
   return references;
 }
 
-/// A reference to each group of references that lie together along a curve, after they are ordered so.
+/// Orders references along a curve, and returns one reference to each group that the curve makes.
 std::vector<Reference> order_coarsely(std::vector<Reference>& references, unsigned threads) {
   const auto count = static_cast<std::uint32_t>(references.size());
   std::vector<PlacedObject> placed(count), spare(count);
@@ -99,7 +100,7 @@ std::vector<Reference> order_coarsely(std::vector<Reference>& references, unsign
   std::vector<Reference> groups(begins.size() - 1);
   for (std::size_t group = 0; group < groups.size(); ++group) {
     const Range range = bvh::range_of<Simd>(references.data(), begins[group], begins[group + 1]);
-    range.box.min.store(groups[group].min); // over the words beside
+    range.box.min.store(groups[group].min); // also writes the neighbouring words
     range.box.max.store(groups[group].max);
     groups[group].value = range.begin;
     groups[group].weight = range.count();
@@ -107,8 +108,8 @@ std::vector<Reference> order_coarsely(std::vector<Reference>& references, unsign
   return groups;
 }
 
-/// Orders references so that few groups of neighbours together are neighbours. Returns where the parts begin
-/// that are to be divided further, and the number of references at last.
+/// Orders references so that any few consecutive groups are neighbours in space. Returns where the parts
+/// begin that are to be divided further, followed by the number of references.
 std::vector<std::uint32_t> order_groups(std::vector<Reference>& references, unsigned threads) {
   const auto count = static_cast<std::uint32_t>(references.size());
   if (count < kMinObjectsToOrder) return {0, count};
@@ -133,13 +134,13 @@ std::vector<std::uint32_t> order_groups(std::vector<Reference>& references, unsi
 Aabb bounds_of_references(const std::vector<Reference>& references, std::uint32_t begin, std::uint32_t end) {
   const Range range = bvh::range_of<Simd>(references.data(), begin, end);
   Reference around;
-  range.box.min.store(around.min); // over the words beside
+  range.box.min.store(around.min); // also writes the neighbouring words
   range.box.max.store(around.max);
   return {{around.min[0], around.min[1], around.min[2]}, {around.max[0], around.max[1], around.max[2]}};
 }
 
-/// Orders references down to the leaves. Returns where the groups begin, and the number of references at
-/// last.
+/// Orders references down to the leaves. Returns where the groups begin, followed by the number of
+/// references.
 std::vector<std::uint32_t> order_by_run(std::vector<Reference>& references, unsigned threads) {
   const std::vector<std::uint32_t> parts = order_groups(references, threads);
   std::vector<std::uint32_t> groups;
@@ -158,10 +159,11 @@ std::vector<std::uint32_t> order_by_run(std::vector<Reference>& references, unsi
   return groups;
 }
 
-/// Numbers points in the order in which they are asked for, and equal ones alike.
+/// Numbers points in the order in which they are requested; equal points get one number.
 class PointTable {
 public:
-  /// Of a mesh with so many triangles. Where that has fewer points, they are shared already.
+  /// Takes the points of a mesh with this many triangles. If it has fewer points than triangles, they are
+  /// shared already.
   PointTable(const std::vector<Vec3f>& points, std::size_t triangles)
       : points_(points), first_like_(points.size()), number_(points.size(), kNoIndex) {
     std::iota(first_like_.begin(), first_like_.end(), Index{0});
@@ -193,8 +195,8 @@ private:
   }
 
   const std::vector<Vec3f>& points_;
-  std::vector<Index> first_like_; ///< by point, one that is equal
-  std::vector<Index> number_;     ///< by such a point
+  std::vector<Index> first_like_; ///< by point: the first one that is equal
+  std::vector<Index> number_;     ///< by such first point
   std::vector<Vec3f> used_;
 };
 
@@ -254,7 +256,7 @@ void MeshPrototype::measure() {
 
 bool MeshPrototype::surely_keeps_areas(const Transform& transform) const {
   constexpr double kMost = 1e17;
-  double farthest = 0; // coordinate of a corner of the box around all
+  double farthest = 0; // greatest coordinate of a corner of the box around all
   for (unsigned corner = 0; corner < 8; ++corner) {
     const auto of = [corner, this](int axis) { return (corner >> axis & 1) != 0 ? max_[axis] : min_[axis]; };
     const Vec3 at = transform.point(Vec3(of(0), of(1), of(2)));
@@ -263,13 +265,13 @@ bool MeshPrototype::surely_keeps_areas(const Transform& transform) const {
       farthest = std::max(farthest, std::abs(at[axis]));
     }
   }
-  // The product of the factors by which it stretches is the determinant, and the sum of the squares of the
-  // largest two at most this: no direction shrinks more than by the quotient.
+  // The product of the factors along the three axes of stretching is the determinant, and the sum of the
+  // squares of the largest two is at most `squares`: no direction shrinks by more than the quotient.
   double squares = 0;
   for (int row = 0; row < 3; ++row)
     squares += glm::dot(transform.rows[row], transform.rows[row]);
   const double least_factor = std::abs(transform.determinant()) / squares;
-  // Rounding moves a corner by a ten millionth of that.
+  // Rounding moves a corner by a ten millionth of `farthest`.
   return least_height_ * least_factor > 1e-6 * farthest + 1e-35;
 }
 

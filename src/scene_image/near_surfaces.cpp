@@ -28,10 +28,10 @@ public:
     if (is_translucent(object)) boxes_.push_back({extent_of(object, around), is_flat(object)});
   }
 
-  /// Whether any is thin, or near another one.
+  /// Returns whether any object is thin, or close to another one.
   bool any_near() {
     constexpr double kNear = kernel::kShadowEpsilon;
-    constexpr std::size_t kMostBoxes = 1 << 18, kMostPairs = 1 << 22; // beyond that nobody waits to know
+    constexpr std::size_t kMostBoxes = 1 << 18, kMostPairs = 1 << 22; // more would take too long to find out
     if (boxes_.size() > kMostBoxes) return true;
     std::sort(boxes_.begin(), boxes_.end(),
               [](const Box& a, const Box& b) { return a.extent.min.x < b.extent.min.x; });
@@ -54,7 +54,7 @@ public:
 private:
   struct Box {
     Extent extent;
-    bool is_flat; ///< one surface, or a mesh's
+    bool is_flat; ///< one surface, or those of a mesh
   };
 
   static bool is_flat(const Object& object) {

@@ -5,7 +5,7 @@
 
 namespace celltrace {
 
-/// An object is in the image as records of its own, as a copy of a mesh, or as an instance of one.
+/// The form in which the image holds an object: records of its own, a copy of a mesh, or an instance of one.
 enum class ObjectForm : std::uint8_t { itself, copy, instance };
 
 } // namespace celltrace

@@ -20,7 +20,7 @@ using Simd = HostSimd<BaselineArch>;
 
 constexpr std::uint32_t kObjectsPerCell = 4;
 constexpr std::uint32_t kMaxCellBits = 18;
-/// Grids within cells of grids; objects that are still together then stay so.
+/// The deepest nesting of grids within cells; objects that are still together there stay together.
 constexpr int kMaxLevels = 24;
 
 struct Bounds {
@@ -41,17 +41,17 @@ struct Bounds {
 Bounds bounds_of(const PlacedObject* objects, std::uint32_t begin, std::uint32_t end) {
   auto lanes = bvh::LaneAabb<Simd>::empty();
   for (std::uint32_t i = begin; i < end; ++i)
-    lanes.grow(Simd::F4::load(objects[i].centre)); // and the word behind
+    lanes.grow(Simd::F4::load(objects[i].centre)); // reads and ignores the word after it
   bvh::Reference box;
-  lanes.min.store(box.min); // over the words beside
+  lanes.min.store(box.min); // also writes the neighbouring words
   lanes.max.store(box.max);
   Bounds bounds;
   bounds.grow(box.min, box.max);
   return bounds;
 }
 
-/// Cells about as long as they are wide, numbered along a Morton curve: each bit of a number halves the cells
-/// along the axis where they are longest.
+/// A grid with nearly cubic cells, numbered along a Morton curve: each bit of a number halves the cells along
+/// the axis in which they are longest.
 class CurveGrid {
 public:
   CurveGrid(const Bounds& bounds, std::uint32_t objects) {
@@ -93,7 +93,7 @@ private:
   static constexpr std::uint32_t kHalfBits = kMaxCellBits / 2;
   static constexpr std::uint32_t kHalf = 1u << kHalfBits;
 
-  /// Tables from the low and the high half of a coordinate to where its bits lie in the number of a cell.
+  /// Fills tables that spread the low and the high half of a coordinate to its bits in the number of a cell.
   void spread(const int (&axis_of)[kMaxCellBits], std::uint32_t (&left)[3]) {
     std::uint32_t place[3][kMaxCellBits];
     const std::uint32_t used[3] = {left[0], left[1], left[2]};
@@ -121,7 +121,6 @@ public:
   Orderer(PlacedObject* objects, PlacedObject* spare, std::uint32_t* cells)
       : objects_(objects), spare_(spare), cells_(cells) {}
 
-  /// Orders all of them; in threads.
   std::vector<std::uint32_t> order(std::uint32_t count, unsigned threads) {
     std::vector<Bounds> bounds(threads);
     for_each_part(threads, [&](unsigned part) {
@@ -143,7 +142,7 @@ public:
       send(next[part], mine.begin, mine.end);
     });
 
-    // The ordered objects of each cell go back to `objects_`.
+    // Copies the ordered objects of each cell back to `objects_`.
     std::vector<std::vector<std::uint32_t>> groups(threads);
     for_each_part(threads, [&](unsigned part) {
       const HostPart mine(count, part, threads);
@@ -172,8 +171,8 @@ private:
     return counts;
   }
 
-  /// Turns counts, of one part of the objects each, into where the first object of a cell goes. Returns where
-  /// the cells begin that have objects, and the end.
+  /// Turns counts, one array for each part of the objects, into the place of each cell's first object.
+  /// Returns where the nonempty cells begin, followed by the end.
   static std::vector<std::uint32_t> add_up(std::vector<std::vector<std::uint32_t>>& counts,
                                            std::uint32_t place) {
     std::vector<std::uint32_t> begins;
@@ -197,13 +196,13 @@ private:
     }
   }
 
-  /// Divides a cell with many objects.
+  /// Divides a cell if it has many objects.
   void finish(std::uint32_t begin, std::uint32_t end, int level, std::vector<std::uint32_t>& groups) {
     if (end - begin <= kMaxRun || level == kMaxLevels || !divide(begin, end, level, groups))
       groups.push_back(begin);
   }
 
-  /// False if all objects lie in one point.
+  /// Divides a cell. Returns false if all objects lie at one point.
   bool divide(std::uint32_t begin, std::uint32_t end, int level, std::vector<std::uint32_t>& groups) {
     const CurveGrid grid(bounds_of(objects_, begin, end), end - begin);
     std::vector<std::vector<std::uint32_t>> next = {count_cells(grid, begin, end)};

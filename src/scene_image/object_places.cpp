@@ -11,7 +11,7 @@ namespace celltrace {
 
 namespace {
 
-/// Writes those of the scene's objects that can be hit to `to`; in parts, which are brought together.
+/// Writes the scene's objects that can be hit to `to`; threads place parts, which are then moved together.
 ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned threads) {
   std::vector<ObjectCensus> census(threads);
   for_each_part(threads, [&](unsigned part) {
@@ -26,8 +26,8 @@ ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned t
   return census[0];
 }
 
-/// Does so where objects have places already: `count(begin, end)` is asked of parts. Nothing if one that can
-/// be hit has none.
+/// Counts objects that have places already: calls `count(begin, end)` for parts in threads. Returns nothing
+/// if an object that can be hit has no place.
 template <class Count>
 std::optional<ObjectCensus> count_in_parts(std::uint32_t objects, unsigned threads, Count count) {
   std::vector<std::optional<ObjectCensus>> census(threads);

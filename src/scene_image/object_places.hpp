@@ -1,4 +1,4 @@
-// Where the objects that are no instances lie in a scene image: in an order of their own, or where they were.
+// Places in a scene image of the objects that are no instances: in a new order, or where they were before.
 #pragma once
 
 #include "memory/aligned_block.hpp"
@@ -15,7 +15,6 @@
 
 namespace celltrace {
 
-/// Work memory for ordering objects.
 struct OrderMemory {
   PlacedObject* objects;
   PlacedObject* spare;
@@ -24,21 +23,23 @@ struct OrderMemory {
   OrderMemory(AlignedBlock& block, std::uint32_t count);
 };
 
-/// The places of an image's objects, as its tables are written with them.
+/// The places of an image's objects, from which its tables are written.
 struct ObjectPlaces {
-  ObjectCensus census;                                   ///< of the objects that can be hit
-  std::span<const std::uint32_t> groups;                 ///< of these objects
-  std::optional<std::span<const PlacedObject>> in_order; ///< these objects as they lie in the image
-  std::uint32_t* cells = nullptr;                        ///< with `in_order`: work memory, a word per object
+  ObjectCensus census;                   ///< of the objects that can be hit
+  std::span<const std::uint32_t> groups; ///< of the objects that can be hit
+  std::optional<std::span<const PlacedObject>>
+      in_order;                             ///< the objects that can be hit, in the order of the image
+  std::uint32_t* cells = nullptr;           ///< with `in_order`: work memory, one word per object
   std::span<const std::uint32_t> by_object; ///< without `in_order`: the place of each object, or kNoPlace
-  bool are_known = false;                   ///< the image's objects had these places before
+  bool are_known = false;                   ///< the objects were at these places before
   bool are_written = false;                 ///< the objects' records are written already
 };
 
-/// Places objects in an order along a curve, or in the scene's if they are few.
+/// Places objects in an order along a curve, or in the order of the scene if there are few.
 class NewPlaces {
 public:
-  /// `work` stays as it is as long as this lives. `copies`: there are copies of meshes besides.
+  /// Places the objects. `work` must not change while this object lives. `copies`: the image has copies of
+  /// meshes, too.
   NewPlaces(const SceneObjects& objects, bool copies, AlignedBlock& work, unsigned threads);
 
   ObjectPlaces places() const;
@@ -53,15 +54,15 @@ private:
   std::vector<std::uint32_t> groups_;
 };
 
-/// Returns the census of objects that have places already, `places` by object; nothing if one that can be hit
-/// has none.
+/// Returns the census of objects whose places by object are known, `places`; nothing if an object that can be
+/// hit has no place.
 std::optional<ObjectCensus> count_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
                                          unsigned threads);
-/// Does so and writes their records, which are those of plain triangles.
+/// Counts the objects as count_placed() does, and writes their records, which must be those of plain
+/// triangles.
 std::optional<ObjectCensus> send_placed(TableWriter& writer, const SceneObjects& objects,
                                         std::span<const std::uint32_t> places, unsigned threads);
-/// Returns the objects that have places already, of which there are `placed`, as they lie in the image, but
-/// without their centres.
+/// Returns the objects that have a place, `placed` of them, in the order of the image, without their centres.
 std::span<const PlacedObject> in_order_of(std::span<const std::uint32_t> places, std::uint32_t placed,
                                           const OrderMemory& memory);
 

@@ -1,4 +1,4 @@
-// What all have in common that make the records of objects.
+// Helpers shared by the code that writes ObjectRecords.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -16,23 +16,23 @@
 
 namespace celltrace {
 
-/// What there is in a range of objects.
+/// The contents of a range of objects.
 struct ObjectCensus {
-  std::uint32_t objects = 0;             ///< that can be hit
-  std::uint32_t extras = 0, blended = 0; ///< of them, those with such records
+  std::uint32_t objects = 0;             ///< number of objects that can be hit
+  std::uint32_t extras = 0, blended = 0; ///< number of these that have such a record
   kernel::Aabb around = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
   static constexpr float kFar = 3e38f;
   void add(const ObjectCensus& other);
 };
 
-/// Whether a material with these flags looks the same from both sides and asks nothing of surfaces but
-/// points.
+/// Returns whether a material with these flags looks the same from both sides and needs nothing but the point
+/// on a surface.
 inline bool is_of_points(std::uint32_t material_flags) {
   using namespace kernel;
   return (material_flags & (object_flag::two_sided | object_flag::by_surface)) == 0;
 }
-/// Whether it lets no light through either.
+/// Returns whether a material is one of is_of_points() and opaque.
 inline bool is_plain(std::uint32_t material_flags) {
   return (material_flags & kernel::object_flag::opaque) != 0 && is_of_points(material_flags);
 }
@@ -41,7 +41,7 @@ inline std::uint32_t offset_of_interior(std::uint32_t table_offset, Index interi
   return table_offset + interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
 }
 
-/// Where records go that objects refer to, and where the tables lie in the image.
+/// The tables that ObjectRecords refer to, and the tables' offsets in the image.
 struct RecordTables {
   const Scene& scene;
   std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
@@ -53,19 +53,21 @@ struct RecordTables {
   std::uint32_t offset_of_material(Index index) const {
     return material_offset + index * static_cast<std::uint32_t>(sizeof(kernel::MaterialRecord));
   }
-  /// For objects of the scene, and for parts of CSGs, whose interior is known.
+  /// Returns the offset of the interior of an object of the scene, or of a part of a CSG whose interior is
+  /// known.
   std::uint32_t interior_of(const Object& object) const {
     if (object.interior != kNoIndex) return offset_of_interior(interior_offset, object.interior);
     const auto index = static_cast<std::size_t>(&object - scene.objects.data());
     return offset_of_interior(interior_offset, own_interior(scene, index));
   }
-  /// Not blended.
+  /// Sets the material of a record; it must be one that is not blended.
   void set_material(kernel::ObjectRecord& record, Index material) const {
     const std::uint32_t flags = material_flags[material];
     record.material = offset_of_material(material) | (flags & kernel::material_word::flags_mask);
     record.kind_and_flags |= flags & ~kernel::material_word::flags_mask;
   }
-  /// Of a flat triangle of a mesh: its normal points to its inside, unless `object` is a mirror image.
+  /// Makes the normal of a mesh's flat triangle point to the mesh's inside, unless `object` is a mirror
+  /// image.
   static void change_sides(kernel::ObjectRecord& record, const Object& object) {
     if ((record.kind_and_flags & kernel::object_flag::two_sided) != 0 && object.transform.determinant() > 0)
       record.kind_and_flags ^= kernel::object_flag::inverse;
@@ -75,18 +77,20 @@ struct RecordTables {
   }
 };
 
-/// The number of the set of lights that shine on an object: 0 of all that are global, then those of groups.
+/// Returns the number of the set of lights that shine on an object: 0 for all global lights, then the light
+/// groups'.
 inline std::uint32_t light_set_of(const Object& object) {
   return object.light_group == kNoIndex ? 0 : object.light_group + 1;
 }
 
-/// Whether the material for its inside is seen where its normals point. POV-Ray turns an inverse quadric
-/// round twice, its coefficients and its normals: that is as if it were not inverse, here alone.
+/// Returns whether the material for an object's inside is seen where its normals point. POV-Ray inverts an
+/// inverse quadric twice, in its coefficients and in its normals, so that here alone it counts as not
+/// inverse.
 inline bool is_seen_inverse(const Object& object) {
   return object.inverse && !std::holds_alternative<Quadric>(object.shape);
 }
 
-/// A record without a material, without extras and without geometry.
+/// Returns a record without a material, extras and geometry.
 inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
                                          const RecordTables& tables) {
   kernel::ObjectRecord r{};
@@ -101,14 +105,15 @@ inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kin
   return r;
 }
 
-/// Makes the record one that no ray sees, at a point: it keeps its place in the image for the day that it is
-/// shown.
+/// Turns the record into a point that no ray sees, so that it keeps its place in the image until the object
+/// is shown again.
 void hide(kernel::ObjectRecord& record, const Vec3f& at);
 
-/// Coordinates whose squares single precision holds are less, in either direction.
+/// The bound of the absolute values of coordinates whose squares single precision can hold.
 inline constexpr float kMostCoordinate = 1e18f;
 bool has_size(const kernel::Aabb& box);
-/// Throws InputError, naming the object by its index in the scene, unless its coordinates are all less.
+/// Throws InputError, naming the object by its index in the scene, unless all coordinates are within
+/// kMostCoordinate.
 void check_size(const kernel::Aabb& box, std::size_t object);
 
 } // namespace celltrace

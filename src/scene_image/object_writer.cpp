@@ -1,4 +1,4 @@
-// Counts the objects of a scene, places them and makes their records.
+// Counts the objects of a scene, places them and writes their records.
 #include "celltrace/spe/simd_host.hpp"
 #include "geometry/triangles.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
@@ -17,7 +17,7 @@ namespace {
 using Simd = HostSimd<BaselineArch>;
 using LaneAabb = bvh::LaneAabb<Simd>;
 
-/// Objects whose records are on their way while one is written, for they lie anywhere.
+/// The number of objects that are prefetched while one is written, since objects lie scattered in memory.
 constexpr std::uint32_t kAhead = 16;
 
 Simd::F4 lanes_of(const Vec3f& vertex) {
@@ -31,7 +31,7 @@ LaneAabb lanes_of(const Aabb& box) {
 
 Aabb box_of(const LaneAabb& lanes) {
   bvh::Reference around;
-  lanes.min.store(around.min); // over the words beside
+  lanes.min.store(around.min); // also writes the neighbouring words
   lanes.max.store(around.max);
   return {{around.min[0], around.min[1], around.min[2]}, {around.max[0], around.max[1], around.max[2]}};
 }
@@ -43,7 +43,7 @@ LaneAabb box_around(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return box;
 }
 
-/// Leaves what is within `bounds` too; false if that is nothing.
+/// Cuts a box to what is within `bounds`; returns false if nothing is left.
 bool limit(LaneAabb& box, const Aabb& bounds) {
   const LaneAabb within = lanes_of(bounds);
   box.min = Simd::max(box.min, within.min);
@@ -51,7 +51,7 @@ bool limit(LaneAabb& box, const Aabb& bounds) {
   return (not_above_bits(box.min, box.max) & 7) == 7;
 }
 
-/// Whether check_size() surely accepts it.
+/// Returns whether check_size() certainly accepts a box.
 bool has_size(const LaneAabb& box) {
   constexpr float kSmall = 0.99e18f;
   return (not_above_bits(Simd::F4::splat(-kSmall), box.min) &
@@ -100,7 +100,7 @@ bool SceneObjects::is_blended(const Piece& piece, const Mesh::Triangle& triangle
          material(triangle.material[0]) != material(triangle.material[2]);
 }
 
-/// Whether its record has surface coordinates.
+/// Returns whether a triangle's record has surface coordinates.
 bool SceneObjects::is_mapped(const Piece& piece, const Mesh::Triangle& triangle) const {
   if (piece.mesh->coordinates.empty()) return false;
   return std::any_of(std::begin(triangle.material), std::end(triangle.material), [&](Index index) {
@@ -111,7 +111,7 @@ bool SceneObjects::is_mapped(const Piece& piece, const Mesh::Triangle& triangle)
 
 ObjectCensus SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const {
   return visit_boxes(begin, end, [&](std::uint32_t number, const LaneAabb& box) {
-    box.centre().store(to->centre); // over the word behind
+    box.centre().store(to->centre); // also writes the word after it
     to++->source = number;
   });
 }
@@ -227,7 +227,7 @@ public:
     if (piece.object->is_hidden) hide(r, piece.vertices[piece.mesh->triangles[number].vertex[0]]);
   }
 
-  /// The same for a triangle that has records in no other table.
+  /// Writes the record of a triangle that needs no record in another table.
   void lone_triangle(const Piece& piece, std::uint32_t number, ObjectRecord& r) {
     const Mesh::Triangle& triangle = piece.mesh->triangles[number];
     write_lone_triangle(piece, triangle, r);
@@ -235,7 +235,8 @@ public:
   }
 
 private:
-  /// As if it were not hidden; likewise below.
+  /// Returns the record of a shape, ignoring is_hidden, which the caller applies. The functions below do the
+  /// same.
   ObjectRecord record_of(const Placed& placed, const PlacedShape& shape) {
     const Object& object = *placed.object;
     ObjectRecord r = start_record(object, shape.kind_and_flags, tables_);
@@ -273,7 +274,7 @@ private:
     ExtraRecord record{};
     if (smooth) {
       r.kind_and_flags |= object_flag::smooth;
-      RecordTables::change_sides(r, *piece.object); // back: its outside is where its normals point
+      RecordTables::change_sides(r, *piece.object); // back, as the outside is where its normals point
       for (int v = 0; v < 3; ++v)
         for (int i = 0; i < 3; ++i)
           record.value[v * 3 + i] = piece.normals[triangle.normal[v]][i];
@@ -329,7 +330,7 @@ private:
     tables_.extras[extras_++] = extra;
   }
 
-  /// What triangles of one material have in common.
+  /// Prepares the fields that all triangles of one material share.
   void start(const Object& object, Index material) {
     object_ = &object;
     material_ = material;
@@ -349,7 +350,7 @@ private:
       all &= tables_.material_flags[material];
       any |= tables_.material_flags[material];
     }
-    // From inside it looks as its first material says.
+    // The inside of the triangle looks as its first material says.
     if ((tables_.material_flags[first] & object_flag::two_sided) == 0) any &= ~object_flag::two_sided;
     r.kind_and_flags &= ~object_flag::opaque;
     r.kind_and_flags |= object_flag::blended | (all & object_flag::opaque) |

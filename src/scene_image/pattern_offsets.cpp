@@ -15,16 +15,17 @@ namespace celltrace {
 
 namespace {
 
-/// Offsets below this stay as they are.
+/// Offsets below this, in units, stay as they are.
 constexpr double kNear = 4096;
-/// Noise and what else is in its unit cubes repeat after so many.
+/// The period of noise, and of other functions of its unit cubes, in units.
 constexpr double kOfNoise = 4096;
-/// As in POV-Ray, values repeat after this.
+/// The period of waves, as in POV-Ray.
 constexpr double kOfWave = 1.00001;
-/// Shifts by any length leave it as it is.
+/// The period of a function that any shift leaves unchanged.
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-/// By axis, shifts by multiples of what a pattern or a step has the same results after; 0: by none.
+/// By axis, the period after which a pattern or a step has the same results: all multiples of it are allowed
+/// as shifts; 0 allows none.
 using Periods = Vec3;
 
 constexpr double kFixed = 0;
@@ -33,14 +34,14 @@ bool is_still(const Turbulence& turbulence) {
   return turbulence.amount == Vec3(0);
 }
 
-/// Returns the periods of turbulence. Its octaves have one in common only if those of the finer ones divide
-/// the first one's.
+/// Returns the periods of turbulence. Its octaves have a common period only if the first one's is a multiple
+/// of the finer ones' periods.
 Periods of(const Turbulence& turbulence) {
   if (is_still(turbulence)) return Periods(kAny);
   return Periods(turbulence.lambda == std::floor(turbulence.lambda) ? kOfNoise : kFixed);
 }
 
-/// What is a multiple of both.
+/// Returns a common multiple of two periods.
 double common(double a, double b) {
   if (a == kFixed || b == kFixed) return kFixed;
   if (a == kAny || b == kAny) return std::min(a, b);
@@ -51,15 +52,15 @@ Periods common(const Periods& a, const Periods& b) {
   return {common(a.x, b.x), common(a.y, b.y), common(a.z, b.z)};
 }
 
-// Of each kind that has some.
+// The periods of each kind of pattern that has some.
 
 constexpr double kRootOfThree = std::numbers::sqrt3;
 
 struct PeriodsOfKind {
   const Pattern& pattern;
-  const Vec3& at; ///< where it is asked, about
+  const Vec3& at; ///< about where the pattern is evaluated
 
-  /// Of what becomes a wave without having been cut to one unit.
+  /// Returns the period of a pattern that becomes a wave without being cut to one unit.
   double of_wave() const { return pattern.frequency != 0 ? std::abs(kOfWave / pattern.frequency) : kFixed; }
 
   Periods operator()(const pattern::Checker&) const { return Periods(2); }
@@ -92,7 +93,7 @@ struct PeriodsOfKind {
   }
   Periods operator()(const pattern::Planar&) const { return {kAny, kFixed, kAny}; }
   Periods operator()(const pattern::Cylindrical&) const { return {kFixed, kAny, kFixed}; }
-  /// Above 1 it is cut to one unit, below 0 only the wave is.
+  /// Values above 1 are cut to one unit, while below 0 only the wave is.
   Periods operator()(const pattern::Gradient& gradient) const {
     const Vec3 along = glm::normalize(gradient.direction);
     Periods periods(kFixed);
@@ -106,13 +107,12 @@ struct PeriodsOfKind {
   template <class Other> Periods operator()(const Other&) const { return Periods(kFixed); }
 };
 
-/// Which part of an offset is left.
+/// The part of an offset that is left after a shift.
 enum class Left {
-  least,     ///< as little as there can be
-  same_side, ///< so much that what is asked is on the same side of 0, where there are others on the other one
+  least,     ///< as little as possible
+  same_side, ///< enough to stay on the same side of 0, for patterns that differ between the sides
 };
 
-/// The part of an offset that is whole periods.
 Vec3 whole_periods(const Vec3& offset, const Periods& periods, Left left = Left::least) {
   constexpr double kSide = 512;
   Vec3 whole(0);
@@ -129,7 +129,8 @@ Vec3 whole_periods(const Vec3& offset, const Periods& periods, Left left = Left:
   return whole;
 }
 
-/// Towards the origin, by whole shells: what is farther from it than this is as good as flat.
+/// Returns a shift towards the origin by whole shells; a shell farther away than kFlat units is as good as
+/// flat.
 Vec3 whole_shells(const Vec3& offset, double period) {
   constexpr double kFlat = 8192;
   const double distance = glm::length(offset);
@@ -143,7 +144,7 @@ Vec3 shift_of(const Pattern& pattern, const Vec3& offset) {
                             !std::holds_alternative<pattern::Wood>(pattern.kind);
   if (is_still(pattern.turbulence)) {
     if (const auto* gradient = std::get_if<pattern::Gradient>(&pattern.kind)) {
-      // Also where its direction is along no axis.
+      // The shift also works if the gradient's direction is along no axis.
       const Vec3 along = glm::normalize(gradient->direction);
       const double at = glm::dot(along, offset);
       if (glm::length(offset) <= kNear) return Vec3(0);
@@ -170,7 +171,7 @@ Vec3 shift_of(const Pattern& pattern, const Vec3& offset) {
   return whole_periods(offset, periods, has_sides ? Left::same_side : Left::least);
 }
 
-/// By how much a step may be shifted.
+/// Returns by how much a step may be shifted.
 Vec3 shift_of(const SpaceStep& step, const Vec3& offset) {
   if (const auto* turbulence = std::get_if<Turbulence>(&step)) return whole_periods(offset, of(*turbulence));
   if (const auto* repeat = std::get_if<warp::Repeat>(&step)) {
@@ -185,7 +186,7 @@ Vec3 shift_of(const SpaceStep& step, const Vec3& offset) {
   return Vec3(0);
 }
 
-/// A step that does to shifted points what `step` does to points that are not.
+/// Returns a step that acts on shifted points as `step` does on unshifted points.
 SpaceStep shifted(const SpaceStep& step, const Vec3& shift) {
   const auto* hole = std::get_if<warp::BlackHole>(&step);
   if (hole == nullptr) return step;
@@ -194,7 +195,7 @@ SpaceStep shifted(const SpaceStep& step, const Vec3& shift) {
   return nearer;
 }
 
-/// What a shift before a step is after it.
+/// Returns what a shift before a step has become after the step.
 Vec3 after(const SpaceStep& step, Vec3 shift) {
   if (const auto* repeat = std::get_if<warp::Repeat>(&step)) shift[repeat->axis] = 0;
   return shift;
@@ -204,8 +205,8 @@ Vec3 after(const SpaceStep& step, Vec3 shift) {
 
 PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceStep>& space) {
   PlacedPattern placed = {pattern.kind, space, pattern.phase};
-  std::vector<SpaceStep> steps; // those that are met first come first
-  Vec3 carried(0);              // by which points are nearer than they would be
+  std::vector<SpaceStep> steps; // in the order in which points go through them
+  Vec3 carried(0);              // how much nearer to the origin points are than they would be
   bool is_shifted = false;
   Transform map;
   const auto end_map = [&](const auto& next) {
@@ -226,7 +227,8 @@ PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceSte
     carried = after(*step, shift);
     steps.push_back(shifted(*step, shift));
   }
-  // Far from where it is anything but a number of the place.
+  // Slopes and object patterns do not repeat; far from the origin their heights and their solid are moved
+  // instead.
   if (auto* slope = std::get_if<pattern::Slope>(&placed.kind);
       slope != nullptr && is_still(pattern.turbulence)) {
     const Vec3 offset = map.rows[3] + map.direction(carried);
@@ -259,7 +261,7 @@ PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceSte
     }
   }
   const Vec3 shift = end_map(pattern);
-  // What marble's turbulence is asked by repeats otherwise than its wave, which takes the rest.
+  // The turbulence of marble repeats with another period than its wave, which takes the rest of the shift.
   if (std::holds_alternative<pattern::Marble>(pattern.kind) && pattern.turbulence.amount.x != 0)
     placed.phase += std::fmod(shift.x * pattern.frequency, kOfWave);
   if (!is_shifted) return {pattern.kind, space, pattern.phase};

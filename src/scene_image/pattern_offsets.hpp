@@ -1,4 +1,4 @@
-// Patterns far from their own origins, in numbers that single precision has digits for.
+// Moves patterns that are far from their own origins to where single precision has enough digits.
 #pragma once
 
 #include "celltrace/texture.hpp"
@@ -7,16 +7,16 @@
 
 namespace celltrace {
 
-/// A pattern, what is done to space before it is asked, and what is added to its numbers.
+/// A pattern, the steps that points go through before it is evaluated, and what is added to its values.
 struct PlacedPattern {
   pattern::Kind kind;
   std::vector<SpaceStep> space;
   double phase;
 };
 
-/// Returns a pattern that has the same values where the scene is, and is asked nearer to its origin, if
-/// `space` takes the scene's origin more than some thousand units away from it: by whole periods of it.
-/// `pattern` says all but the space. Where nothing changes, the steps are those given.
+/// Returns a pattern that has the same values in the scene, but is evaluated nearer to its origin if `space`
+/// takes the scene's origin more than some thousand units away from it: the pattern is moved by whole
+/// periods. `pattern` gives everything but the space. If nothing changes, the steps are those of `space`.
 PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceStep>& space);
 
 } // namespace celltrace

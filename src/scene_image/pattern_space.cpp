@@ -46,7 +46,7 @@ void fill(SpaceStepRecord& r, const warp::Mapping& w) {
   r.value[4] = static_cast<float>(w.major_radius);
 }
 void fill(SpaceStepRecord&, const Transform&) {
-} // is what its record's neighbours have
+} // the neighbouring records hold the transformation
 
 } // namespace
 

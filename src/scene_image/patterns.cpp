@@ -15,7 +15,8 @@ namespace {
 
 using Parameters = float (&)[5];
 
-// One for each kind that the kernel has: its number, and its parameters.
+// One overload of put() for each kind of pattern: returns the kind's number in the kernel, and sets the
+// parameters.
 
 std::uint32_t put(const pattern::Checker&, Parameters) {
   return kPatternKind<CheckerPattern>;
@@ -107,7 +108,7 @@ std::uint32_t put(const pattern::Agate& agate, Parameters parameter) {
 std::uint32_t put(const pattern::Cells&, Parameters) {
   return kPatternKind<CellsPattern>;
 }
-/// As noise at the nearest points, it has the kind of the noise.
+/// Crackle reads noise at the nearest points, so that its kind includes the noise generator.
 std::uint32_t put(const pattern::Crackle& crackle, Parameters parameter) {
   if (!(crackle.metric > 0)) throw InputError("a crackle's metric is not greater than 0");
   for (int i = 0; i < 3; ++i)
@@ -175,7 +176,7 @@ SlopeRecord record_of(const pattern::Slope& slope) {
     r.factor = static_cast<float>(facing * weight);
     offset -= slope.least * facing * weight;
   }
-  // Along the altitude's direction, by its length over that of both.
+  // The height counts along the altitude's direction, with its share of both lengths.
   const double height = 1 / ((facing + climbing) * (slope.highest - slope.lowest));
   if (climbing > 0) offset -= slope.lowest * climbing * height;
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// From the kinds of patterns as people write them to those of the kernel.
+// Converts the kinds of patterns that a Scene has to those of the kernel.
 #pragma once
 
 #include "celltrace/texture.hpp"
@@ -8,21 +8,22 @@
 
 namespace celltrace {
 
-/// Which table a pattern reads.
+/// The table that a pattern reads.
 enum class PatternTable : std::uint8_t { none, features, gradients, waves, slopes, pigments, objects };
 
-/// What a kind is in PatternRecords.
+/// The words of a PatternRecord that depend on the pattern's kind.
 struct PatternWords {
-  std::uint32_t kind_and_flags = 0; ///< its number; of flags, those that follow from the kind
+  std::uint32_t kind_and_flags = 0; ///< the kind's number, and the flags that follow from it
   float parameter[5] = {};
   PatternTable table = PatternTable::none;
   std::uint32_t fractal = 0; ///< a fractal_word
   kernel::SlopeRecord slope = {};
 };
-/// The table of a PatternRecord with these flags.
+/// Returns the table that a PatternRecord with these flags reads.
 PatternTable pattern_table(std::uint32_t kind_and_flags);
 
-/// Throws InputError if numbers of the kind mean nothing. `number_of_waves`: the scene's.
+/// Returns the words of a kind. Throws InputError if numbers of the kind are invalid. `number_of_waves` is
+/// the scene's.
 PatternWords pattern_words(const pattern::Kind& kind, int number_of_waves);
 
 } // namespace celltrace

@@ -1,5 +1,5 @@
-// One lane of double precision by the operators of the SIMD facade (celltrace/spe/simd.hpp): kernel code
-// about patterns for single points on the host, as exact as POV-Ray's.
+// A SIMD facade (celltrace/spe/simd.hpp) of one lane in double precision, with which the kernel's code of
+// patterns runs for single points on the host, as exactly as POV-Ray's.
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
@@ -15,7 +15,7 @@
 
 namespace celltrace {
 
-/// A facade of rare code (Spu::rare_simd).
+/// A facade for rare code (Spu::rare_simd).
 struct PointSimd {
   static constexpr std::uint32_t kLanes = 1;
 
@@ -68,7 +68,7 @@ struct PointSimd {
     static I wrapped(std::int64_t number) { return {static_cast<std::int32_t>(number)}; }
   };
 
-  struct U4; ///< caches compare tags by it, of which there are none where memory is direct
+  struct U4; ///< type of tags in caches, which do not exist where memory is direct
 
   static F min(F a, F b) { return {std::min(a.value, b.value)}; }
   static F max(F a, F b) { return {std::max(a.value, b.value)}; }
@@ -77,7 +77,7 @@ struct PointSimd {
   static F floor(F a) { return {std::floor(a.value)}; }
   template <class T> static T select(M m, T a, T b) { return m.holds ? a : b; }
   static F to_float(I a) { return {static_cast<double>(a.value)}; }
-  /// Of what is out of range, a bound.
+  /// Converts to an integer; values out of range become the nearest bound, NaN becomes 0.
   static I to_int(F a) {
     constexpr double kMost = 2147483647.0;
     return {std::isnan(a.value) ? 0 : static_cast<std::int32_t>(std::clamp(a.value, -kMost, kMost))};
@@ -100,7 +100,7 @@ struct PointSimd {
   }
 };
 
-/// Asks patterns for one point at a time. No SPE runs it.
+/// Evaluates patterns at one point at a time. No SPE uses it.
 class PointSpu : public SpuBase<PointSpu> {
 public:
   static constexpr bool direct_memory = true;
@@ -110,11 +110,11 @@ public:
 
 namespace kernel {
 
-/// Patterns ask of it where records are; one lane has no use for shortcuts that look at many.
+/// The traits that patterns need to find records; one lane has no use for shortcuts that look at many.
 struct PointStrategy : DirectMemory, LocalPatterns {};
 template <> struct StrategyOf<PointSpu> { using Type = PointStrategy; };
 
-// Elementary functions as exact as numbers are.
+// Elementary functions in full double precision.
 template <> inline PointSimd::F log2<PointSimd>(const PointSimd::F& x) {
   return {std::log2(x.value)};
 }
@@ -141,7 +141,8 @@ template <> inline PointSimd::F turns_inline<PointSimd>(const PointSimd::F& y, c
   if (x.value == 0 && y.value == 0) return {0}; // whatever their signs
   return {std::atan2(y.value, x.value) / 6.28318530717958647692};
 }
-/// Nothing has been rounded so far that a coordinate would be beside a lattice plane it was meant to be on.
+/// Returns the tolerance at lattice planes: coordinates have not been rounded to single precision, so that it
+/// is tiny.
 template <> inline PointSimd::F lattice_epsilon<PointSimd>(const PointSimd::F&) {
   return {1e-9};
 }

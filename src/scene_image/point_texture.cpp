@@ -12,7 +12,7 @@ using namespace kernel;
 
 namespace {
 
-/// A scene of nothing but an object that has the pigment.
+/// Returns a scene with nothing but an object that has the pigment.
 Scene scene_of(const Pigment& pigment, int noise_generator) {
   Scene scene;
   scene.noise_generator = noise_generator;
@@ -26,8 +26,8 @@ Scene scene_of(const Pigment& pigment, int noise_generator) {
   return scene;
 }
 
-/// Takes the transformations that a point goes through first out of a pigment's pattern, where they would be
-/// in single precision. Returns their inverse.
+/// Removes from a pigment's pattern the first transformations that a point goes through, since records would
+/// hold them in single precision. Returns the inverse of them.
 Transform take_transform(Pigment& pigment) {
   Transform all;
   if (!pigment.map || pigment.map->pattern.uv_mapping) return all;

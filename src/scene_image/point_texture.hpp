@@ -1,5 +1,5 @@
-// Pigments and patterns at single points, in double precision: what the language computes with them while a
-// scene is read. The patterns' code is the kernel's.
+// Evaluates pigments and patterns at single points in double precision, for functions of the language that
+// need them while a scene is read. The code of the patterns is the kernel's.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,23 +8,24 @@
 
 namespace celltrace {
 
-/// A pigment, or a pattern, as a function of points. Not for several threads at once.
+/// A pigment, or a pattern, as a function of points. Not safe for use by several threads at once.
 class PointTexture {
 public:
-  /// `noise_generator`: of patterns that name none, 1 to 3. Ripples and waves have 10 waves. No pattern may
-  /// be on surface coordinates or ask for a surface's normal. Throws InputError if some number in the pigment
-  /// means nothing.
+  /// Prepares the pigment. `noise_generator`, 1 to 3, is for patterns that name none. Ripples and waves have
+  /// 10 waves. No pattern may depend on surface coordinates or on a surface's normal. Throws InputError if a
+  /// number in the pigment is invalid.
   PointTexture(const Pigment& pigment, int noise_generator);
   PointTexture(PointTexture&&) noexcept;
   PointTexture& operator=(PointTexture&&) noexcept;
   ~PointTexture();
 
-  /// The colour at a point, without a map.
+  /// Returns the colour at a point, without a map.
   Pigment pigment_at(const Vec3& point) const;
-  /// The number of the outermost pattern, in its wave; of lists, the entry's. There must be one.
+  /// Returns the value of the outermost pattern after its wave, or the index of the entry if it is a list.
+  /// There must be a pattern.
   double pattern_at(const Vec3& point) const;
 
-  /// What it holds in memory.
+  /// Returns the size of the prepared pigment in bytes.
   std::size_t bytes() const;
 
 private:

@@ -35,7 +35,7 @@ void PolygonTable::add(const Polygon& polygon) {
                                       static_cast<float>((high.x - low.x) / (high.y - low.y))};
       if (edge.low < edge.high) edges_.push_back(edge);
     }
-  // A table that is longer is refused where the image is laid out.
+  // A table that is too long is rejected when the image is laid out.
   own.count = static_cast<std::uint32_t>(edges_.size()) - own.first;
 }
 

@@ -1,4 +1,4 @@
-// The edges of polygons, as points in a polygon's plane are tested against them.
+// The edges of polygons, against which points in a polygon's plane are tested.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -9,14 +9,14 @@
 
 namespace celltrace {
 
-/// The edges of polygons, in the frames of these; polygons that objects share have them once.
+/// The edges of polygons, each in its polygon's frame; a polygon that several objects share is stored once.
 class PolygonTable {
 public:
-  /// Those of an object, or of all parts of a CSG.
+  /// Adds the polygons of an object, or of all parts of a CSG.
   void add(const Object& object);
 
   const std::vector<kernel::PolygonEdgeRecord>& edges() const { return edges_; }
-  /// Those of a polygon that has been added: `first` is an index.
+  /// Returns the edges of a polygon that has been added: `first` is an index.
   kernel::PolygonEdges of(const Polygon& polygon) const { return known_.at(&polygon); }
 
 private:

@@ -12,7 +12,7 @@ using kernel::Aabb;
 
 namespace {
 
-/// Planes are in single precision, and points on them are found as precisely as that.
+/// Returns the error of points on a plane, which are found as precisely as its numbers in single precision.
 double slack_at(double coordinate) {
   return 1e-4 * (1.0 + std::abs(coordinate));
 }
@@ -44,7 +44,7 @@ private:
   Vec3 max_ = Vec3(std::numeric_limits<double>::lowest());
 };
 
-/// Puts the corners of a convex polygon in order, each once.
+/// Puts the corners of a convex polygon in order, and removes duplicates.
 void order_around(std::vector<Vec3>& corners, const Vec3& normal) {
   Vec3 centre(0);
   for (const Vec3& corner : corners)
@@ -87,7 +87,8 @@ Polytope::Polytope(const Aabb& box) {
 
 void Polytope::cut(const Vec3& normal, double offset, std::size_t source) {
   const double length = glm::length(normal);
-  // Far less than the slack, and far more than rounding: a plane that comes twice cuts once.
+  // The tolerance is far less than the slack, and far more than rounding, so that a plane given twice cuts
+  // once.
   const double slack = slack_at(offset / length), tolerance = 1e-3 * slack;
   cut_exactly(normal / length, offset / length + slack, tolerance, source);
 }

@@ -11,9 +11,9 @@ namespace celltrace {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kMost = Polytope::kReach; ///< coordinates beyond count as infinite
+constexpr double kMost = Polytope::kReach; ///< greater coordinates count as infinite
 
-constexpr double kSlack = 1e-4; ///< relative, and absolute below 1: as half-spaces of CSG have
+constexpr double kSlack = 1e-4; ///< relative, and absolute below 1, as for half-spaces of CSG
 
 struct Range {
   double low, high;
@@ -25,7 +25,7 @@ struct Range {
 Range common(const Range& a, const Range& b) {
   return {std::max(a.low, b.low), std::min(a.high, b.high)};
 }
-/// Without 0 times infinity, which is 0 here: what has no factor has no influence.
+/// Returns a product in which 0 times infinity is 0: a term whose factor is 0 has no influence.
 double product(double a, double b) {
   return a == 0 || b == 0 ? 0 : a * b;
 }
@@ -39,7 +39,7 @@ Range operator*(const Range& x, const Range& y) {
   return {*std::min_element(some, some + 4), *std::max_element(some, some + 4)};
 }
 
-/// Of square * x^2 + linear * x.
+/// Returns the range of square * x^2 + linear * x.
 Range parabola(double square, double linear, const Range& x) {
   if (square == 0) return linear * x;
   const auto at = [&](double t) { return std::isinf(t) ? square * t * t : (square * t + linear) * t; };
@@ -52,8 +52,8 @@ Range parabola(double square, double linear, const Range& x) {
   return values;
 }
 
-/// Where square * x^2 + linear * x + rest <= 0 for some of `linear` and `rest`; everywhere if that is not
-/// known.
+/// Returns where square * x^2 + linear * x + rest <= 0 for some value of `linear` and of `rest`; everything
+/// if that is not known.
 Range not_above(double square, const Range& linear, const Range& rest) {
   const Range everywhere = {-kInfinity, kInfinity};
   const double least = rest.low;
@@ -67,7 +67,7 @@ Range not_above(double square, const Range& linear, const Range& rest) {
     if (linear.high < 0) x.low = least / -(least > 0 ? linear.low : linear.high);
     return x;
   }
-  // The least value at x is that of one end of `linear` where x > 0, of the other where x < 0.
+  // The least value at x comes from one end of `linear` if x > 0, from the other end if x < 0.
   const auto roots = [&](double slope) {
     const double root = slope * slope - 4 * square * least;
     if (root < 0) return Range{kInfinity, -kInfinity};
@@ -76,11 +76,11 @@ Range not_above(double square, const Range& linear, const Range& rest) {
   const Range above = common(roots(linear.low), {0, kInfinity});
   const Range below = common(roots(linear.high), {-kInfinity, 0});
   const bool is_above = above.low <= above.high, is_below = below.low <= below.high;
-  if (!is_above && !is_below) return everywhere; // nowhere, or all but
+  if (!is_above && !is_below) return everywhere; // nowhere, or everywhere but in a range
   return {is_below ? below.low : above.low, is_above ? above.high : below.high};
 }
 
-/// A quadric's symmetric matrix in the world, as p * matrix * p with p = (x, y, z, 1).
+/// The symmetric matrix of a quadric in the world: p * matrix * p with p = (x, y, z, 1).
 struct WorldQuadric {
   double matrix[4][4];
 
@@ -98,7 +98,7 @@ struct WorldQuadric {
                            2 +
                        q.constant * a_far * b_far;
       }
-    // Rotations there and back leave a little where there should be nothing.
+    // Clears entries that rotations there and back leave instead of 0.
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         const double one = std::abs(matrix[i][i]), other = std::abs(matrix[j][j]);
@@ -108,7 +108,7 @@ struct WorldQuadric {
       }
   }
 
-  /// Where it is on one axis, within a box.
+  /// Returns the quadric's range along one axis, within a box.
   Range along(int axis, bool solid, const Range (&box)[3]) const {
     const int j = (axis + 1) % 3, k = (axis + 2) % 3;
     const Range linear = 2 * matrix[axis][j] * box[j] + 2 * matrix[axis][k] * box[k] +
@@ -134,7 +134,7 @@ kernel::Aabb bounds_of_quadric(const Quadric& quadric, const Transform& transfor
     box[i] = {within.min[i] > -kMost ? within.min[i] : -kInfinity,
               within.max[i] < kMost ? within.max[i] : kInfinity};
   kernel::Aabb result = within;
-  // What is found out of one axis may limit the others.
+  // Ranges of one axis may limit the others, so that a second round finds more.
   for (int round = 0; round < 2; ++round)
     for (int i = 0; i < 3; ++i) {
       const Range found = q.along(i, solid, box);

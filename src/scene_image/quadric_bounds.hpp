@@ -1,4 +1,4 @@
-// How far a quadric reaches within a box: what CSG leaves of one has bounds where it has none by itself.
+// Bounds of a quadric within a box: CSG may bound a quadric that has no bounds of its own.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -6,8 +6,8 @@
 
 namespace celltrace {
 
-/// Around what is inside of a quadric, if `solid`, or else of its surface, within a box, and a little more.
-/// The box and the result may reach to infinity, as the greatest floats.
+/// Returns slightly enlarged bounds, within a box, of the inside of a quadric if `solid` is true, else of its
+/// surface. The box and the result may be infinite (the greatest floats).
 kernel::Aabb bounds_of_quadric(const Quadric& quadric, const Transform& transform, bool solid,
                                const kernel::Aabb& within);
 

@@ -1,4 +1,4 @@
-// A scene's vectors in the fields of records, which are single precision.
+// Converts a scene's vectors to the fields of records, which are single precision.
 #pragma once
 
 #include "celltrace/transform.hpp"

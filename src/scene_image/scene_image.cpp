@@ -22,7 +22,7 @@ using namespace kernel;
 
 namespace {
 
-/// What the accelerator that is most likely to be built needs.
+/// Returns the size of a BVH, which is the accelerator most likely to be built, in bytes.
 std::size_t bvh_bytes(const ImageHeader& header) {
   const std::size_t nodes =
       bvh::most_nodes(header.object_count, header.group_count, header.prototype_count != 0);
@@ -127,8 +127,9 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   ObjectPlaces places;
   places.are_known = true;
   places.groups = origin_->groups;
-  // Plain triangles are written as they are counted: should there turn out to be others than before, they all
-  // are written again. Of the rest an error may be found, which has to leave the image as it was.
+  // Plain triangles are written while they are counted; if their number turns out to differ, all of them are
+  // written again. Other objects are counted first: they may have errors, which must leave the image as it
+  // was.
   places.are_written =
       header().extra_count == 0 && header().blend_count == 0 && objects.are_plain_triangles();
   if (places.are_written) {
@@ -141,7 +142,8 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   const ImageHeader updated = parts.header(places);
   if (!have_same_layout(header(), updated)) return false;
 
-  if (updated.extra_count != 0 || updated.blend_count != 0) { // records in other tables lie as objects do
+  if (updated.extra_count != 0 ||
+      updated.blend_count != 0) { // the order of these records follows that of the objects
     const OrderMemory memory(work, objects.count());
     places.in_order = in_order_of(origin_->places, origin_->placed, memory);
     places.cells = memory.cells;

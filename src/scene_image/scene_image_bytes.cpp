@@ -1,4 +1,4 @@
-// Scene images as bytes: out with a checksum, in with distrust.
+// Scene images as bytes: saved with a checksum, loaded with full checks.
 #include "celltrace/error.hpp"
 #include "celltrace/spe/types.hpp"
 #include "records/accelerator.hpp"
@@ -20,7 +20,7 @@ using namespace kernel;
 
 namespace {
 
-/// FNV-1a over 64-bit words; the block is a multiple of a line long.
+/// Returns the FNV-1a hash of 64-bit words; the size of the block is a multiple of a cache line.
 std::uint64_t checksum(std::span<const std::byte> bytes) {
   std::uint64_t sum = 0xCBF29CE484222325u;
   for (std::size_t at = 0; at + 8 <= bytes.size(); at += 8) {
@@ -31,7 +31,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes) {
   return sum;
 }
 
-/// True if a table of `count` records at `offset` lies within `bytes` and is aligned.
+/// Returns true if a table of `count` records at `offset` lies within `bytes` and is aligned.
 bool table_fits(std::uint32_t offset, std::uint32_t count, std::size_t record, std::size_t bytes) {
   return offset % kLineBytes == 0 && offset >= sizeof(ImageHeader) && offset <= bytes &&
          std::uint64_t{count} * record <= bytes - offset;

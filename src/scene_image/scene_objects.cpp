@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::uint32_t kVerticesPerThread = 16384;
 
-/// Of parts, which are in the order of what they are parts of.
+/// Compares CSG parts by the object that they belong to; parts are sorted by object.
 struct ComparesWholes {
   bool operator()(const CsgPart& part, std::size_t whole) const { return part.whole < whole; }
   bool operator()(std::size_t whole, const CsgPart& part) const { return whole < part.whole; }
 };
 
-/// In parts of a reasonable size.
+/// Changes vectors in threads, which get parts of a reasonable size.
 template <class Change>
 std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Change change) {
   std::vector<Vec3f> to(from.size());
@@ -69,14 +69,14 @@ SceneObjects::SceneObjects(const Scene& scene, const Eye& eye, std::size_t proje
 }
 
 void SceneObjects::grow(std::size_t objects) {
-  // Beyond that the image would be too large, whatever can be hit.
+  // Rejects the scene, since the image would be too large even if some objects could not be hit.
   if (objects > std::numeric_limits<std::uint32_t>::max() - count_)
     throw InputError("the scene is too large: it has more objects than 32 bits can count");
   count_ += static_cast<std::uint32_t>(objects);
 }
 
-/// A test of a polygon takes several times as long as one of a triangle, and triangles of a leaf are tested
-/// together. But whether it lets light through and how it looks from either side is asked of it as a whole.
+/// Triangles are several times faster to test than a polygon, and those of a leaf are tested together.
+/// Transparency and the look of each side still come from the polygon as a whole.
 bool SceneObjects::add_as_triangles(const Object& object) {
   const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
   if (polygon == nullptr || !is_plain(material_flags_[object.material])) return false;

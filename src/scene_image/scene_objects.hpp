@@ -23,92 +23,93 @@ namespace celltrace {
 
 class SceneObjects {
 public:
-  /// Those that are not among `instances`, each of `instanced` as one, and what is inside of `patterns`.
-  /// Objects from `projectors` on are those of lights. `scene` and `material_flags`, what objects have that
-  /// consist of a material, stay as they are as long as this lives. Says which limits the scene passes.
-  /// Throws InputError if there are too many objects.
+  /// Takes the objects of `scene` apart, except `instances`; each object of `instanced` counts as one, and
+  /// the insides of `patterns` are added. The objects from index `projectors` on are lights' projectors.
+  /// `scene` and `material_flags`, the object flags of each material, must not change while this object
+  /// lives. Sets in `limits` which limits the scene passes. Throws InputError if there are too many objects.
   SceneObjects(const Scene& scene, const Eye& eye, std::size_t projectors,
                const std::vector<std::shared_ptr<const Object>>& patterns,
                const std::vector<std::uint32_t>& material_flags, const InstancedMeshes& instanced,
                const MeshInstances& instances, unsigned threads, PassedLimits& limits);
 
-  /// All that have bounds, those that cannot be hit included: spheres without a radius and triangles without
-  /// an area.
+  /// Returns the number of objects with bounds, including those that cannot be hit: spheres without a radius
+  /// and triangles without an area.
   std::uint32_t count() const { return count_; }
-  /// The others: planes, unless CSG bounds them.
+  /// Returns the number of objects without bounds: planes, unless CSG bounds them.
   std::uint32_t unbounded_count() const { return static_cast<std::uint32_t>(unbounded_.size()); }
-  /// The indices in the scene's objects of those that are counted, and of unbounded ones: of a part of a CSG,
-  /// that of the whole.
+  /// Returns the scene's indices of the objects that count() counts, and of the unbounded ones; a part of a
+  /// CSG has the index of the CSG.
   std::vector<Index> owners() const;
   std::vector<Index> unbounded_owners() const;
-  /// What lights are projected through, without bounds or with.
+  /// Returns the number of objects that lights are projected through, with or without bounds.
   std::uint32_t projector_count() const { return static_cast<std::uint32_t>(projectors_.size()); }
-  /// By projector, how many of these it consists of, one after the other.
+  /// Returns, by projector, how many consecutive objects it consists of.
   const std::vector<std::uint32_t>& projector_sizes() const { return projector_sizes_; }
-  /// The ExtraRecords of these and of unbounded ones.
+  /// Returns the number of ExtraRecords of projectors and of unbounded objects.
   std::uint32_t unbounded_extras() const;
-  /// Whether primary rays see all of them.
+  /// Returns whether primary rays see all objects.
   bool are_all_seen() const { return are_all_seen_; }
-  /// The order in which objects of the scene are numbered, if it depends on what is where.
+  /// Returns the order in which objects of the scene are numbered if that order depends on their positions.
   const std::vector<std::size_t>& order() const { return order_; }
   const CsgParts& csg() const { return csg_; }
   std::vector<SolidBoundary> take_boundaries() { return std::move(csg_.boundaries); }
   const PolygonTable& polygons() const { return polygons_; }
 
-  /// Writes those of [begin, end) that can be hit to `to`, in order. Throws InputError if an object's
-  /// coordinates leave what single precision can hold.
+  /// Writes to `to`, in order, the objects of [begin, end) that can be hit. Throws InputError if an object's
+  /// coordinates exceed the range of single precision.
   ObjectCensus place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const;
-  /// The same where they have places already, by object; nothing if one that can be hit has none.
+  /// Returns the same census if the objects have places already, given by object; nothing if an object that
+  /// can be hit has none.
   std::optional<ObjectCensus> count_placed(std::uint32_t begin, std::uint32_t end,
                                            std::span<const std::uint32_t> places) const;
-  /// Those with records of their own in other tables, of `objects`.
+  /// Returns how many of `objects` have records in other tables.
   ObjectCensus count_tables(std::span<const PlacedObject> objects) const;
 
-  /// Makes the records of `objects`. `before` says how many there are in the tables before theirs.
+  /// Writes the records of `objects`. `before` counts the entries of the tables that precede theirs.
   void write(std::span<const PlacedObject> objects, const RecordTables& tables, const ObjectCensus& before,
              kernel::ObjectRecord* to) const;
 
-  /// Whether all are triangles that no CSG limits, and none of their coordinates leave what single precision
-  /// can hold.
+  /// Returns whether all objects are triangles that no CSG limits, and single precision holds all their
+  /// coordinates.
   bool are_plain_triangles() const;
-  /// As count_placed(), and makes the records of those that have no others in tables: `places` says where in
-  /// `to` they belong. Those of are_plain_triangles() only.
+  /// Counts as count_placed() does, and writes the records of objects that need no other tables; `places`
+  /// says where in `to` each belongs. Needs are_plain_triangles().
   std::optional<ObjectCensus> write_placed(std::uint32_t begin, std::uint32_t end,
                                            std::span<const std::uint32_t> places, const RecordTables& tables,
                                            kernel::ObjectRecord* to) const;
-  /// As write() for those of [begin, end) of the scene, where there are no tables; those without a place are
-  /// left out.
+  /// Writes as write() does the objects of [begin, end) of the scene if they need no other tables; skips
+  /// objects without a place.
   void write_apart(std::uint32_t begin, std::uint32_t end, std::span<const std::uint32_t> places,
                    const RecordTables& tables, kernel::ObjectRecord* to) const;
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
 
-  /// The records of projectors, then of unbounded objects; `before` as for write().
+  /// Writes the records of projectors, then of unbounded objects; `before` as for write().
   void write_unbounded(const RecordTables& tables, const ObjectCensus& before,
                        kernel::ObjectRecord* to) const;
 
 private:
-  /// Shapes in a row, parts of CSGs in a row, or one mesh.
+  /// A run of shapes, a run of CSG parts, or one mesh.
   struct Piece {
     std::uint32_t first;             ///< number of its first object
-    const Object* object;            ///< first of the shapes, or the mesh's; null: parts
-    const Mesh* mesh;                ///< null: shapes or parts
+    const Object* object;            ///< the first shape, or the mesh's object; null for parts
+    const Mesh* mesh;                ///< null for shapes and parts
     std::span<const Vec3f> vertices; ///< in the world
     std::span<const Vec3f> normals;
-    const CsgPart* part = nullptr; ///< first of the parts, or the one that the mesh is
+    const CsgPart* part = nullptr; ///< the first part, or the part that is the mesh
 
-    /// Whether it is a mesh that CSG limits.
+    /// Returns whether the piece is a mesh that CSG limits.
     bool is_limited_mesh() const { return mesh != nullptr && part != nullptr && part->is_limited(); }
   };
   /// A shape by itself or a part of a CSG.
   struct Placed {
     const Object* object;
-    const CsgPart* part; ///< null: by itself
+    const CsgPart* part; ///< null for a shape by itself
   };
   class Writer;
 
   static Placed placed_at(const Piece& piece, std::uint32_t number);
   bool has_extra(const Placed& placed) const;
-  /// Calls `visit(number, box)` for those of [begin, end) that can be hit.
+  /// Calls `visit(number, box)` for the objects of [begin, end) that can be hit.
   template <class Visit> ObjectCensus visit_boxes(std::uint32_t begin, std::uint32_t end, Visit visit) const;
   template <class Visit>
   void visit_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
@@ -117,16 +118,15 @@ private:
   void visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
                        Visit visit) const;
   void add_shape(const Object& object);
-  /// False: it stays a polygon, or is none.
+  /// Adds a polygon as triangles. Returns false if the object has to stay a polygon, or is none.
   bool add_as_triangles(const Object& object);
-  /// Those of one object of the scene.
   void add_parts(std::size_t whole, unsigned threads);
   void add_projectors(const Scene& scene, std::size_t first);
-  /// `part`: that it is of a CSG, or null.
+  /// Adds a mesh; `part` is the CSG part that it is, or null.
   void add_mesh(const Object& object, const Mesh& mesh, const CsgPart* part, unsigned threads);
   void grow(std::size_t objects);
   std::uint32_t end_of(const Piece& piece) const;
-  /// `near`: a piece that is likely to be it, or null.
+  /// Returns the piece that contains an object. `near` is a piece that is likely to contain it, or null.
   const Piece& piece_of(std::uint32_t number, const Piece* near) const;
   bool is_blended(const Piece& piece, const Mesh::Triangle& triangle) const;
   bool is_mapped(const Piece& piece, const Mesh::Triangle& triangle) const;
@@ -144,7 +144,7 @@ private:
   std::vector<Placed> unbounded_, projectors_;
   std::vector<std::uint32_t> projector_sizes_;
   std::vector<std::vector<Vec3f>> transformed_;
-  std::deque<Mesh> triangulated_; ///< polygons; a deque, so that pieces can refer to them
+  std::deque<Mesh> triangulated_; ///< triangulated polygons; a deque, so that pieces can refer to them
   std::uint32_t count_ = 0;
   bool are_all_seen_ = true;
 };

@@ -27,7 +27,8 @@ namespace {
 
 using namespace kernel;
 
-/// The factor by which a transformation scales everything, or 0 if it does not scale all directions alike.
+/// Returns the factor by which a transformation scales everything, or 0 if it does not scale all directions
+/// alike.
 double uniform_scale(const Transform& t) {
   const double x = glm::length(t.rows[0]);
   const double y = glm::length(t.rows[1]);
@@ -45,7 +46,7 @@ Vec3 unit(const Vec3& v) {
   return length > 0 ? v / length : Vec3(0, 1, 0);
 }
 
-/// The shape of kind P whose own space is mapped to the object's by `from_own`.
+/// Returns a shape of kind P whose own space `from_own` maps to the object's space.
 template <class P> PlacedShape in_own_space(const Object& object, const Transform& from_own) {
   PlacedShape shape;
   shape.kind_and_flags = kPrimitiveKind<P>;
@@ -61,8 +62,8 @@ PlacedShape nothing() {
   return shape;
 }
 
-/// How long the first two axes of a box or a cylinder are in the world, compared with the third. What is
-/// about as thick as it is long needs no such parameters.
+/// Sets the lengths in the world of the first two axes of a box or a cylinder, relative to the third. A shape
+/// that is about as thick as it is long needs no such parameters.
 void set_proportions(PlacedShape& shape, const Transform& to_world) {
   constexpr double kThin = 100;
   double axis[3];
@@ -74,7 +75,7 @@ void set_proportions(PlacedShape& shape, const Transform& to_world) {
     shape.parameters[i] = static_cast<float>(axis[i] / axis[2] - 1);
 }
 
-/// An axis of its own space from `base` to `cap`; `radius` to the sides.
+/// Returns the transformation of a space with one axis from `base` to `cap` and length `radius` to the sides.
 Transform along_axis(const Vec3& base, const Vec3& cap, double radius) {
   Transform t;
   complete_basis(unit(cap - base), t.rows[0], t.rows[1]);
@@ -85,7 +86,7 @@ Transform along_axis(const Vec3& base, const Vec3& cap, double radius) {
   return t;
 }
 
-// One of these for each shape. Spheres that a transformation leaves round stay spheres.
+// One overload of place() for each shape. Spheres that a transformation leaves round stay spheres.
 
 PlacedShape place(const Object& object, const Sphere& sphere) {
   const double radius = std::abs(sphere.radius);
@@ -118,7 +119,7 @@ PlacedShape place(const Object& object, const Plane& plane) {
   complete_basis(own.rows[2], own.rows[0], own.rows[1]);
   own.rows[3] = own.rows[2] * plane.distance;
   PlacedShape shape = in_own_space<PlanePrimitive>(object, own);
-  // Distances from the plane in the world's units, whatever the transformation scales.
+  // Distances from the plane are in the world's units, whatever the transformation scales.
   const Vec3 normal = object.transform.normal(unit(plane.normal));
   const double length = glm::length(normal);
   if (length > 0) {
@@ -131,7 +132,7 @@ PlacedShape place(const Object& object, const Plane& plane) {
 }
 
 PlacedShape place(const Object& object, const Disc& disc) {
-  // Nothing is seen as far away as this edge, and single precision has the square of it.
+  // An edge as far away as this is never visible, and single precision can hold its square.
   constexpr double kFarthestEdge = 1e12;
   if (disc.radius == 0 || std::abs(disc.hole_radius) >= std::abs(disc.radius)) return nothing();
   const double radius = std::min(std::abs(disc.radius), kFarthestEdge);
@@ -153,11 +154,11 @@ PlacedShape place(const Object& object, const Box& box) {
   Vec3 scale, middle(0);
   for (int i = 0; i < 3; ++i)
     scale[i] = glm::length(object.transform.rows[i]);
-  constexpr double kFarthest = 1e12; // where single units still have digits
+  constexpr double kFarthest = 1e12; // up to here, floats still tell single units apart
   const double away = glm::length(object.transform.rows[3]);
   if (away > double{kMaxHitDistance} && away < kFarthest) middle = object.transform.inverse().point(Vec3(0));
   for (int i = 0; i < 3; ++i) {
-    // A side that no ray gets to would take the precision of the one across.
+    // Clamps sides that no ray reaches, since they would take precision from the opposite side.
     const double reach = 2 * double{kMaxHitDistance} / scale[i];
     low[i] = glm::clamp(low[i], middle[i] - reach, middle[i] + reach);
     high[i] = glm::clamp(high[i], middle[i] - reach, middle[i] + reach);
@@ -214,8 +215,8 @@ PlacedShape place(const Object& object, const Torus& torus) {
   return shape;
 }
 
-/// Turns a symmetric matrix until it is diagonal, by Jacobi's rotations: what is left on its diagonal are the
-/// factors of squares along the axes.
+/// Turns a symmetric matrix until it is diagonal, by Jacobi rotations. Its diagonal then has the factors of
+/// the squares along the axes.
 void diagonalise(double (&m)[3][3], Vec3 (&axes)[3]) {
   for (int i = 0; i < 3; ++i)
     axes[i] = Vec3(i == 0, i == 1, i == 2);
@@ -242,14 +243,14 @@ void diagonalise(double (&m)[3][3], Vec3 (&axes)[3]) {
 
 struct CurvedAxis {
   Vec3 direction;
-  double square; ///< the factor of the square of what is along it
+  double square; ///< factor of the square of the coordinate along it
 };
 
-/// An ellipsoid whose surface goes through (0, 0, 0), from which it is measured: there no digits are lost
+/// Returns an ellipsoid that is measured from the point (0, 0, 0) of its surface, so that no digits are lost
 /// however large it is. In its own space it is a sphere of diameter 1 below the origin.
 PlacedShape place_about_surface(const Object& object, const std::vector<CurvedAxis>& axes,
                                 const Vec3& linear) {
-  // Where all squares are alike, z is the way out.
+  // If all squares have equal factors, z is the direction out.
   Vec3 out(0), across[2];
   for (int i = 0; i < 3; ++i)
     out[i] = glm::dot(linear, axes[i].direction) / std::sqrt(axes[i].square);
@@ -268,7 +269,7 @@ PlacedShape place_about_surface(const Object& object, const std::vector<CurvedAx
   return shape;
 }
 
-/// In its own space a quadric has its axes along the coordinates', and its factors are 1, 0 or -1.
+/// Returns a quadric whose own space has the quadric's axes as its axes, and factors of 1, 0 or -1.
 PlacedShape place(const Object& object, const Quadric& quadric) {
   double m[3][3] = {{quadric.square.x, quadric.mixed.x / 2, quadric.mixed.y / 2},
                     {quadric.mixed.x / 2, quadric.square.y, quadric.mixed.z / 2},
@@ -276,7 +277,7 @@ PlacedShape place(const Object& object, const Quadric& quadric) {
   Vec3 axes[3];
   diagonalise(m, axes);
   const double largest = std::max({std::abs(m[0][0]), std::abs(m[1][1]), std::abs(m[2][2])});
-  // Curved axes come first. Each has its middle where the linear term along it ends.
+  // Curved axes come first. The middle along each lies where its linear term vanishes.
   std::vector<CurvedAxis> curved, straight;
   for (int i = 0; i < 3; ++i)
     (std::abs(m[i][i]) > 1e-9 * largest ? curved : straight).push_back({axes[i], m[i][i]});
@@ -347,7 +348,7 @@ PlacedShape place(const Object&, const std::shared_ptr<const Csg>&) {
   return nothing();
 }
 
-// The numbers of each.
+// The numbers of each shape, for validate_shape().
 
 std::vector<double> numbers(std::initializer_list<Vec3> vectors, std::initializer_list<double> scalars) {
   std::vector<double> all(scalars);
@@ -422,8 +423,8 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
   if (!has_boundary(shape)) return shape;
   const std::uint32_t kind = shape.kind_and_flags & object_flag::kind_mask;
   const bool is_round = kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive>;
-  // A point is as precise as its coordinates and those of its ray's origin are large. What is farther away
-  // than this is seen too small for its boundary to matter.
+  // The error of a point grows with its coordinates and with those of its ray's origin. Objects farther away
+  // than `far_away` are too small in the picture for their boundary to matter.
   const Vec3 start = eye.start_of_boundaries();
   const double far_away = 100 + 4 * glm::length(start);
   Vec3 reach = glm::abs(start);
@@ -453,7 +454,7 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
     for (int row = 0; row < 3; ++row)
       scale(row, 1 / (1 + errors[row]));
   } else if (is_round) {
-    // To another height of a cone belongs another radius. Open ones have their boundary inside.
+    // A cone has another radius at another height. Open ones have their boundary inside.
     const double sign = (shape.kind_and_flags & object_flag::open) != 0 ? -1 : 1;
     const double narrower =
         sign * std::min(across + (kind == kPrimitiveKind<ConePrimitive> ? 2 * along : 0), 0.5);
@@ -466,7 +467,7 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
 }
 
 bool has_bounds(const Object& object) {
-  // Most shapes always have: they are not placed to find out.
+  // Most shapes always have bounds, so that they need not be placed to find out.
   if (std::holds_alternative<Plane>(object.shape)) return false;
   return !std::holds_alternative<Quadric>(object.shape) || place_shape(object).is_bounded;
 }

@@ -10,7 +10,7 @@ namespace celltrace {
 
 using namespace kernel;
 
-// What SceneImage does not lay out itself; of its own tables it says the same.
+// The records that SceneImage does not lay out itself; it makes the same assertion about its own tables.
 static_assert(consists_of_words<CellRecord>() && consists_of_words<NodeRecord>(),
               "an image is converted word by word");
 
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> SharedImage::publish_changes() {
   return lines;
 }
 
-/// Both are multiples of a word.
+/// Copies a range of bytes word by word; both ends are multiples of a word.
 void SharedImage::copy(std::size_t begin, std::size_t end) {
   for (std::size_t at = begin; at < end; at += sizeof(std::uint32_t)) {
     BuildWatch::look_at(at / sizeof(std::uint32_t));
@@ -55,7 +55,7 @@ void SharedImage::copy(std::size_t begin, std::size_t end) {
   }
 }
 
-/// Has the only numbers of another width.
+/// Copies the header, the only record with numbers of another width.
 void SharedImage::copy_header() {
   ImageHeader header = image_.header();
   reverse_bytes(header);

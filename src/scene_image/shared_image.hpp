@@ -1,4 +1,4 @@
-// The scene image as the SPEs of a machine read it.
+// The scene image in the byte order of a machine's SPEs.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -12,26 +12,28 @@
 
 namespace celltrace {
 
-/// The image itself where the SPUs have the host's byte order, which costs nothing; else a copy in theirs.
-/// Thread safety: as a standard container.
+/// The image itself if the SPUs have the host's byte order, which costs nothing; else a copy in their byte
+/// order. Thread safety: as a standard container.
 class SharedImage {
 public:
-  /// `image` stays where it is as long as this lives, and has an accelerator's room when it is shown.
+  /// Refers to `image`, which must stay where it is while this object lives, and must have reserved an
+  /// accelerator's room before it is published.
   SharedImage(const SceneImage& image, std::endian spe_order)
       : image_(image), converts_(spe_order != std::endian::native) {}
 
-  /// Shows the SPEs the static part, with room behind it for an accelerator of their own making. May move.
+  /// Publishes the static part to the SPEs, with room behind it for an accelerator that they build. May move
+  /// the copy.
   void publish_static();
-  /// Shows them the static part and an accelerator that the PPE's side has made. May move.
+  /// Publishes the static part and an accelerator that the host has built. May move the copy.
   void publish_all();
 
-  /// Before the image changes in place: keeps what it is now.
+  /// Keeps a copy of the image's state before it changes in place.
   void remember();
-  /// Shows the SPEs what has changed since remember(), and returns the offsets of the lines in which that is,
-  /// in ascending order. The image has not moved.
+  /// Publishes what has changed since remember(), and returns the offsets of the changed cache lines in
+  /// ascending order. The image must not have moved.
   std::vector<std::uint32_t> publish_changes();
 
-  /// Of the base.
+  /// Returns the effective address of the image's first byte.
   ea_t ea() const noexcept {
     return reinterpret_cast<std::uintptr_t>(converts_ ? copy_.data() : image_.base());
   }
@@ -43,7 +45,7 @@ private:
   const SceneImage& image_;
   bool converts_;
   AlignedBlock copy_;
-  AlignedBlock before_; ///< the image as it was when it was remembered
+  AlignedBlock before_; ///< the image at the time of remember()
 };
 
 } // namespace celltrace

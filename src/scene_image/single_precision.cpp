@@ -15,7 +15,7 @@ namespace celltrace::geometry {
 
 namespace {
 
-/// Lengths between these are no trouble, whatever is computed of two of them.
+/// Lengths between these cause no trouble in any product or quotient of two of them.
 constexpr double kShort = 1e-9, kLong = 1e9;
 
 double largest(const Vec3& vector) {
@@ -31,7 +31,7 @@ bool is_usual(double length) {
   return size > kShort && size < kLong;
 }
 
-// Whether a shape's numbers are surely no trouble.
+// One overload of is_usual() for each shape: returns whether its numbers certainly cause no trouble.
 
 bool is_usual(const Sphere& sphere) {
   return are_near({sphere.centre}) && is_usual(sphere.radius);

@@ -9,15 +9,15 @@
 
 namespace celltrace {
 
-/// A solid whose record is that of its shape with_boundary().
+/// A solid whose record describes its shape after with_boundary().
 struct SolidBoundary {
-  std::uint32_t solid; ///< its index among the solids
+  std::uint32_t solid; ///< index among the solids
   PlacedShape shape;   ///< without the boundary
 
   void write(const Eye& eye, kernel::SolidRecord* solids) const;
 };
 
-/// Writes what a solid's record has of its shape.
+/// Writes the fields of a solid's record that come from its shape.
 void write_shape(const PlacedShape& shape, kernel::SolidRecord& solid);
 
 } // namespace celltrace

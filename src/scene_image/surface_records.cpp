@@ -17,7 +17,7 @@ using namespace kernel;
 
 namespace {
 
-/// The opacity rule changed with language version 3.7.
+/// Returns the opacity of a colour; the rule changed with language version 3.7.
 double opacity(const Pigment& p, double version) {
   if (version < 3.7) return 1 - (p.filter * std::max({p.rgb.x, p.rgb.y, p.rgb.z}) + p.transmit);
   return 1 - p.filter - p.transmit;
@@ -44,21 +44,21 @@ void set_axis(const Light& light, LightRecord& r) {
     copy(Vec3(0), r.colour);
 }
 
-/// The edge of a beam, from one way off its axis to another. As in POV-Ray, one that ends before it begins
-/// is a step where it begins.
+/// Sets the edge of a beam, between two distances from its axis. As in POV-Ray, an edge that would end before
+/// it begins is a step at its beginning.
 void set_edge(double inner, double outer, LightRecord& r) {
   constexpr double kStep = 1e30;
   r.inner = static_cast<float>(inner);
   r.inverse_edge = static_cast<float>(outer > inner ? std::min(1 / (outer - inner), kStep) : kStep);
 }
 
-/// 1 minus the cosine, of degrees.
+/// Returns 1 minus the cosine of an angle in degrees.
 double versine(double angle) {
   const double sine = std::sin(angle * std::numbers::pi / 360);
   return 2 * sine * sine;
 }
 
-/// As in POV-Ray, a cylinder of no radius has no edge.
+/// Sets the width of a cylindrical light. As in POV-Ray, one without a radius has no edge.
 void set_width(const Light& light, LightRecord& r) {
   constexpr double kNoWidth = 1e-30;
   const double width = std::max(light.falloff, kNoWidth);
@@ -70,7 +70,8 @@ float inverse_of_steps(int places) {
   return places > 1 ? 1.0f / static_cast<float>(places - 1) : 0;
 }
 
-/// As in POV-Ray, a single place is the middle, and what turns to surfaces is round.
+/// Sets the area of a light. As in POV-Ray, an area of a single light is a point in the middle, and one that
+/// turns to surfaces is round.
 void set_area(const LightArea& area, LightRecord& r) {
   if (area.columns == 1 && area.rows == 1) return;
   copy(area.across, r.across);
@@ -86,7 +87,7 @@ void set_area(const LightArea& area, LightRecord& r) {
   if (area.orient) r.kind_and_flags |= light_flag::orient;
 }
 
-/// What the numbers of a record ask the kernel for.
+/// Returns the flags of features that the numbers of a record require of the kernel.
 std::uint32_t flags_of_numbers(const MaterialRecord& r) {
   const auto any = [](const float(&v)[3]) { return v[0] != 0 || v[1] != 0 || v[2] != 0; };
   std::uint32_t flags = 0;
@@ -145,7 +146,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   r.transmit = static_cast<float>(p.transmit);
   r.opacity = static_cast<float>(opacity(p, scene.version));
   copy(f.ambient * scene.ambient_light + f.emission, r.ambient);
-  r.diffuse = static_cast<float>(std::max(f.diffuse, 0.0)); // as in POV-Ray there is none below
+  r.diffuse = static_cast<float>(std::max(f.diffuse, 0.0)); // at least 0, as in POV-Ray
   r.diffuse_behind = static_cast<float>(std::max(f.diffuse_behind, 0.0));
   r.brilliance = static_cast<float>(f.brilliance);
   r.phong = static_cast<float>(f.phong);
@@ -168,7 +169,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
 
 namespace {
 
-/// crand, which is a share of diffuse light.
+/// Returns whether a finish has crand, which takes a random share of diffuse light.
 bool takes_at_random(const Finish& finish) {
   return finish.crand != 0 && (finish.diffuse != 0 || finish.diffuse_behind != 0);
 }
@@ -176,7 +177,7 @@ bool takes_at_random(const Finish& finish) {
 } // namespace
 
 bool has_record(const Finish& finish) {
-  // Films change highlights and mirrored light as well.
+  // Thin films change highlights and mirrored light as well.
   return finish.irid != 0 || takes_at_random(finish);
 }
 
@@ -194,7 +195,7 @@ FinishRecord make_record(const Finish& finish, const Scene& scene) {
 }
 
 InteriorRecord make_record(const Interior& interior) {
-  // As in POV-Ray.
+  // The unit of caustics is POV-Ray's.
   constexpr double kCausticsUnit = 45;
   InteriorRecord r{};
   r.ior = static_cast<float>(interior.ior);
@@ -210,7 +211,7 @@ InteriorRecord make_record(const Interior& interior) {
 }
 
 FogRecord make_record(const Fog& fog, const Scene& scene) {
-  constexpr double kNoAltitude = 1e-6, kOfNoise = 4096; // after so many units it repeats
+  constexpr double kNoAltitude = 1e-6, kOfNoise = 4096; // the period of noise in units
   FogRecord r{};
   copy(fog.colour, r.colour);
   r.least = static_cast<float>(fog.transmit);

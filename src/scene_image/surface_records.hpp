@@ -10,16 +10,16 @@ namespace celltrace {
 
 kernel::LightRecord make_record(const Light& light);
 kernel::MaterialRecord make_record(const Material& material, const Scene& scene);
-/// Whether it has more than a material's record says.
+/// Returns whether a finish needs a record besides the fields in a material's record.
 bool has_record(const Finish& finish);
 kernel::FinishRecord make_record(const Finish& finish, const Scene& scene);
 kernel::InteriorRecord make_record(const Interior& interior);
 kernel::FogRecord make_record(const Fog& fog, const Scene& scene);
-/// Whether anything of it is seen.
+/// Returns whether any colour of a rainbow is visible.
 bool is_visible(const Rainbow& rainbow);
-/// Without its colours.
+/// Returns the record of a rainbow, without its colours.
 kernel::RainbowRecord make_record(const Rainbow& rainbow);
-/// Whether shadow rays stop at it. Without a map.
+/// Returns whether shadow rays stop at a pigment without a map.
 bool is_opaque(const Pigment& pigment);
 
 } // namespace celltrace

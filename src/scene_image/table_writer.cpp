@@ -21,7 +21,7 @@ namespace {
 
 using Simd = HostSimd<BaselineArch>;
 
-/// A box around everything, a little larger than it is.
+/// Returns slightly enlarged bounds of everything, or a unit box if there is nothing.
 Aabb bounds_of(Aabb all) {
   if (all.min[0] > all.max[0]) return {{0, 0, 0}, {1, 1, 1}};
   float largest = 0;
@@ -175,8 +175,8 @@ void TableWriter::write_unbounded(const SceneObjects& objects, const ObjectCensu
 
 void TableWriter::write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed,
                                 std::uint32_t* places, unsigned threads) {
-  // Without tables that grow with them objects are written in the scene's order: it takes fewer lines to
-  // send records anywhere than to fetch triangles and vertices from there.
+  // If no other table depends on the order, objects are written in the order of the scene: writing records to
+  // scattered places touches fewer cache lines than reading triangles and vertices from there.
   const bool has_tables = header_.extra_count != 0 || header_.blend_count != 0;
   if (!has_tables) {
     std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
@@ -214,7 +214,7 @@ void TableWriter::write_groups(std::span<const std::uint32_t> groups, unsigned t
       for (std::uint32_t i = groups[group]; i < groups[group + 1]; ++i)
         lanes.grow(bvh::box_of<Simd>(objects[i], base_));
       bvh::Reference box;
-      lanes.min.store(box.min); // over the words beside
+      lanes.min.store(box.min); // also writes the neighbouring words
       lanes.max.store(box.max);
       table<GroupRecord>(header_.group_offset)[group] = {{box.min[0], box.min[1], box.min[2]},
                                                          groups[group],
@@ -241,8 +241,8 @@ void TableWriter::write_instanced(const InstancedMeshes& instanced) {
                    header_.extra_count - instanced.extra_count()});
 }
 
-/// ExtraRecords lie as objects do: of loose ones, of instances, of unbounded ones, of meshes that instances
-/// share.
+/// Returns the index of the instances' first ExtraRecord. ExtraRecords have the order of objects: ordinary
+/// ones, instances, unbounded ones, meshes that instances share.
 std::uint32_t TableWriter::first_instance_extra(const MeshInstances& instances) const {
   return header_.extra_count - other_extras_ - instances.census().extras;
 }

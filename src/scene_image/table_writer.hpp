@@ -20,39 +20,40 @@
 
 namespace celltrace {
 
-/// Puts the records of a scene where the header says. Everything that it is given stays as it is as long as
-/// it lives.
+/// Writes the records of a scene at the offsets in the header. Its arguments must not change while it lives.
 class TableWriter {
 public:
-  /// `other_extras`: ExtraRecords behind those of objects that an accelerator has.
+  /// Begins an image at `base`. `other_extras` is the number of ExtraRecords behind those of objects that an
+  /// accelerator holds.
   TableWriter(std::byte* base, const kernel::ImageHeader& header, const Scene& scene,
               const TextureTables& textures, std::uint32_t other_extras);
 
-  /// The header, and zeros for all but objects: what lies between the tables is always the same.
+  /// Writes the header, and zeros everything but objects, so that the gaps between tables always hold the
+  /// same bytes.
   void write_header();
   void write_lights(const LightSets& sets, std::span<const std::uint32_t> projector_sizes);
   void write_surfaces(TextureTables& textures);
-  /// Indices become offsets.
+  /// Writes the tables of CSG; indices become offsets.
   void write_csg(const CsgParts& csg);
   void write_polygons(const PolygonTable& polygons);
-  /// `before`: what the others have in tables.
+  /// Writes objects without bounds; `before` counts the entries of tables that precede theirs.
   void write_unbounded(const SceneObjects& objects, const ObjectCensus& before);
-  /// `placed`: those that are no instances, in the order of the image. `places` has room for a word per
-  /// object.
+  /// Writes the objects that are no instances: `placed`, in the order of the image. `places` has room for a
+  /// word per object.
   void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
                      unsigned threads);
-  /// The same for objects without records in other tables. `places`: by object where it is among them, or
+  /// Writes the objects if they need no other tables. `places`, by object, has the place in the image or
   /// kNoPlace.
   void send_objects(const SceneObjects& objects, std::span<const std::uint32_t> places, unsigned threads);
-  /// Those of [begin, end) of the scene as they are counted: see SceneObjects::write_placed().
+  /// Writes the objects of [begin, end) of the scene while it counts them: see SceneObjects::write_placed().
   std::optional<ObjectCensus> send_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
                                           std::uint32_t begin, std::uint32_t end);
-  /// Of objects that are no instances.
   void write_groups(std::span<const std::uint32_t> groups, unsigned threads);
   void write_instanced(const InstancedMeshes& instanced);
-  /// Behind everything else.
+  /// Writes the instances; they come behind everything else.
   void write_instances(const MeshInstances& instances, unsigned threads);
-  /// At last. `around`: objects that are no instances.
+  /// Writes the bounds of all objects, as the last step. `around` are the bounds of those that are no
+  /// instances.
   void write_bounds(kernel::Aabb around);
 
 private:

@@ -28,11 +28,11 @@ static_assert(kDeepestMap == kDeepestMapWalk);
 
 class Check {
 public:
-  /// `has_surface`: of something in the scene.
+  /// Begins checks of a texture that errors call `name`. `has_surface`: it belongs to an object of the scene.
   explicit Check(std::string name, bool has_surface = true)
       : name_(std::move(name)), has_surface_(has_surface) {}
 
-  /// Goes on with another texture. Maps that it shares with the ones before need no second look.
+  /// Continues with another texture. Maps that it shares with earlier ones are not checked again.
   void rename(std::string name) { name_ = std::move(name); }
 
   void material(const Material& m, int depth, int layers) {
@@ -86,7 +86,8 @@ private:
   void check_depth(int depth) const {
     if (depth == kDeepestMap) fail("has maps that nest more than " + std::to_string(kDeepestMap) + " deep");
   }
-  /// A map that several share is looked at once, or such trees would take for ever.
+  /// Checks that positions ascend. A map that several textures share is checked once, since trees of shared
+  /// maps would take for ever.
   template <class Entries> void ascending(const Entries& entries) const {
     const auto descends = [](const auto& a, const auto& b) { return a.position > b.position; };
     const auto found = std::adjacent_find(entries.begin(), entries.end(), descends);
@@ -141,7 +142,7 @@ private:
     numbers({w.distance, w.distance_exponent, w.major_radius});
     if (w.orientation == Vec3(0)) fail("has a warp without orientation");
   }
-  /// An object whose inside is a pattern, or a part of it.
+  /// Checks an object whose inside is a pattern, or a part of such an object.
   void solid(const Object& object, int depth) const {
     if (depth > kDeepestCsg) fail("has the pattern of an object that nests too deeply");
     const Vec3(&rows)[4] = object.transform.rows;
@@ -164,7 +165,7 @@ private:
     for (const Object& clip : *object.clipped_by)
       solid(clip, depth + 1);
   }
-  /// `depth`: how deep maps would lie in the pattern.
+  /// Checks a pattern; `depth` is the depth of maps nested in it.
   void pattern(const Pattern& p, int depth) {
     if ((p.uv_mapping || std::holds_alternative<pattern::Slope>(p.kind)) && !has_surface_)
       fail("has a pattern of surfaces, but no surface");
@@ -182,14 +183,14 @@ private:
              s.altitude[2], s.offset});
     if (const auto* inside = std::get_if<pattern::Inside>(&p.kind)) solid(*inside->of, 0);
     if (const auto* grey = std::get_if<pattern::Grey>(&p.kind)) {
-      check_depth(depth); // one colour becomes a map, too
+      check_depth(depth); // a single colour becomes a map, too
       pigment(*grey->of, depth);
     }
   }
 
   std::string name_;
   bool has_surface_;
-  std::map<const void*, int> seen_; ///< maps, with the depth at which they were looked at
+  std::map<const void*, int> seen_; ///< maps, with the depth at which they were checked
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// What textures have to be before they become records.
+// Checks of textures before they become records.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,10 +8,10 @@
 namespace celltrace {
 
 /// Throws InputError, naming the material, unless all numbers are finite, maps have entries and neither nest
-/// nor layer too deeply, and every pattern is one that there is.
+/// nor layer too deeply, and every pattern has a known kind.
 void validate_textures(const std::vector<Material>& materials);
 
-/// Likewise of the scene's sky sphere.
+/// Checks the textures of the scene's sky sphere in this way.
 void validate_sky(const Scene& scene);
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// Offsets in the image in the place of indices.
+// Turns indices of textures into offsets in the image.
 #include "records/csg.hpp"
 #include "records/offsets.hpp"
 #include "scene_image/textures.hpp"

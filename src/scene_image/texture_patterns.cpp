@@ -20,7 +20,7 @@ void set(const Transform& to_space, float (&m)[12]) {
       m[row * 4 + column] = static_cast<float>(to_space.rows[column][row]);
 }
 
-/// Whether points do not tell a pattern's values.
+/// Returns whether a pattern's values depend on more than points.
 bool asks_for_surface(const PatternRecord& r) {
   return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
          Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
@@ -78,7 +78,7 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
     }
     add_table(tables_.back());
   }
-  // A frequency of 0 leaves numbers as they are.
+  // A frequency of 0 leaves values as they are.
   const bool is_own = pattern.frequency == 0;
   if (is_own) r.kind_and_flags |= pattern_flag::never_repeats;
   r.frequency = static_cast<float>(is_own ? 1 : pattern.frequency);
@@ -101,7 +101,7 @@ void TextureTables::add_table(PatternTable table) {
   if (has_features && features.empty()) features = make_features();
 }
 
-/// What is met first is written last.
+/// Adds the steps of a space; the step that points go through first is written last.
 void TextureTables::add_steps(PatternRecord& r, const std::vector<SpaceStep>& space) {
   const auto first_step = static_cast<std::uint32_t>(steps.size());
   r.steps = first_step;

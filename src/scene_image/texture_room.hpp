@@ -1,4 +1,4 @@
-// How large the tables of textures may grow.
+// Limits on the size of the tables of textures.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -9,8 +9,8 @@
 
 namespace celltrace {
 
-/// Of all textures together, in each of the tables: what several maps share is written once for each space
-/// that it is in.
+/// Limit on records of all textures together, in each table. A map that several textures share
+/// is written once for each space that it is in.
 inline constexpr std::size_t kMostRecords = std::size_t{1} << 22;
 
 template <class Record>

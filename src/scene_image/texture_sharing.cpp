@@ -8,10 +8,11 @@ namespace celltrace {
 
 namespace {
 
-/// Entries of all maps together from which on they are shared: copies of them would take some 20 MB.
+/// The number of entries of all maps from which on they are shared; that many copies would take some 20 MB.
 constexpr double kManyEntries = 1 << 17;
 
-/// Counts the entries of maps as if every use of one had its own; as numbers that may be beyond all integers.
+/// Counts the entries of maps as if each use of a map had its own copy; in floating point, as the number may
+/// exceed all integers.
 class EntryCounter {
 public:
   double of(const Material& material) {
@@ -59,7 +60,7 @@ bool TextureSharing::may_be_relative(const PatternMap<Material>& map) {
   return same_everywhere_[&map] = all;
 }
 
-/// A thin film may be thicker at one point than at another one.
+/// A thin film's thickness may vary from point to point.
 bool TextureSharing::is_same_everywhere(const Material& material) {
   if (material.inside) return false;
   if (material.map) return may_be_relative(*material.map);

@@ -1,5 +1,5 @@
-// Textures that many objects have, each at another place: whether what is in their maps is worth sharing, and
-// where it may be.
+// Decides for textures that many objects have, each at another place, whether their maps are worth sharing,
+// and which maps can be shared.
 #pragma once
 
 #include "celltrace/texture.hpp"
@@ -9,17 +9,18 @@
 
 namespace celltrace {
 
-/// Looks at the textures of a scene, which stay as long as this lives.
+/// Decides about the textures of a scene, which must outlive this object.
 class TextureSharing {
 public:
   explicit TextureSharing(const std::vector<Material>& materials);
 
-  /// Whether the maps would have too many entries if each of them had its own.
+  /// Returns whether the maps would have too many entries if each texture had its own.
   bool is_needed() const { return is_needed_; }
 
-  /// Whether a map has others in it that may be asked at points of its own space.
+  /// Returns whether a map has nested maps that can be evaluated at points of its own space.
   bool may_be_relative(const PatternMap<Pigment>& map) const;
-  /// Patterns and normals in a texture are asked at points of the scene in any case.
+  /// Returns the same for a map of textures; the patterns and normals in a texture are always evaluated at
+  /// points of the scene.
   bool may_be_relative(const PatternMap<Material>& map);
   static bool may_be_relative(const PatternMap<Normal>&) { return false; }
 

@@ -23,13 +23,13 @@ std::size_t hash_of(const Vec3& vector) {
   return (hash(vector.x) * 31 + hash(vector.y)) * 31 + hash(vector.z);
 }
 
-/// Of an interval of a map; 0 if it has none.
+/// Returns the inverse width of an interval of a map; 0 if the interval is empty.
 float inverse_width(double from, double to) {
   const float inverse = to > from ? static_cast<float>(1 / (to - from)) : 0;
   return std::isfinite(inverse) ? inverse : 0;
 }
 
-/// Of the nodes that several materials push, so many of which count.
+/// Returns the sum of the greatest `count` of the numbers of nodes that several materials push.
 std::uint32_t sum_of_greatest(std::vector<std::uint32_t> nodes, std::size_t count) {
   std::sort(nodes.begin(), nodes.end(), std::greater<>());
   std::uint32_t sum = 0;
@@ -37,7 +37,8 @@ std::uint32_t sum_of_greatest(std::vector<std::uint32_t> nodes, std::size_t coun
     sum = std::min(sum + nodes[i], kMostSurfaceNodes);
   return sum;
 }
-/// What its rays take of a stack; those of light that is bent are followed by a node that gathers it.
+/// Returns how many nodes a mirror's rays take on the stack; reflected light that is bent needs another node
+/// that collects it.
 std::uint32_t nodes_of_mirror(const MaterialRecord& r) {
   if ((r.flags & material_flag::reflects) == 0) return 0;
   return (r.flags & material_flag::bends_reflection) != 0 ? 2 : 1;
@@ -141,7 +142,8 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       const Known below = add_material(*material.below, outer, Place::inside);
       r.flags |= material_flag::layered;
       r.below = below.index;
-      // What comes through a layer stays inside, but a Fresnel mirror asks what rays are inside of.
+      // Light that comes through a layer stays inside, but a Fresnel mirror needs to know what the ray is
+      // inside of.
       traits.opaque = traits.opaque || below.traits.opaque;
       constexpr std::uint32_t kAsksRays = material_flag::reflects | material_flag::fresnel;
       traits.spawns = (r.flags & kAsksRays) != 0 || below.traits.spawns;
@@ -188,7 +190,8 @@ TextureTables::Known TextureTables::add_shared_material(const Material& material
   return added;
 }
 
-/// Where equal entries are, which may be these; then these are taken back if they are the last ones.
+/// Returns the first entry of a block equal to this one, which is then removed, or of this block if there is
+/// none; only a block at the end of the table is looked up.
 std::uint32_t TextureTables::share_entries(const EntryBlock& block) {
   const auto bytes_of = [this](const EntryBlock& one) {
     return std::string_view(reinterpret_cast<const char*>(entries.data() + one.first),
@@ -254,7 +257,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
     entry.inverse_width = i == 0 ? 0 : inverse_width(map->entries[i - 1].position, from.position);
     entry.child = kNoOffset;
     if constexpr (!std::is_same_v<T, Normal>) {
-      // Between two entries that are the same the lower one counts alone: it is not looked at twice.
+      // Between two equal entries only the lower one counts, so that it is evaluated once.
       if (i != 0 && from.value == map->entries[i - 1].value) {
         const float position = entry.position;
         entry = entries[first + i - 1];
@@ -296,7 +299,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   if (is_relative) patterns[pattern].kind_and_flags |= pattern_flag::relative;
   if (is_nested) patterns[pattern].kind_and_flags |= pattern_flag::nested;
   traits.by_surface = traits.by_surface || of_pattern.by_surface;
-  // Where they are not averaged, two count in each lane.
+  // If they are not averaged, two entries count in each lane.
   traits.nodes = sum_of_greatest(nodes, map->is_average ? count : 2 * kSimdLanes);
   if (is_shared) known_[key] = {pattern, traits};
   return {pattern, traits};
@@ -315,7 +318,7 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
         !normal.slopes.empty() &&
         !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask);
     const std::uint32_t first = has_slopes ? add_slopes(normal.slopes) : 0;
-    // What is in the pattern is asked at points of its own space.
+    // Patterns in the pattern are evaluated at points of its own space.
     const Known pattern =
         add_pattern(normal.pattern, outer, {}, false, has_slopes ? normal.slopes.size() : 0);
     r.pattern = pattern.index;
@@ -336,7 +339,8 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
   return {static_cast<std::uint32_t>(normals.size() - 1), traits};
 }
 
-/// Of a list with a wave as a normal: a slope map of its numbers' shares of a power of two.
+/// Turns a list with a wave, used as a normal, into a slope map over the list's indices, scaled by a power of
+/// two.
 void TextureTables::set_list_heights(PatternRecord& r, const Pattern& pattern) {
   constexpr double kShare = 0.125;
   static_assert(kShare * kMostListEntries <= 1);
@@ -387,7 +391,7 @@ void TextureTables::add_rainbow(const Rainbow& rainbow) {
   rainbows.push_back(r);
 }
 
-/// The index of the pattern whose map a pigment is.
+/// Returns the index of the pattern whose map a pigment is.
 TextureTables::Known TextureTables::add_pigment(const Pigment& pigment, const PatternSpace& outer) {
   if (pigment.map) return add_map(pigment.map, outer, Place::inside);
   auto map = std::make_shared<PatternMap<Pigment>>();

@@ -20,20 +20,21 @@
 
 namespace celltrace {
 
-/// The sky sphere as a texture of layers; there is one.
+/// Returns the sky sphere as a texture of layers; the scene must have one.
 Material sky_of(const Scene& scene);
 
-/// References among the tables are indices until relocate() makes offsets of them; kNoOffset stays.
+/// The tables of all textures. References among them are indices until relocate() turns them into offsets;
+/// kNoOffset stays.
 class TextureTables {
 public:
-  /// The first materials are the scene's, by index. The scene is valid. Throws InputError if a pattern is
-  /// none that the kernel has.
+  /// Builds the tables. The first materials are the scene's, by index. The scene must be valid. Throws
+  /// InputError if the kernel does not know a pattern.
   explicit TextureTables(const Scene& scene);
 
-  /// Of ImageHeader::surface_nodes. `has_blends`: some surfaces are of several materials.
+  /// Returns ImageHeader::surface_nodes. `has_blends`: some surfaces have several materials.
   std::uint32_t most_nodes(bool has_blends) const;
 
-  /// Makes offsets in the image of all references.
+  /// Turns all references into offsets in the image.
   void relocate(const kernel::ImageHeader& header);
 
   std::vector<kernel::MaterialRecord> materials;
@@ -42,28 +43,30 @@ public:
   std::vector<kernel::MapEntryRecord> entries;
   std::vector<kernel::NormalRecord> normals;
   std::vector<kernel::FinishRecord> finishes;
-  bool has_clear_side = false;     ///< some of what looks different from inside lets light through
-  bool by_surface = false;         ///< some materials are object_flag::by_surface,
-  bool filters = false;            ///< some let light through,
-  bool filters_by_surface = false; ///< and some do both
-  std::vector<kernel::FeatureRecord> features;   ///< these three only if a pattern or a warp reads them
-  std::vector<kernel::GradientRecord> gradients; ///< never without the features
+  bool has_clear_side = false;     ///< some material that looks different from inside lets light through
+  bool by_surface = false;         ///< some materials are object_flag::by_surface
+  bool filters = false;            ///< some materials let light through
+  bool filters_by_surface = false; ///< some materials do both
+  std::vector<kernel::FeatureRecord>
+      features; ///< this table and the next two are empty unless a pattern or a warp reads them
+  std::vector<kernel::GradientRecord> gradients; ///< empty if there are no features
   std::vector<kernel::WaveRecord> waves;
-  std::vector<kernel::SlopeRecord> slopes; ///< one for each slope
-  /// Whose insides are patterns: the first conditions of the scene's CSG, in this order.
+  std::vector<kernel::SlopeRecord> slopes; ///< one record for each slope
+  /// The objects whose insides are patterns. Their conditions come first in the scene's CSG, in this order.
   std::vector<std::shared_ptr<const Object>> objects;
-  std::vector<kernel::RainbowRecord> rainbows; ///< those that are visible
+  std::vector<kernel::RainbowRecord> rainbows; ///< visible rainbows only
   std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
-  /// By material of the scene: the flags of an object that consists of it. They are object_flag's opaque,
-  /// two_sided and by_surface, and those of material_word, which are below all of object_flag's but kinds.
+  /// By material of the scene: the flags of an object that consists of it, which are opaque, two_sided and
+  /// by_surface of object_flag, and the flags of material_word. The latter lie below all flags of object_flag
+  /// except the kinds.
   std::vector<std::uint32_t> object_flags;
 
 private:
-  /// What the textures of a tree have in common.
+  /// The properties of all textures in a tree together.
   struct Traits {
     bool opaque = true, spawns = false, textured = false, disturbed = false, two_sided = false,
          lit_behind = false, by_surface = false;
-    std::uint32_t nodes = 0; ///< that a surface pushes, at most, for rays that go on by themselves
+    std::uint32_t nodes = 0; ///< most nodes that a surface pushes for rays that continue on their own
     void add(const Traits& other);
   };
   /// The entries of a map.
@@ -76,14 +79,14 @@ private:
     Traits traits;
   };
   enum class Child : std::uint8_t { pattern, normal, material, none };
-  /// Where a map is: in another one, or in none.
+  /// The position of a map: inside another map, or not.
   enum class Place : std::uint8_t { inside, root };
 
-  /// `inside`: what a pigment is in that is the pattern.
+  /// Adds a pattern. `inside` is the space of a pigment that is itself the pattern.
   Known add_pattern(const Pattern& pattern, const PatternSpace& outer, const PatternSpace& inside,
                     bool is_average, std::size_t entry_count);
   Known add_pigment(const Pigment& pigment, const PatternSpace& outer);
-  /// `place`: where the material is, if it is a map.
+  /// Writes a material and its layers. `place` is the material's position if it is a map.
   Traits fill_material(std::uint32_t index, const Material& material, const PatternSpace& outer, Place place);
   template <class T>
   Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const PatternSpace& outer, Place place);
@@ -99,18 +102,18 @@ private:
   Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);
 
   const Scene& scene_;
-  std::uint32_t unmapped_nodes_ = 0; ///< Traits::nodes: the most of any material of the scene that is no map,
-  std::vector<std::uint32_t> mapped_nodes_; ///< and of each that is
-  std::vector<Child> children_;             ///< by entry, what its child is
-  std::vector<PatternTable> tables_;        ///< by pattern, what it reads
+  std::uint32_t unmapped_nodes_ = 0;        ///< most Traits::nodes of a material of the scene that is no map
+  std::vector<std::uint32_t> mapped_nodes_; ///< Traits::nodes of each material that is one
+  std::vector<Child> children_;             ///< by entry: its child
+  std::vector<PatternTable> tables_;        ///< by pattern: the table it reads
   TextureSharing sharing_;
-  /// Maps that several share, by address; where sharing is needed, those that are in others apart.
+  /// Maps that several textures share, by address; if sharing is needed, maps inside others are kept apart.
   std::map<std::pair<const void*, Place>, Known> known_;
   std::unordered_multimap<std::size_t, std::pair<const Material*, Known>>
-      known_materials_;                                     ///< entries of relative maps, by a hash
-  std::unordered_multimap<std::size_t, EntryBlock> blocks_; ///< entries of maps, by a hash
+      known_materials_;                                     ///< entries of relative maps, by hash
+  std::unordered_multimap<std::size_t, EntryBlock> blocks_; ///< entries of maps, by hash
   std::vector<std::shared_ptr<const void>>
-      made_; ///< maps that are not the scene's, so that no other has their address
+      made_; ///< maps that are not the scene's, kept so that no other map gets their address
 };
 
 } // namespace celltrace

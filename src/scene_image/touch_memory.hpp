@@ -7,8 +7,9 @@
 
 namespace celltrace {
 
-/// Takes the first `bytes` bytes of memory from the system in their order. Where records are sent anywhere,
-/// the first few of them would have it make all of that memory ready, which nothing could interrupt.
+/// Takes the first `bytes` bytes of memory from the system in ascending order. If records were written to
+/// scattered places first, the system would make all of that memory ready at once, which nothing could
+/// interrupt.
 void touch(AlignedBlock& block, std::size_t bytes, unsigned threads);
 
 } // namespace celltrace

@@ -30,10 +30,10 @@ bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// What is checked; put into words only for an error.
+/// The name of what is checked, which becomes text only in an error.
 struct Name {
   const char* what;
-  std::size_t index = kNoNumber; ///< one of many
+  std::size_t index = kNoNumber; ///< index if it is one of many
   const char* part = "";
 
   static constexpr std::size_t kNoNumber = std::numeric_limits<std::size_t>::max();
@@ -103,7 +103,7 @@ void check_index(Index index, std::size_t count, const Name& name) {
 }
 
 bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t materials) {
-  // All indices without a branch for each. kNoIndex is the number before 0.
+  // Tests all indices without a branch for each. kNoIndex is the number before 0.
   const auto optional = [](Index index, std::size_t count) { return Index{index + 1} <= count; };
   const bool smooth = triangle.normal[0] != kNoIndex;
   bool sound = true;
@@ -116,15 +116,16 @@ bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t mate
   return sound;
 }
 
-/// Whether the triangles of a mesh without normals are all sound; as with greatest_magnitude(), many words at
-/// a time.
+/// Returns whether all triangles of a mesh without normals are valid; tests many words at a time, as
+/// greatest_magnitude() does.
 bool are_sound(const Mesh& mesh, std::size_t materials) {
   static_assert(sizeof(Mesh::Triangle) == 9 * sizeof(Index));
   constexpr std::size_t kAtATime = 4, kWords = 9 * kAtATime; // whole vectors
-  constexpr std::size_t kTooMany = std::size_t{1} << 31;     // for numbers with a sign
+  constexpr std::size_t kTooMany = std::size_t{1} << 31;     // the sign bit is needed
   if (!mesh.normals.empty() || mesh.vertices.size() >= kTooMany || materials >= kTooMany) return false;
-  // A vertex has to be below their number, another index plus one, where kNoIndex is 0, not above it: the
-  // difference to the last one that is right has no sign, nor has the number itself.
+  // A vertex must be less than the number of vertices; a material index plus one, where kNoIndex becomes 0,
+  // must not exceed the number of materials. The sign bit of the difference to the last valid number, or of
+  // the number itself, shows an error.
   Index add[kWords], last[kWords], wrong[kWords] = {};
   for (std::size_t i = 0; i < kWords; ++i) {
     const std::size_t word = i % 9;
@@ -150,7 +151,7 @@ bool are_sound(const Mesh& mesh, std::size_t materials) {
   return sound;
 }
 
-/// One at a time only where there is something to name.
+/// Tests vectors one at a time only if there is an error to name.
 void check_all_finite(const std::vector<Vec3f>& vectors, const Name& name, const char* what) {
   if (std::isfinite(greatest_magnitude(vectors))) return;
   for (std::size_t i = 0; i < vectors.size(); ++i)
@@ -181,7 +182,7 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
   }
 }
 
-/// An object of the scene, or a part of it.
+/// Checks an object of the scene, or a part of it.
 void check_object(const Scene& scene, const Object& object, const Name& name, int depth) {
   check_index(object.material, scene.materials.size(), {name.what, name.index, ", material"});
   if (object.interior != kNoIndex)
@@ -211,7 +212,7 @@ void check_object(const Scene& scene, const Object& object, const Name& name, in
     check_object(scene, clip, name, depth + 1);
 }
 
-/// Instances share their mesh: each mesh is looked at once. `object` is number `index` of the scene, or a
+/// Checks meshes, each once, since instances share their mesh. `object` is number `index` of the scene, or a
 /// part of it.
 void check_meshes(const Object& object, std::size_t materials, std::size_t index,
                   std::unordered_set<const Mesh*>& seen) {

@@ -1,11 +1,11 @@
-// Parts of what validate() looks at.
+// Parts of validate().
 #pragma once
 
 #include "celltrace/scene.hpp"
 
 namespace celltrace {
 
-/// Throws InputError as validate() does; looks at nothing that is in Scene::objects.
+/// Throws InputError as validate() does, without looking at Scene::objects.
 void validate_all_but_objects(const Scene& scene);
 
 } // namespace celltrace

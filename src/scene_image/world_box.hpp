@@ -1,4 +1,4 @@
-// The box around a box that is transformed.
+// The bounds of a transformed box.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,7 +8,7 @@
 
 namespace celltrace {
 
-/// In double precision.
+/// Bounds in double precision.
 class WorldBox {
 public:
   WorldBox() = default;
@@ -29,7 +29,7 @@ public:
   }
   const Vec3& min() const { return min_; }
   const Vec3& max() const { return max_; }
-  /// Half the surface.
+  /// Returns half the surface area.
   double area() const {
     const Vec3 e = max_ - min_;
     return e.x * e.y + (e.x + e.y) * e.z;

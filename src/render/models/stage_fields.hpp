@@ -1,4 +1,4 @@
-// What the records that a stage and the PPE share consist of, field by field, for SPEs of another byte order:
+// The fields of the records that a stage and the PPE share, for SPEs of another byte order:
 // celltrace/spe/byte_order.hpp.
 #pragma once
 

@@ -12,16 +12,16 @@ using namespace kernel::models;
 
 namespace {
 
-/// SPEs of one pipeline by what they do.
+/// The SPEs of one pipeline, by program.
 struct Crew {
-  bool generator = false; ///< an SPE of its own; else a shader generates too
+  bool generator = false; ///< has an SPE of its own; else a shader generates, too
   unsigned shaders = 1;
   unsigned walkers = 0, testers = 0;
-  unsigned searchers = 0; ///< that walk and test in one
+  unsigned searchers = 0; ///< walk and test in one program
 };
 
-/// Found by measurement on eight SPEs (docs/programming-models.md): of all ways to share them out, the one
-/// that is best for most scenes. The BVH's searches are short, and leave more to the shaders.
+/// Returns the division of a pipeline's SPEs that is best for most scenes, measured on eight SPEs
+/// (docs/programming-models.md). Searches in a BVH are short, and leave more SPEs to the shaders.
 Crew crew_of(Model model, AcceleratorKind accelerator, unsigned spes) {
   Crew crew;
   if (model == Model::offload) {
@@ -43,7 +43,7 @@ Crew crew_of(Model model, AcceleratorKind accelerator, unsigned spes) {
   return crew;
 }
 
-/// Puts the SPEs from `first` on to work as one pipeline.
+/// Plans one pipeline of the SPEs from `first` on.
 void plan_pipeline(Model model, AcceleratorKind accelerator, unsigned first, unsigned spes, unsigned pipeline,
                    StagePlan& plan) {
   const Crew crew = crew_of(model, accelerator, spes);

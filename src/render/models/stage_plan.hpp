@@ -1,4 +1,4 @@
-// Which SPE does what under a programming model other than the shared one.
+// Assigns programs to SPEs under a programming model other than the shared one.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -10,28 +10,30 @@
 
 namespace celltrace {
 
-/// What each SPE does, without addresses.
+/// The program and the orders of each SPE, without addresses.
 struct StagePlan {
   /// The program that an SPE runs.
   enum class Program { generator, searcher, shader };
 
   struct Spe {
     Program program;
-    /// `first_row` and `row_step`, `contexts` and the like are set; effective addresses are 0.
+    /// The orders, with `first_row`, `row_step`, `contexts` and similar fields set; effective addresses are
+    /// 0.
     kernel::models::StageBlock orders;
-    unsigned pipeline; ///< the number of the pipeline that it belongs to
+    unsigned pipeline; ///< index of its pipeline
   };
 
   std::vector<Spe> spes;
   unsigned pipelines = 1;
 };
 
-/// `model` is not Model::shared. Pipelines have 2 to 15 SPEs each: more SPEs make more of them, which take
-/// the picture's rows of packets in turn. Throws InputError for fewer than 2 SPEs.
+/// Returns the plan for a model other than Model::shared. Pipelines have 2 to 15 SPEs each; more SPEs make
+/// more pipelines, which take turns in the picture's rows of packets. Throws InputError for fewer than 2
+/// SPEs.
 StagePlan plan_stages(Model model, kernel::AcceleratorKind accelerator, unsigned spes);
 
-/// SPEs to ask a machine for (0: as many as it likes): the offload model's PPE is one more than the options
-/// say.
+/// Returns how many SPEs to ask a machine for (0: as many as it chooses): in the offload model the PPE is one
+/// more than the options say.
 unsigned machine_spes(const RenderOptions& options);
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// The programs of the stages as this build has them; defined by it (cmake/celltrace_spe_program.cmake).
+// The SPE programs of the stages in this build (cmake/celltrace_spe_program.cmake).
 #pragma once
 
 #include "celltrace/spe/program.hpp"

@@ -49,7 +49,7 @@ bool StageTeam::render_frame(const Progress& progress) {
 }
 
 bool StageTeam::render_frame_while(HeldProgress& held) {
-  failed_ = true; // unless it comes to its end
+  failed_ = true; // reset if the frame ends normally
   prepare();
   start();
   bool go_on = true;
@@ -60,7 +60,7 @@ bool StageTeam::render_frame_while(HeldProgress& held) {
     const std::uint64_t complete =
         std::accumulate(pipelines_.begin(), pipelines_.end(), std::uint64_t{0},
                         [](std::uint64_t sum, const Pipeline& p) { return sum + p.packets; });
-    // 1 is kept for the finished frame.
+    // Holds 1 back for the finished frame.
     go_on = held.ask(std::min(static_cast<double>(complete) / packets, 0.999));
     if (!go_on) stop();
   }
@@ -72,7 +72,7 @@ bool StageTeam::render_frame_while(HeldProgress& held) {
 void StageTeam::prepare() {
   const std::size_t searches = std::max(frame_[0].light_places, 1u);
   const std::size_t job_bytes = sizeof(JobRecord) + searches * sizeof(SearchRecord);
-  // Of its stack a context keeps fewer nodes in local store than the tracer does.
+  // A context keeps fewer nodes of its stack in local store than the tracer does.
   const std::uint32_t stack_nodes = frame_[0].ray_stack_nodes + kResidentNodes;
   const std::size_t contexts = std::size_t{plan_.pipelines} * kMaxContexts;
   jobs_ = AlignedBlock(contexts * job_bytes);
@@ -128,7 +128,7 @@ void StageTeam::stop() {
   }
 }
 
-/// No job is under way anywhere: the programs may end.
+/// Ends the programs; no job may be in progress anywhere.
 void StageTeam::leave() {
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
     if ((plan_.spes[spe].orders.tasks & task::by_mailbox) != 0)

@@ -1,5 +1,5 @@
-// The SPEs of a machine at work on frames under a programming model other than the shared one: what the PPE
-// says to them and hears from them.
+// The SPEs of a machine that render frames under a programming model other than the shared one, and the
+// messages between them and the PPE.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -15,24 +15,24 @@
 
 namespace celltrace {
 
-/// Runs the programs of the stages for a frame at a time. Throws SpeError as soon as one of them fails.
+/// Runs the programs of the stages, one frame at a time. Throws SpeError as soon as one of them fails.
 class StageTeam {
 public:
-  /// `frame` is one block, in the machine's byte order. It stays in place as long as the team lives; the SPEs
-  /// see what it says when a frame begins. Throws InputError if the model does not go with the machine's
-  /// number of SPEs.
+  /// Plans the stages. `frame` is one block in the machine's byte order; it must stay in place while the team
+  /// lives. The SPEs read its contents when a frame begins. Throws InputError if the model does not support
+  /// the machine's number of SPEs.
   StageTeam(Machine& machine, SharedRecords<kernel::FrameBlock>& frame, Model model);
 
-  /// Renders a frame; no program may be running. False if `progress` broke it off; what it throws passes
-  /// through, the SPEs being ready for the next frame all the same. After SpeError it throws at every call.
+  /// Renders a frame; no program may be running. Returns false if `progress` ended the frame; its exceptions
+  /// pass through. In both cases the SPEs are ready for the next frame. After a SpeError every call throws.
   bool render_frame(const Progress& progress);
 
-  /// What the stages did in the last frame.
+  /// Returns the statistics of the stages in the last frame.
   RenderStatistics::Stages counts() const;
 
 private:
   bool render_frame_while(HeldProgress& held);
-  /// Memory that depends on the frame, and its addresses in the orders.
+  /// Allocates memory that depends on the frame, and sets its addresses in the orders.
   void prepare();
   void start();
   /// Reads all mail. Sleeps a little and returns false if there is none.
@@ -47,9 +47,9 @@ private:
   StagePlan plan_;
   SharedRecords<kernel::models::StageBlock> orders_;
   SharedRecords<kernel::models::StageReport> reports_;
-  AlignedBlock jobs_, ray_stacks_; ///< the SPEs' own
+  AlignedBlock jobs_, ray_stacks_; ///< memory for the jobs and the ray stacks of all contexts
 
-  /// Of each pipeline: who reports to the PPE, and what it has reported.
+  /// The state of a pipeline: the SPE that reports to the PPE, and its reports.
   struct Pipeline {
     unsigned head = 0;
     std::uint32_t packets = 0;
