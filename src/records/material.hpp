@@ -26,8 +26,8 @@ constexpr uint32_t patterned = 0x4; ///< `pattern` says what the pigment is
 constexpr uint32_t disturbed = 0x8; ///< has a normal
 constexpr uint32_t layered = 0x10;  ///< has a layer below
 constexpr uint32_t mapped = 0x20;   ///< a texture map: `pattern` has MaterialRecords, all else means nothing
-/// Filtered light is counted by the brightest channel, as before version 3.7.
-constexpr uint32_t old_opacity = 0x40;
+constexpr uint32_t old_opacity =
+    0x40; ///< filtered light is counted by the brightest channel, as before version 3.7
 // What the numbers of a record ask for: where a flag is not set, numbers that only it concerns are not read.
 constexpr uint32_t bends_diffuse = 0x80; ///< brilliance is not 1
 constexpr uint32_t phong = 0x100;

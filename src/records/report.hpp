@@ -44,8 +44,8 @@ constexpr uint32_t quit = 0x8;
 /// Outbound mailbox, SPE to PPE: kind in the top four bits, a count below.
 enum class ReportKind : uint32_t {
   prepared = 1, ///< count: 0
-  /// PREPARE FRAME ran out of room for pairs; the report's list_entries says how many there are.
-  needs_memory = 2,
+  needs_memory =
+      2, ///< PREPARE FRAME ran out of room for pairs; the report's list_entries says how many there are
   progress = 3, ///< count: units completed in this frame so far
   idle = 4,     ///< as progress, and nothing left to do
   finished = 5, ///< left the frame; the report record is written

@@ -18,8 +18,8 @@ template <class S> struct SurfacePoint {
 struct ShapeTraits {
   static constexpr bool kIsLocal = false;  ///< its geometry is a map to a space of its own (local_shape.hpp)
   static constexpr bool kIsBounded = true; ///< it can be in the BVH by itself
-  /// The code of its intersect() is large: it has a code module apart.
-  static constexpr bool kIsHeavy = false;
+  static constexpr bool kIsHeavy =
+      false; ///< the code of its intersect() is large: it has a code module apart
   static constexpr bool kHasHeavyPoints = false; ///< that of its inside() and of its normals is: likewise
   static constexpr bool kHasFaces = false;       ///< flat ones: then it has off_face()
   /// It finds a ray's first pair of crossings, and the next one beyond rays.after() when it is asked again,
