@@ -79,7 +79,7 @@ private:
   DiagnosticLog& log_;
   const EmulationConfig& config_;
   SeededRandom random_;
-  /// When exploring, an SPE is interrupted once in so many of its actions on average.
+  /// Average number of actions of an SPE between two interruptions, when exploring.
   std::uint32_t patience_;
   std::vector<Agent> agents_;
   ForeignStoreWatch watch_;

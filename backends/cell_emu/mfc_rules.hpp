@@ -1,7 +1,7 @@
 // The architecture's rules for MFC commands, as pure functions: which rule does a command break?
 //
 // Sources: Cell Broadband Engine Programming Handbook, chapter "DMA transfers and inter-processor
-// communication"; spu_mfcio.h of GCC 9.3; Linux spufs_check_valid_dma(). Where the hardware wraps or ignores
+// communication"; spu_mfcio.h of GCC 9.3; Linux spufs_check_valid_dma(). If the hardware wraps or ignores
 // bits silently, these rules are stricter on purpose.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Pictures in memory. Those with 8 bits a channel can be read from files, written to files and compared;
+// Pictures in memory. Pictures with 8 bits a channel can be read from files, written to files and compared;
 // those with 16 bits a channel, and colours as floats, can be written to files.
 //
 // Every function is safe to call from several threads at once on different pictures and files.
@@ -127,7 +127,7 @@ struct ExrOptions {
   const FirstHits* first_hits = nullptr;
 };
 
-/// How a picture is stored, for formats that leave a choice.
+/// Options of a picture file, for formats that leave a choice.
 struct FileOptions {
   std::optional<ImageFormat> format; ///< none: by the path's extension; only save_image() uses it
   /// True: the file has alpha, if its format can. None: the file has alpha unless every pixel is opaque.

@@ -29,25 +29,25 @@ namespace celltrace {
 /// Bounds on what a scene may cost; passing one is a SceneError. Any bound may be raised: recursions that
 /// have to end for other reasons, such as objects inside objects, have limits of their own.
 struct ParseLimits {
-  std::uint64_t file_bytes = 1u << 30;           ///< of one file, at most 2^31 - 16
+  std::uint64_t file_bytes = 1u << 30;           ///< bytes of one file, at most 2^31 - 16
   std::uint64_t include_depth = 64;              ///< files open at once
   std::uint64_t macro_depth = 1000;              ///< macro calls open at once
   std::uint64_t nesting = 256;                   ///< brackets open at once
-  std::uint64_t loop_iterations = 1'000'000'000; ///< of all #while and #for loops together
-  std::uint64_t recorded_tokens = 4'000'000;     ///< in macro and loop bodies, 56 bytes each
+  std::uint64_t loop_iterations = 1'000'000'000; ///< iterations of all #while and #for loops
+  std::uint64_t recorded_tokens = 4'000'000;     ///< tokens in macro and loop bodies, 56 bytes each
   std::uint64_t tokens = 50'000'000'000;         ///< tokens read in all, replays included
   std::uint64_t array_elements = 1'200'000;      ///< elements of all arrays at one time, about 100 bytes each
-  std::uint64_t list_entries = 32'000'000;       ///< of one list, such as a mesh's vertices
-  std::uint64_t string_bytes = 1u << 20;         ///< of one string
-  std::uint64_t text_bytes = 256u << 20;         ///< of all strings that are made or declared
+  std::uint64_t list_entries = 32'000'000;       ///< entries of one list, such as a mesh's vertices
+  std::uint64_t string_bytes = 1u << 20;         ///< bytes of one string
+  std::uint64_t text_bytes = 256u << 20;         ///< bytes of all strings that are made or declared
   /// Bytes of all objects and textures that are declared, not placed.
   std::uint64_t memory = std::uint64_t{2} << 30;
-  std::uint64_t seconds = 600;              ///< processor time of the parsing thread
+  std::uint64_t seconds = 600;              ///< seconds of the parsing thread's processor time
   std::uint64_t open_files = 64;            ///< files opened by #fopen at one time
   std::uint64_t written_bytes = 256u << 20; ///< bytes written by #write, to all files
   std::uint64_t objects = 4'000'000;        ///< objects placed in the scene
   std::uint64_t triangles =
-      32'000'000; ///< of all meshes; an instance is not counted again unless it has patterns
+      32'000'000; ///< triangles of all meshes; an instance is not counted again unless it has patterns
   /// Entries of the maps of all textures with patterns, counted each time that one is placed.
   std::uint64_t map_entries = 16'000'000;
 };
@@ -72,7 +72,7 @@ struct AnimationFrame {
 
 enum class FileUse { read, write };
 
-/// Where an object of a Scene stands in its text. A CSG is one object, but a plain union is as many objects
+/// The place of an object of a Scene in its text. A CSG is one object, but a plain union is as many objects
 /// as it has parts. The strings are valid during the call that passes them.
 struct ObjectOrigin {
   std::string_view kind; ///< the language's keyword, for example "sphere"

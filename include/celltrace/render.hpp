@@ -22,7 +22,7 @@
 
 namespace celltrace {
 
-/// How the work of a frame is shared between the SPEs; docs/balancing.md compares them.
+/// Ways to share the work of a frame between the SPEs; docs/balancing.md compares them.
 enum class Balance {
   gde, ///< strips that generalized dimension exchange adjusts while the frame is rendered; they start out by
        ///< the cost of the frame before
@@ -33,7 +33,7 @@ enum class Balance {
   tiles,     ///< tiles of 4x4 bundles, dealt at random
 };
 
-/// How rays find the objects that they may hit.
+/// Data structures by which rays find the objects that they may hit.
 enum class Accelerator {
   automatic, ///< the BVH
   grid,      ///< a uniform grid of voxels, which an SPE builds
@@ -190,7 +190,7 @@ struct CELLTRACE_EXPORT RenderStatistics {
   };
   struct Spe {
     std::uint64_t rays = 0;
-    std::uint32_t packets = 0; ///< of 4x4 primary rays
+    std::uint32_t packets = 0; ///< packets of 4x4 primary rays
     std::uint32_t exchanges = 0;
     std::uint32_t busy_ticks = 0; ///< ticks of the decrementer in which the SPE did not wait for work
     /// Greatest number of bytes of the arena in use, since the renderer was made.

@@ -44,7 +44,7 @@ struct Camera {
   double angle = 90;           ///< width of the picture in degrees, not negative; for kinds that mention it
   double vertical_angle = 180; ///< height of the picture in degrees, not negative; for kinds that mention it
 
-  /// How the camera adapts to the ratio of a picture's width to its height.
+  /// Ways in which the camera adapts to the ratio of a picture's width to its height.
   enum class Framing {
     fixed, ///< not at all, as in POV-Ray: the view is squeezed into the picture
     width, ///< the view keeps its width, and gets higher or lower
@@ -116,7 +116,7 @@ struct Rainbow {
     double transmit = 0; ///< share of that light that passes in any case
   };
   Vec3 direction{0, 0, 1}; ///< direction of the light, of any length but 0; the bow surrounds it
-  double angle = 0;        ///< from the direction to the middle of the bow, in degrees
+  double angle = 0;        ///< angle between the direction and the middle of the bow, in degrees
   double width = 0;        ///< width of the bow, in degrees; 0: there is none
   double distance = 0; ///< distance at which 1/e of a surface's light is left; not above 0: there is no bow
   double jitter = 0;   ///< random shift of the colours, as a share of the width
@@ -315,8 +315,9 @@ struct Object {
   /// Index into Scene::light_groups: the lights that shine on the object. kNoIndex: all global lights. No
   /// effect for a CSG.
   Index light_group = kNoIndex;
-  /// Objects that clip this one: only the part inside all of them is there. They are transformed with the
-  /// object, and their materials have no effect. Null: the whole object is there.
+  /// Objects that clip this one: only the part inside all of them is there. Clipping
+  /// objects are transformed with this one, and their materials have no effect. Null: the whole object is
+  /// there.
   std::shared_ptr<const std::vector<Object>> clipped_by = nullptr;
 };
 

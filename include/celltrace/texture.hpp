@@ -156,9 +156,10 @@ struct Mapping {
   enum class Shape { planar, cylindrical, spherical, toroidal };
   Shape shape = Shape::planar;
   Vec3 orientation{0, 0, 1};
-  double distance = 0;          ///< of planar: the value of z
-  double distance_exponent = 0; ///< of the other shapes: the square grows with the distance to this power
-  double major_radius = 1;      ///< of the torus
+  double distance = 0; ///< value of z, for planar
+  /// Exponent for the other shapes: the square grows with the distance to this power.
+  double distance_exponent = 0;
+  double major_radius = 1; ///< major radius of the torus
 };
 
 } // namespace warp
@@ -244,13 +245,14 @@ struct Finish {
   Vec3 ambient{0.1, 0.1, 0.1};
   Vec3 emission{0, 0, 0};
   double diffuse = 0.6;
-  double diffuse_behind = 0; ///< for light that falls on the other side, which makes no highlights
+  /// Diffuse share of light that falls on the other side, which makes no highlights.
+  double diffuse_behind = 0;
   double brilliance = 1;
   double phong = 0;
   double phong_size = 40;
   double specular = 0;
   double roughness = 0.05;
-  double metallic = 0; ///< for the highlights
+  double metallic = 0; ///< share of the pigment's colour in the highlights
   Vec3 reflection_min{0, 0, 0};
   Vec3 reflection_max{0, 0, 0};
   double reflection_falloff = 1;

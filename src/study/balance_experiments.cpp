@@ -1,4 +1,4 @@
-// How evenly the SPEs share a frame, and how much faster more SPEs are.
+// Measures how evenly the SPEs share a frame, and how much faster more SPEs are.
 #include "study/experiment.hpp"
 
 #include <algorithm>

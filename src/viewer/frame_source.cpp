@@ -16,7 +16,7 @@ namespace {
 constexpr double kSlow = 0.2;
 /// Time between two such updates.
 constexpr std::chrono::milliseconds kGrowth(60);
-/// Time after which a new input may cancel the first picture: an earlier one is let finish.
+/// Age from which a new input cancels the first picture; a younger one is finished.
 constexpr std::chrono::milliseconds kLate(40);
 
 int scaled(int size, int scale) {

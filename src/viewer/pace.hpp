@@ -19,7 +19,7 @@ public:
     pixel_ = pixel_ == 0 || each > pixel_ ? each : 0.5 * (pixel_ + each);
   }
   void forget() { pixel_ = 0; }
-  /// Returns the seconds that a picture for a window of so many pixels is expected to take.
+  /// Returns the expected seconds of a picture for a window of `pixels` pixels.
   double expected(double pixels, int scale) const { return pixel_ * pixels / (double{1} * scale * scale); }
   /// Returns the scale of the first picture, a power of two; a coarse one as long as nothing is known.
   int first_scale(double pixels) const {

@@ -1,7 +1,7 @@
 // A window with a picture and information over it, by SDL.
 //
 // There are three surfaces, as in the thesis: the window's own; the picture, whose memory receives the SPEs'
-// pixels; and the text over it. They are composed in a fourth one, so that a half-drawn picture is never
+// pixels; and the text over it. All three are composed in a fourth one, so that a half-drawn picture is never
 // seen.
 #pragma once
 

@@ -10,7 +10,7 @@
 // one for each frequency theta, so that the eigenvalues of a sweep are the roots of
 //   x^2 - 2 ((1 - lambda)^2 + lambda^2 cos theta) x + (1 - 2 lambda)^2 = 0.
 // The slowest frequency decides. With the best parameter its roots coincide, and the factor is 2 lambda - 1.
-// Pure functions. They throw std::invalid_argument for graphs without nodes and without a closed form.
+// Pure functions. They throw std::invalid_argument for graphs without nodes or without a closed form.
 #pragma once
 
 #include <algorithm>

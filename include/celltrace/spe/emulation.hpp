@@ -71,8 +71,8 @@ struct EmulationConfig {
   std::map<Rule, Action> actions;
   /// Virtual cycles, waits included, after which a running program breaks Rule::time_limit; 0: no limit.
   std::uint64_t cycle_limit = 0;
-  /// Seconds of the host, 0 to 1e9, after which a program breaks Rule::time_limit; 0: no limit. They pass for
-  /// all programs at once, also while others run.
+  /// Seconds of the host, 0 to 1e9, after which a program breaks Rule::time_limit; 0: no limit. The time
+  /// passes for all programs at once, also while others run.
   double seconds_limit = 0;
   /// Objects that are registered from the start; see Machine::register_object(). No two may overlap.
   std::vector<MemoryObject> objects;

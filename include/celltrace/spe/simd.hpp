@@ -25,7 +25,7 @@
 //   to_int (truncates), to_float, floor (all of |x| < 2^31; floor may give a 0 any sign),
 //   bits_of / float_of (reinterpret), shift_left<n>, shift_right<n> (arithmetic)
 //
-// Where memory is direct the facade also has, for tables and to gather lanes of several packets:
+// If memory is direct the facade also has, for tables and to gather lanes of several packets:
 //
 //   I::gather(const int32_t* table, I indices): for each lane the number in the table at its index,
 //   store_unaligned() of F and I, to any address of a number,

@@ -1,4 +1,4 @@
-// The vector types of the C/C++ Language Extensions for Cell, on the host: vec_float4 and its like, and
+// The vector types of the C/C++ Language Extensions for Cell, on the host: vec_float4 and others, and
 // qword.
 //
 // The types behave as on the SPU: element 0 is the one at the lowest address, and a cast from one type to
