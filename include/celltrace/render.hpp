@@ -119,9 +119,9 @@ struct RenderOptions {
   Balance balance = Balance::gde;
   /// `automatic` means the grid for the pipelines; `pipeline_split` takes no other accelerator.
   Accelerator accelerator = Accelerator::automatic;
-  /// Models other than `shared` need 2 SPEs and ignore `balance`.
+  /// Models other than `shared` need at least 2 SPEs and ignore `balance`.
   Model model = Model::shared;
-  /// Replaces Scene::max_trace_level.
+  /// Replace the scene's own settings; none: Scene's.
   std::optional<int> max_trace_level;
   std::optional<double> adc_bailout;
   /// POV-Ray's levels of quality, 0 to 11. 0 and 1: colours of pigments alone; from 2 on light falls on
@@ -150,7 +150,7 @@ struct RenderOptions {
   bool blocks = false;
   /// Largest number of rows that Renderer::render_rows() is called for at once: a multiple of
   /// Renderer::kRowStep, or all rows. Memory then has room for that many rows of the region only, and results
-  /// have only the rendered rows, the first at y = 0, so that pictures of any number of pixels can be
+  /// have only the rendered rows, the first pixel at (0, 0), so that pictures of any number of pixels can be
   /// rendered. 0: memory and results hold the whole picture. Not with `blocks`.
   int rows_at_once = 0;
   /// Options of cell_emu and cell_sim; native ignores them, and cell_sim records no trace. The trace is

@@ -5,10 +5,9 @@
 //                 pipe, the second to the odd one, and the operands of both are there; the next group issues
 //                 only when both have issued.
 //   dependency    A result can be used when its unit's latency has passed.
-//   branches      Fall through unless a hint predicts otherwise. A wrong prediction costs `branch_miss`. A
-//   hint
-//                 counts for its branch `hint_distance` instructions later; if `hint_latency` has not passed,
-//                 the branch waits for it.
+//   branches      Fall through unless a hint predicts otherwise. A wrong prediction costs `branch_miss`.
+//                 A hint counts for its branch `hint_distance` instructions later; if `hint_latency` has
+//                 not passed, the branch waits for it.
 //   double        Keeps both pipes for `double_issue_block` cycles.
 //   fetch         32 instructions at a time, when neither a load nor a store takes the local store's only
 //                 port: if they take it in every cycle, the next 32 instructions come late.

@@ -21,10 +21,9 @@
 //   to give. A doorbell invites a dry node that was refused to ask on that edge again; at any other time it
 //   means nothing, so that late, merged and superfluous doorbells do no harm. A node that asks by invitation
 //   does not ring, or two dry nodes could keep each other busy.
-// - A dry node that was refused on every edge is idle and reports the number of units it has completed. If
-// units come
-//   by an invitation, it reports again later. The frame is complete when every node has reported and
-//   the reports add up.
+// - A dry node that was refused on every edge is idle and reports the number of units it has completed. It
+//   reports again later if units come by an invitation. The frame is complete when every node has reported
+//   and the reports add up.
 //
 // A node gives away at most all but one of its units, and takes that one before it asks: frames end. In a
 // frame of u units, n nodes send at most 4 n + 8 g words for g <= u exchanges that move units, and no more

@@ -31,8 +31,7 @@
 //   store_unaligned() of F and I, to any address of a number,
 //   pick(a, I lanes): for each lane of F or I, the lane of `a` whose number is in `lanes`,
 //   lane_numbers(uint32 lanes) -> I, the numbers of the lanes whose bits are set, in the first lanes; then 0,
-//   spread(uint32 bits, uint32 lanes): moves the first of `bits` to the first bit that is set in `lanes`, and
-//   so on
+//   spread(uint32 bits, uint32 lanes): moves bit i of `bits` to the i-th bit that is set in `lanes`
 //
 // `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes: 16, or the 4 of one quadword
 // if local store is short. It has F, I and M with all of the above but load_words, extremes, join,
@@ -48,11 +47,10 @@
 //   (&)[rows][kLanes]), which returns indices of all lanes' rows; starts_of.start(index) turns one into a
 //   start. look_up(const uint16_t* table, index_of, Numbers (&numbers)[n]) helps to find them: for each lane,
 //   it sets numbers[i] to the table's number at index_of(lane, i). LookUp::Numbers is an I, whose operations
-//   emulations do not count. factors_of(row, F
-//   (&factors)[4]) returns a row's four factors, and may be called more than once. A row has four numbers for
-//   each channel, one after the other: those of channel c are multiplied by the four factors of the row, and
-//   added up to sums[c]. The rows are added up in their order, then the four numbers as (0 + 1) + (2 + 3). Up
-//   to 16 bytes behind the last row may be read.
+//   emulations do not count. factors_of(row, F (&factors)[4]) returns a row's four factors, and may be
+//   called more than once. A row has four numbers for each channel, one after the other: those of channel c
+//   are multiplied by the four factors of the row, and added up to sums[c]. The rows are added up in their
+//   order, then the four numbers as (0 + 1) + (2 + 3). Up to 16 bytes behind the last row may be read.
 //
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,
