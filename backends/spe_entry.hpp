@@ -1,4 +1,4 @@
-// What the source of an SPE program consists of besides its kernel: the entry point for one SPU type. See
+// The entry point of an SPE program for one SPU type: the part of its source besides the kernel. See
 // cmake/celltrace_spe_program.cmake, which defines the CELLTRACE_SPU_... macros.
 #pragma once
 

@@ -12,7 +12,7 @@
 #endif
 #endif
 
-// Weak: a program that is built with the address sanitizer has these functions, whatever this library is
+// Weak declarations: a program built with the address sanitizer has these functions, whatever this library is
 // built with.
 #if defined(CELLTRACE_HAS_ASAN) || defined(__ELF__)
 #define CELLTRACE_MAY_HAVE_ASAN 1
@@ -92,7 +92,7 @@ bool may_access([[maybe_unused]] const std::uint8_t* at, [[maybe_unused]] std::s
 #endif
 #ifdef CELLTRACE_HAS_MEMCHECK
   if (runs_under_valgrind()) {
-    const UncheckedScope silent; // the question is an error where the answer is no
+    const UncheckedScope silent; // Valgrind reports the query itself as an error if the answer is no
     return VALGRIND_CHECK_MEM_IS_ADDRESSABLE(at, bytes) == 0;
   }
 #endif
@@ -101,7 +101,7 @@ bool may_access([[maybe_unused]] const std::uint8_t* at, [[maybe_unused]] std::s
 
 CheckedStack::CheckedStack(const void* bottom, std::size_t bytes) : bottom_(bottom), bytes_(bytes) {
 #ifdef CELLTRACE_MAY_HAVE_ASAN
-  // A stack that lay here before ended by a jump, with its last frames still marked.
+  // An earlier stack at this place ended by a jump, with its last frames still marked.
   if (runs_under_address_sanitizer()) __asan_unpoison_memory_region(bottom, bytes);
 #endif
 #ifdef CELLTRACE_HAS_MEMCHECK

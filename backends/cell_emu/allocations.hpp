@@ -1,12 +1,12 @@
-// What a program has allocated of its local store, and the red zones behind that: poison, of which a change
-// is a store past an allocation.
+// The allocations of a program in its local store, and the red zones behind them: poison, whose change
+// reveals a store past an allocation.
 //
 //   allocation | zone | allocation | zone | free ...
 //
-// A zone reaches to the next allocation, but not further than kZoneBytes. With red zones asked for, each
-// allocation lies a multiple of kZoneBytes further than it would without, which keeps its alignment. What
-// zones take of the arena is added at its end, in the local store that is kept for the stack and that nothing
-// of a host's program uses: with red zones a program finds as much room as without.
+// A zone reaches to the next allocation, but not further than kZoneBytes. If red zones are configured, each
+// allocation lies a multiple of kZoneBytes further than without them, which keeps its alignment. The bytes of
+// the zones are added to the arena at its end, from the local store that is reserved for the stack, which a
+// program of host code does not use: so a program finds as much room as without red zones.
 #pragma once
 
 #include "celltrace/spe/call_site.hpp"
@@ -18,8 +18,8 @@
 
 namespace celltrace::cell_emu {
 
-/// Offsets in one local store. Thread safety: is_left_by() and before() from any thread, the others belong to
-/// the thread that runs the SPE.
+/// Allocations as offsets in one local store. Thread safety: is_left_by() and before() from any thread; the
+/// other members belong to the thread that runs the SPE.
 class Allocations {
 public:
   static constexpr std::uint32_t kZoneBytes = 128;
@@ -27,43 +27,44 @@ public:
   struct Allocation {
     std::uint32_t begin, end; ///< without its zone
     std::uint32_t zone_end;
-    std::uint32_t behind;    ///< where the next one may begin
-    std::uint32_t unshifted; ///< where it might without any zones
+    std::uint32_t behind;    ///< first offset at which the next one may begin
+    std::uint32_t unshifted; ///< the same offset without any zones
     CallSite site;
   };
   /// A store into the zone behind an allocation.
   struct Overrun {
     Allocation allocation;
-    std::uint32_t lsa; ///< of the first changed word
+    std::uint32_t lsa; ///< local-store address of the first changed word
   };
 
-  /// A program begins, which may allocate from `begin` on.
+  /// Begins a program that may allocate from `begin` on.
   void begin(std::uint8_t* local_store, std::uint32_t begin, bool red_zones);
-  /// It has ended: nothing is known any more.
+  /// Ends the program and forgets its allocations.
   void end();
   bool known() const { return known_; }
 
-  /// `arena_end`: without zones. Where local store ends before a zone would, there is none.
+  /// Adds an allocation. `arena_end` is without zones. There is no zone where local store ends before it
+  /// would.
   void add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t alignment, std::uint32_t arena_end,
            CallSite site);
-  /// Everything from `lsa` on is free again.
+  /// Frees everything from `lsa` on.
   void release(std::uint32_t lsa);
 
-  /// Where the next allocation may begin, and how many bytes further that is than without zones.
+  /// Return where the next allocation may begin, and how many bytes further that is than without zones.
   std::uint32_t next() const { return next_; }
   std::uint32_t shift() const { return next_ - unshifted_; }
 
-  /// [lsa, lsa + size) touches an allocation or its zone, and is not within the allocation.
+  /// Returns true if [lsa, lsa + size) touches an allocation or its zone, and is not within the allocation.
   bool is_left_by(std::uint32_t lsa, std::uint32_t size) const;
-  /// The last allocation that begins at `lsa` or before.
+  /// Returns the last allocation that begins at `lsa` or before.
   std::optional<Allocation> before(std::uint32_t lsa) const;
 
-  /// A zone that was stored into, which becomes whole again.
+  /// Returns a zone that was stored into, and restores it.
   std::optional<Overrun> take_overrun();
 
 private:
   using Iterator = std::vector<Allocation>::const_iterator;
-  /// The first that begins behind `lsa`.
+  /// Returns the first allocation that begins behind `lsa`.
   Iterator behind(std::uint32_t lsa) const;
   void fill_zone(const Allocation& allocation) const;
 
@@ -71,7 +72,7 @@ private:
   bool red_zones_ = false;
   std::uint32_t next_ = 0, unshifted_ = 0;
   bool known_ = false;
-  mutable std::mutex mutex_;            ///< for changes, and for looks from other threads
+  mutable std::mutex mutex_;            ///< for changes, and for reads from other threads
   std::vector<Allocation> allocations_; ///< in ascending order
 };
 

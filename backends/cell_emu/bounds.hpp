@@ -1,5 +1,5 @@
-// The bounds that commands have to keep besides those of the storage itself: of what programs allocated in
-// their local stores, and of the host's objects in main memory.
+// The bounds that commands have to keep besides those of the storage itself: the programs' allocations in
+// local stores, and the host's objects in main memory.
 #pragma once
 
 #include "backends/cell_emu/allocations.hpp"

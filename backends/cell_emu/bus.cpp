@@ -13,8 +13,8 @@ std::uint8_t* host_address(ea_t ea) {
   return reinterpret_cast<std::uint8_t*>(static_cast<std::uintptr_t>(ea));
 }
 
-/// Lets the emulator copy what is a race, if the program was told to go on: the SPE whose local store it is
-/// may be forbidden to touch it.
+/// Lets the emulator copy data of a race, if the program was told to go on: the SPE that owns the local store
+/// may be forbidden to access it.
 void open_for_race(AddressMap::Place place, ea_t ea, std::uint32_t size) {
   if (place.kind == EaKind::local_store && !may_access(host_address(ea), size))
     permit_access(host_address(ea), size);
@@ -24,7 +24,8 @@ void open_for_race(AddressMap::Place place, ea_t ea, std::uint32_t size) {
 
 class Bus::LocalStoreLocks {
 public:
-  /// `own` is the issuing SPE, `place` the target. Two local stores are locked in the order of their SPEs.
+  /// Locks local stores: `own` is the issuing SPE, `place` the target. Two are locked in the order of their
+  /// SPEs.
   LocalStoreLocks(Unit* units, unsigned own, AddressMap::Place place) {
     const unsigned other = place.kind == EaKind::local_store ? place.spe : own;
     first_ = &units[std::min(own, other)].local_store_lock;

@@ -1,9 +1,9 @@
 // The element interconnect bus: moves bytes between local stores, main memory and registers, keeps lines
 // atomic, and watches the reservations of the lock-line commands.
 //
-// Every move takes the lock of the local store that issued it, that of the target local store if there is
-// one, and line by line the stripe of the effective address. So DMA is ordered against DMA; what an SPE's
-// program or the PPE does to memory directly is not, and neither loses a reservation.
+// Every move takes the lock of the issuing SPE's local store, that of the target local store if there is
+// one, and line by line the stripe of the effective address. This orders DMA against DMA. Direct accesses to
+// memory by an SPE's program or the PPE are not ordered, and lose no reservation.
 #pragma once
 
 #include "backends/cell_emu/address_map.hpp"
@@ -17,7 +17,8 @@
 
 namespace celltrace::cell_emu {
 
-/// Thread safety: all members from any thread. Commands must have passed the rules of mfc_rules.hpp.
+/// Moves data. Thread safety: all members from any thread. Commands must have passed the rules of
+/// mfc_rules.hpp.
 class Bus {
 public:
   using ProblemStates = std::vector<ProblemState*>;
@@ -26,15 +27,15 @@ public:
 
   const AddressMap& map() const { return map_; }
 
-  /// Storage -> local store address `lsa` of SPE `spe`.
+  /// Copies storage to local store address `lsa` of SPE `spe`.
   void get(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size);
-  /// Local store -> storage; loses the reservations on the lines it touches, the SPE's own included.
+  /// Copies local store to storage; loses the reservations on the lines it touches, the SPE's own included.
   void put(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size);
 
   /// Zeroes lines of main memory or of a local store, as a put of zeroes would.
   void zero(unsigned spe, ea_t ea, std::uint32_t size);
 
-  /// How often DMA, or the MFC on its own account, has written into the local store.
+  /// Returns how often DMA, or the MFC on its own account, has written into the local store.
   std::uint64_t local_store_writes(unsigned spe) const {
     return units_[spe].local_store_writes.load(std::memory_order_relaxed);
   }
@@ -49,22 +50,22 @@ public:
   }
 
   std::uint32_t read_register(AddressMap::Place place) const;
-  /// False if an unread word was lost to it.
+  /// Writes a register. Returns false if an unread word was lost.
   bool write_register(AddressMap::Place place, std::uint32_t value, Sender sender);
 
-  // One line each. An SPE has one reservation; getllar replaces it.
+  // Lock-line operations on one line each. An SPE has one reservation; getllar replaces it.
   void get_line_and_reserve(unsigned spe, std::uint32_t lsa, ea_t ea);
-  /// Writes only under the reservation, which is gone afterwards in any case.
+  /// Writes only if the reservation holds; in any case the reservation is gone afterwards.
   bool put_line_conditional(unsigned spe, std::uint32_t lsa, ea_t ea);
   void put_line(unsigned spe, std::uint32_t lsa, ea_t ea);
   void drop_reservation(unsigned spe);
-  /// What became of the SPE's last reservation.
+  /// State of the SPE's last reservation.
   enum class Reservation : unsigned char { none, held, lost_to_own_put, lost_to_others };
   Reservation reservation(unsigned spe) const { return units_[spe].state.load(std::memory_order_relaxed); }
   bool reserves(unsigned spe, ea_t line) const {
     return units_[spe].reserved.load(std::memory_order_relaxed) == line;
   }
-  /// The SPE has a reservation, but of another line.
+  /// Returns true if the SPE has a reservation, but of another line.
   bool reserves_other_than(unsigned spe, ea_t line) const {
     const ea_t reserved = units_[spe].reserved.load(std::memory_order_relaxed);
     return reserved != kNoLine && reserved != line;
@@ -72,15 +73,15 @@ public:
   bool reserved_by_another(unsigned spe, ea_t line) const;
 
 private:
-  /// What one SPE has on the bus.
+  /// State of one SPE on the bus.
   struct alignas(64) Unit {
     SpinLock local_store_lock;
     std::atomic<std::uint64_t> local_store_writes{0};
-    /// The reserved line, or kNoLine. Changes only under the stripe of that line.
+    /// The reserved line, or kNoLine. Changes only under the lock of the line's stripe.
     std::atomic<ea_t> reserved{kNoLine};
     std::atomic<Reservation> state{Reservation::none};
   };
-  /// No line has an address that is not a multiple of 128.
+  /// An address that no line has, since it is not a multiple of 128.
   static constexpr ea_t kNoLine = 1;
 
   /// Holds the locks of the local stores that a transfer touches.

@@ -11,7 +11,7 @@ namespace {
   throw InputError("EmulationConfig::" + std::string(member) + " " + what);
 }
 
-/// Not a number is in no range.
+/// Checks a range, which NaN is never in.
 void in_range(const char* member, double value, double least, double most, const char* range) {
   if (!(value >= least && value <= most)) refuse(member, std::string("must be ") + range);
 }

@@ -1,4 +1,4 @@
-// Which values a machine's configuration may have.
+// Checks the values of a machine's configuration.
 #pragma once
 
 #include "celltrace/spe/emulation.hpp"
@@ -7,7 +7,7 @@ namespace celltrace::cell_emu {
 
 constexpr unsigned kMaxSpes = 256;
 
-/// Throws InputError, which names the member, for a value out of the range that emulation.hpp and timing.hpp
+/// Throws InputError, naming the member, for a value out of the range that emulation.hpp and timing.hpp
 /// state.
 void check_emulation(const EmulationConfig& config);
 

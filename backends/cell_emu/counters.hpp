@@ -8,7 +8,7 @@
 
 namespace celltrace::cell_emu {
 
-/// A count with one writer.
+/// A counter with one writer.
 class Counter {
 public:
   void add(std::uint64_t n) {
@@ -24,7 +24,7 @@ private:
   std::atomic<std::uint64_t> value_{0};
 };
 
-/// SpuCycles as counters.
+/// SpuCycles, as counters.
 class CycleCounters {
 public:
   void publish(const SpuCycles& cycles) {

@@ -1,4 +1,4 @@
-// The decrementer: counts down with the SPE's virtual cycles, never with host time.
+// The decrementer, which counts down with the SPE's virtual cycles, never with host time.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@ namespace celltrace::cell_emu {
 
 class Decrementer {
 public:
-  /// One tick of the timebase takes this many cycles.
+  /// Makes a decrementer of which one tick takes this many cycles.
   explicit Decrementer(std::uint32_t cycles_per_tick) : cycles_per_tick_(cycles_per_tick) {}
 
-  /// Starts it from `value` at virtual time `cycles`, up to which it has been advanced. True if the top bit
-  /// goes from 0 to 1: that is the decrementer event, as when it counts.
+  /// Starts the decrementer from `value` at virtual time `cycles`, up to which it has been advanced. Returns
+  /// true if the top bit goes from 0 to 1, which raises the decrementer event as when counting.
   bool write(std::uint32_t value, std::uint64_t cycles) {
     const bool rises = (~value_ & value) >> 31 != 0;
     value_ = value;
@@ -27,7 +27,8 @@ public:
   bool running() const { return running_; }
   std::uint32_t value() const { return value_; }
 
-  /// Counts up to `cycles`. True if the top bit went from 0 to 1: that is the decrementer event.
+  /// Counts down until virtual time `cycles`. Returns true if the top bit went from 0 to 1, which is the
+  /// decrementer event.
   bool advance(std::uint64_t cycles) {
     if (!running_) return false;
     const std::uint64_t ticks = (cycles - since_) / cycles_per_tick_;
@@ -36,7 +37,7 @@ public:
     since_ += ticks * cycles_per_tick_;
     return expired;
   }
-  /// The virtual time of the next event, if it keeps running.
+  /// Returns the virtual time of the next event if the decrementer keeps running.
   std::uint64_t expiry() const { return since_ + (std::uint64_t{value_} + 1) * cycles_per_tick_; }
 
 private:

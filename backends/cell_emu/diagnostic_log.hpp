@@ -1,4 +1,4 @@
-// Where diagnostics are collected, and where it is decided what they lead to.
+// Collects diagnostics, and applies the configured actions.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -13,13 +13,13 @@
 
 namespace celltrace::cell_emu {
 
-/// Ends the program of the SPE that broke a rule.
+/// The exception that ends the program of the SPE that broke a rule.
 class RuleViolation : public SpeError {
 public:
   explicit RuleViolation(const Diagnostic& diagnostic) : SpeError(diagnostic.text) {}
 };
 
-/// Thread safety: all members from any thread.
+/// The diagnostics of a machine. Thread safety: all members from any thread.
 class DiagnosticLog {
 public:
   static constexpr std::size_t kCapacity = 4096;
@@ -30,10 +30,10 @@ public:
   Action action(Rule rule) const { return actions_[static_cast<unsigned>(rule)]; }
   bool checks(Rule rule) const { return action(rule) != Action::ignore; }
 
-  /// Completes the text of the diagnostic, which says what happened, and keeps it. Throws RuleViolation if
+  /// Adds `what`, which describes the event, to the diagnostic's text, and keeps it. Throws RuleViolation if
   /// the rule's action is to stop.
   void report(Diagnostic diagnostic, const std::string& what);
-  /// As report(), without throwing. False if the rule is ignored.
+  /// As report(), without throwing. Returns false if the rule is ignored.
   bool note(Diagnostic& diagnostic, const std::string& what);
 
   std::vector<Diagnostic> all() const;
@@ -45,7 +45,7 @@ private:
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// "kernel.hpp:12", or "" if the place is unknown.
+/// Returns "kernel.hpp:12", or "" if the place is unknown.
 std::string to_text(const CallSite& site);
 
 } // namespace celltrace::cell_emu

@@ -1,4 +1,4 @@
-// The rules in words, and what becomes of who breaks them.
+// The texts and default actions of the rules.
 #include "celltrace/spe/diagnostic.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// How long DMA takes: the ports of the SPEs, the memory controller and the bus, each busy with one line at a
-// time. Commands are served in the order in which they are asked for.
+// The duration of DMA: the ports of the SPEs, the memory controller and the bus, each busy with one line at a
+// time. Commands are served in the order of their requests.
 #pragma once
 
 #include "celltrace/spe/timing.hpp"
@@ -11,16 +11,16 @@
 
 namespace celltrace::cell_emu {
 
-/// What is on the other side of a transfer.
+/// The other side of a transfer.
 enum class DmaTarget : unsigned char { memory, local_store, problem_state };
 
-/// Thread safety: none.
+/// The timing of all transfers. Thread safety: none.
 class DmaTiming {
 public:
   DmaTiming(const TimingParameters& timing, unsigned spes) : timing_(timing), port_free_(spes, 0) {}
 
-  /// The cycle in which a transfer that starts at `start` is complete. `other` is the SPE on the other side,
-  /// unless that is memory. A partial line costs a whole one.
+  /// Returns the cycle in which a transfer that starts at `start` is complete. `other` is the SPE on the
+  /// other side, unless that is memory. A partial line costs as much as a whole one.
   std::uint64_t complete(unsigned spe, std::uint64_t start, DmaTarget target, unsigned other, ea_t ea,
                          std::uint32_t bytes) {
     const std::uint64_t lines = ((ea % kLineBytes) + bytes + kLineBytes - 1) / kLineBytes;
@@ -30,7 +30,7 @@ public:
       through = std::max(through, occupy(port_free_[other], start, lines * timing_.port_line));
     if (memory) through = std::max(through, occupy(memory_free_, start, lines * timing_.memory_line));
     through = std::max(through, occupy(bus_free_, start, lines * timing_.bus_line));
-    // The latency covers the way of the first line through the port.
+    // The latency includes the first line's time in the port.
     const std::uint64_t latency = memory ? timing_.first_line_memory : timing_.first_line_spe;
     return through + latency - std::min<std::uint64_t>(latency, timing_.port_line);
   }

@@ -2,8 +2,8 @@
 //
 // Pending bits accumulate whatever the mask. The count of channel 0 is 0 or 1; it becomes 1 when an enabled
 // event occurs (even one that is already pending), or when a write of the mask or an acknowledge leaves
-// enabled events pending. Only the read of the status clears it: an event that was masked or acknowledged in
-// between is a phantom event, status 0.
+// enabled events pending. Only a read of the status clears it: if an event was masked or acknowledged in
+// between, the read is a phantom event with status 0.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -30,12 +30,12 @@ public:
     pending_ &= ~bits;
     count_enabled();
   }
-  /// The value of channel 0; clears the count, but no pending bit.
+  /// Returns the value of channel 0; clears the count, but no pending bit.
   std::uint32_t read_status() {
     count_ = 0;
     return pending_ & mask_;
   }
-  /// As after a reset, but for the given pending bits.
+  /// Resets the facility, except that the given bits are pending.
   void reset(std::uint32_t pending) {
     pending_ = pending;
     mask_ = 0;

@@ -1,8 +1,8 @@
 // The transfers in flight: from the issue of a command until its SPU, or the PPE for proxy commands, has
-// observed its completion, whenever the data really moved. What overlaps in between is a race.
+// observed its completion, whenever the data really moved. An overlapping access in between is a race.
 //
-// Both sides of a transfer are ranges of the main storage domain, a local store by the address at which it is
-// mapped, so that one rule covers local store, main memory, and local store reached from outside.
+// Both sides of a transfer are ranges of the main storage domain, with local stores at their mapped
+// addresses, so that one rule covers local store, main memory, and local store accessed from outside.
 #pragma once
 
 #include "backends/cell_emu/line_locks.hpp"
@@ -20,24 +20,25 @@ namespace celltrace::cell_emu {
 /// One contiguous transfer: a plain command, or an element of a list.
 struct Flight {
   std::uint64_t command = 0; ///< number on its SPE
-  MfcCommand transfer{};     ///< a plain one, also for an element of a list
+  MfcCommand transfer{};     ///< a plain command, also for an element of a list
   CallSite site;
   bool proxy = false;
   bool has_storage = true; ///< false: a register is on the other side
-  ea_t local = 0;          ///< where its part of local store is mapped
+  ea_t local = 0;          ///< mapped address of its part of local store
 
-  bool started = false;   ///< nothing it is ordered behind is left
+  bool started = false;   ///< all transfers that it is ordered behind are complete
   bool moved = false;     ///< the data have been copied
-  bool completed = false; ///< the MFC has reported it done
-  /// A command that is ordered behind it has started, so that who learns of that one may rely on it.
+  bool completed = false; ///< the MFC has reported its completion
+  /// True if a command that is ordered behind it has started, so that a program that observes that command
+  /// may rely on this one.
   bool released = false;
-  /// The program has seen the queue empty, but not yet the status of the tag.
+  /// True if the program has seen the queue empty, but not yet the status of the tag.
   bool drained = false;
-  /// Something else may rightly write its local store, so that a change says nothing.
+  /// True if something else may rightly write its local store, so that changes do not count.
   bool shared = false;
-  /// The tool that the program runs under reports its accesses to the local store.
+  /// True if an access checker reports the program's accesses to the local store.
   bool forbidden = false;
-  std::uint64_t hash = 0; ///< of its local store, when `hashed`
+  std::uint64_t hash = 0; ///< checksum of its local store, if `hashed`
   bool hashed = false;
 
   std::uint32_t bytes() const { return transfer.size; }
@@ -49,26 +50,26 @@ struct Conflict {
   std::uint64_t command;
   MfcCommand transfer;
   CallSite site;
-  bool in_local_store; ///< of the SPE whose new transfer meets it
+  bool in_local_store; ///< in the local store of the SPE whose new transfer overlaps
 };
 
-/// Thread safety: an SPE's own list is changed by one thread at a time; conflicts_elsewhere() may look at it
-/// meanwhile.
+/// The flights of all SPEs. Thread safety: one thread at a time changes an SPE's own list;
+/// conflicts_elsewhere() may read it meanwhile.
 class Flights {
 public:
   explicit Flights(unsigned spes) : spes_(spes), lists_(std::make_unique<List[]>(spes)) {}
 
-  /// The flights of one SPE, for the thread that owns it; changes go through the members below.
+  /// Return flights of one SPE, for the thread that owns it; the members below change the list.
   const std::vector<Flight>& of(unsigned spe) const { return lists_[spe].flights; }
   Flight& at(unsigned spe, std::size_t index) { return lists_[spe].flights[index]; }
 
   void add(unsigned spe, const Flight& flight);
-  /// Removes the flights of which `gone(flight)` is true.
+  /// Removes the flights for which `gone(flight)` is true.
   template <class Gone> void remove_if(unsigned spe, Gone gone);
-  /// Calls `change(flight)` for each while nobody looks.
+  /// Calls `change(flight)` for each flight while no other thread reads them.
   template <class Change> void for_each(unsigned spe, Change change);
 
-  /// A flight of another SPE that overlaps with `flight` where one of them writes.
+  /// Returns a flight of another SPE that overlaps with `flight`, if one of both writes there.
   std::optional<Conflict> conflict_elsewhere(unsigned spe, const Flight& flight) const;
 
 private:
@@ -79,11 +80,12 @@ private:
 
   unsigned spes_;
   std::unique_ptr<List[]> lists_;
-  /// Flights that write outside the local store of their own SPE: while there are none, gets cannot conflict.
+  /// Number of flights that write outside the local store of their own SPE: while it is 0, gets cannot
+  /// conflict.
   std::atomic<std::uint32_t> outward_{0};
 };
 
-/// Where the two overlap with one of them writing; `local` is true if that is in the local store of `a`'s
+/// Overlap of two flights, one of which writes; `local` is true if it is in the local store on `a`'s
 /// side.
 struct Overlap {
   bool any = false;

@@ -1,7 +1,8 @@
-// The free schedule: a host thread per SPE, which run as the host lets them.
+// The free schedule: one host thread per SPE, all of which run as the host decides.
 //
-// Every SPE's virtual clock is its own, and its MFC makes progress when the SPE touches a channel. What the
-// PPE and the SPEs wait for is counted, so that a deadlock is noticed when the last of them begins to wait.
+// Every SPE's virtual clock is its own, and its MFC makes progress when the SPE accesses a channel. Stalls
+// and waits of the SPEs and the PPE are counted, so that a deadlock is detected when the last of them begins
+// to wait.
 #pragma once
 
 #include "backends/cell_emu/scheduler.hpp"
@@ -13,7 +14,7 @@
 
 namespace celltrace::cell_emu {
 
-/// Thread safety: as the comments of Scheduler say.
+/// The scheduler of the free schedule. Thread safety: as stated for Scheduler.
 class FreeScheduler final : public Scheduler {
 public:
   FreeScheduler(Spes& spes, unsigned count, DiagnosticLog& log) : spes_(spes), log_(log), threads_(count) {}
@@ -38,21 +39,21 @@ public:
   void collect(Spe& spe) override;
 
 private:
-  /// Nobody runs who could change what others wait for.
+  /// Returns true if all running programs stall, so that none can end another's stall.
   bool all_stalled() const;
 
   Spes& spes_;
   DiagnosticLog& log_;
   std::vector<std::thread> threads_;
   std::mutex mutex_;
-  std::mutex breaking_off_;         ///< held while all SPEs are told a reason; taken before mutex_
-  std::condition_variable ppe_;     ///< something that the PPE may wait for
-  std::condition_variable resumed_; ///< an SPE was resumed or interrupted
+  std::mutex breaking_off_;         ///< held while all SPEs receive a reason to stop; taken before mutex_
+  std::condition_variable ppe_;     ///< signals what the PPE may wait for
+  std::condition_variable resumed_; ///< signals that an SPE was resumed or interrupted
   unsigned active_ = 0;             ///< programs that neither ended nor paused
-  unsigned stalled_ = 0;            ///< of these, how many stall
-  unsigned idle_timeouts_ = 0;      ///< of the PPE, one after the other, while all stalled
+  unsigned stalled_ = 0;            ///< number of these that stall
+  unsigned idle_timeouts_ = 0;      ///< consecutive timeouts of the PPE while all stalled
   std::atomic<bool> broken_off_{false};
-  std::uint64_t idle_entries_ = 0; ///< of the PPE since then
+  std::uint64_t idle_entries_ = 0; ///< entries of the PPE since programs were broken off
 };
 
 } // namespace celltrace::cell_emu

@@ -11,7 +11,7 @@
 namespace celltrace::cell_emu {
 namespace {
 
-/// Ranges in ascending order, none of which touches the next.
+/// Ranges in ascending order that do not touch each other.
 class Ranges {
 public:
   void add(MemoryRange range) {
@@ -33,7 +33,7 @@ private:
 
 struct Maps {
   Ranges accessible[2]; ///< for reads, for writes
-  bool known = false;   ///< the host tells
+  bool known = false;   ///< true if the host lists its memory
 };
 
 Maps read_maps() {
@@ -53,7 +53,7 @@ Maps read_maps() {
   return maps;
 }
 
-/// What was last read.
+/// The ranges that were last read.
 struct Shared {
   std::shared_mutex mutex;
   Maps maps;

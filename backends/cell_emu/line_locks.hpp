@@ -1,5 +1,5 @@
 // Locks that make the lines of the main storage domain atomic to DMA: striped by address, so that SPEs that
-// work on different data do not meet.
+// use different data rarely compete.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -11,7 +11,7 @@
 
 namespace celltrace::cell_emu {
 
-/// For critical sections of some hundred nanoseconds.
+/// A spin lock for critical sections of some hundred nanoseconds.
 class SpinLock {
 public:
   void lock() {
@@ -22,7 +22,7 @@ public:
 
 private:
   void wait(unsigned& tries) {
-    // With more SPEs than processors the holder may well be asleep.
+    // With more SPEs than processors the thread that holds the lock may be asleep.
     while (locked_.load(std::memory_order_relaxed))
       if (++tries % 64 == 0) std::this_thread::yield();
   }
@@ -30,7 +30,7 @@ private:
   std::atomic<bool> locked_{false};
 };
 
-/// One stripe: the lock of all lines that fall on it, and how many reservations SPEs hold on those.
+/// One stripe: the lock of all lines that map to it, and the number of SPEs' reservations on these lines.
 struct alignas(64) Stripe {
   SpinLock lock;
   std::uint32_t reservations = 0; ///< guarded by lock

@@ -27,7 +27,7 @@ LocalStoreBlock::LocalStoreBlock(unsigned spes) : bytes_(kLocalStoreBytes + spes
   if (memory_ == MAP_FAILED) throw std::bad_alloc();
   const auto address = reinterpret_cast<std::uintptr_t>(memory_);
   begin_ = static_cast<std::uint8_t*>(memory_) + (kAlignment - address % kAlignment) % kAlignment;
-  // Whoever had these addresses before, such as a stack, may have left them forbidden.
+  // The former owner of these addresses, such as a stack, may have left them forbidden.
   permit_access(begin_, bytes_);
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t edge = (kEdgeBytes + page - 1) / page * page;
@@ -41,7 +41,7 @@ LocalStoreBlock::LocalStoreBlock(unsigned spes) : bytes_(kLocalStoreBytes + spes
 }
 
 LocalStoreBlock::~LocalStoreBlock() {
-  // Whoever gets these addresses next may use them.
+  // The next owner of these addresses may use them.
   permit_access(begin_, bytes_);
   munmap(memory_, memory_bytes_);
 }

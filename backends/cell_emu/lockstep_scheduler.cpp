@@ -14,7 +14,7 @@ LockstepScheduler::LockstepScheduler(Spes& spes, unsigned count, DiagnosticLog& 
                                      const EmulationConfig& config)
     : spes_(spes), log_(log), config_(config), random_(config.seed, kSchedulerStream), agents_(count),
       watch_(count), watches_(count > 1 && log.checks(Rule::foreign_store)) {
-  // Some seeds change hands all the time, others let an SPE run far ahead.
+  // Some seeds switch SPEs all the time, others let an SPE run far ahead.
   constexpr std::uint32_t kPatience[] = {2, 4, 16, 128};
   patience_ = kPatience[random_.below(4)];
 }
@@ -30,7 +30,7 @@ void LockstepScheduler::suspend(Agent& agent) {
 }
 
 void LockstepScheduler::reach(Spe& spe, Cycle now) {
-  // An SPE that nobody is behind keeps its turn for ever.
+  // An SPE that is always behind all others keeps its turn for ever.
   obey_interrupt();
   Agent& agent = agents_[spe.id];
   agent.now = now;
@@ -128,19 +128,19 @@ void LockstepScheduler::check_foreign_stores(unsigned spe) {
       what += " SPE " + std::to_string(suspect);
   }
   if (!log_.note(diagnostic, what) || diagnostic.action != Action::stop) return;
-  // Where the writer has ended, or is not known, the one whose data are spoilt cannot go on.
+  // If the writer has ended, or is not known, the SPE whose data are spoilt cannot go on.
   const bool writer_runs = certain && agents_[writer].state != State::idle;
   fail(writer_runs ? writer : spe, std::make_exception_ptr(RuleViolation(diagnostic)));
 }
 
-/// What the PPE finds changed when its turn begins is not its own doing.
+/// Begins the PPE's turn: changes found now are not its own.
 void LockstepScheduler::begin_ppe_turn() {
   if (!watches_ || std::exchange(ppe_turn_, true)) return;
   for (const auto& spe : spes_)
     check_foreign_stores(spe->id);
 }
 
-/// It may store into any local store, where it is mapped.
+/// Ends the PPE's turn, in which it may store into any mapped local store.
 void LockstepScheduler::end_ppe_turn() {
   if (!watches_ || !std::exchange(ppe_turn_, false)) return;
   for (const auto& spe : spes_)
@@ -175,7 +175,7 @@ LockstepScheduler::Turn LockstepScheduler::drawn_turn() {
     consider({spes_[spe]->mfc.next_event(), spe, true});
     if (agent.state == State::ready) consider({agent.now, spe, false});
   }
-  // Only when nothing else can happen does a stall end by the passing of time.
+  // A stall ends by the passing of time only when nothing else can happen.
   return candidates != 0 ? drawn : next_turn();
 }
 
@@ -187,7 +187,7 @@ void LockstepScheduler::run_mfc(unsigned spe) {
   }
 }
 
-/// The program learns of it when it is its turn.
+/// Notes a failure, which the program gets in its next turn.
 void LockstepScheduler::fail(unsigned spe, std::exception_ptr failure) {
   agents_[spe].failure = std::move(failure);
   spes_[spe]->mfc.abandon();
@@ -296,7 +296,7 @@ bool LockstepScheduler::wait(const Ready& ready, std::optional<std::chrono::mill
       ppe_now_ = limit;
       const bool nothing_left = next_turn().at == kNever;
       idle_timeouts_ = nothing_left ? idle_timeouts_ + 1 : 0;
-      // Who looks in from time to time may have something to say in between, but hardly twice in vain.
+      // A PPE that waits with timeouts may send something in between, but hardly after two in vain.
       if (idle_timeouts_ < 2) {
         begin_ppe_turn();
         return false;

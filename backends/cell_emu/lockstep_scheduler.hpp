@@ -1,9 +1,10 @@
-// The lockstep schedule: one SPE at a time, as coroutines of the PPE's thread, so that a run is the same on
+// The lockstep schedule: one SPE at a time, as coroutines on the PPE's thread, so that a run is the same on
 // every machine.
 //
-// By virtual time, the next to act is who is behind: an SPE's program, its MFC, or the PPE; ties go to the
-// MFC and to the lower number. To explore, it is drawn from the seed, and virtual time only adds up. SPEs run
-// while the PPE is inside a call; the PPE's own work between its calls takes no time.
+// By virtual time, the next to act is the one that is furthest behind: an SPE's program, its MFC, or the PPE;
+// ties go to the MFC and to the lower number. When exploring, the next one is drawn from the seed, and
+// virtual time only adds up. SPEs run while the PPE is inside a call; the PPE's own work between its calls
+// takes no time.
 #pragma once
 
 #include "backends/cell_emu/coroutine.hpp"
@@ -15,7 +16,7 @@
 
 namespace celltrace::cell_emu {
 
-/// Thread safety: one thread, but interrupt() from any.
+/// The scheduler of the lockstep schedule. Thread safety: one thread, but interrupt() from any.
 class LockstepScheduler final : public Scheduler {
 public:
   LockstepScheduler(Spes& spes, unsigned count, DiagnosticLog& log, const EmulationConfig& config);
@@ -47,8 +48,8 @@ private:
   enum class State : unsigned char { idle, ready, stalled, paused };
   struct Agent {
     State state = State::idle;
-    Cycle now = 0;           ///< when it acts next
-    Cycle deadline = kNever; ///< of a stall
+    Cycle now = 0;           ///< time of its next action
+    Cycle deadline = kNever; ///< end of a stall
     std::unique_ptr<Coroutine> program;
     std::exception_ptr failure; ///< found while its program was not running
   };
@@ -58,10 +59,11 @@ private:
     bool mfc = false;
   };
 
-  /// Who is behind, apart from the SPE `apart`.
+  /// Returns the next turn by virtual time, leaving out the SPE `apart`.
   Turn next_turn(unsigned apart = kNobody) const;
   Turn drawn_turn();
-  /// Gives one turn to who is behind, if that is not after `limit`. False if there is none.
+  /// Gives one turn to the agent that is furthest behind, unless that is after `limit`. Returns false if
+  /// there is none.
   bool step(Cycle limit);
   void run_mfc(unsigned spe);
   void fail(unsigned spe, std::exception_ptr failure);
@@ -77,15 +79,16 @@ private:
   DiagnosticLog& log_;
   const EmulationConfig& config_;
   SeededRandom random_;
-  std::uint32_t patience_; ///< when exploring, an SPE is interrupted once in so many actions
+  /// Average number of actions of an SPE between two interruptions, when exploring.
+  std::uint32_t patience_;
   std::vector<Agent> agents_;
   ForeignStoreWatch watch_;
   const bool watches_;
   bool ppe_turn_ = true;
   Cycle ppe_now_ = 0;
-  Cycle current_ = 0;      ///< time of what is happening
-  Cycle horizon_ = kNever; ///< the running program must let others go first when it gets past this
-  Cycle latest_ = 0;       ///< of all that has happened
+  Cycle current_ = 0;      ///< time of the present action
+  Cycle horizon_ = kNever; ///< time from which the running program has to let others go first
+  Cycle latest_ = 0;       ///< latest time of any action
   unsigned idle_timeouts_ = 0;
   std::uint64_t idle_entries_ = 0;
   std::atomic<bool> interrupt_requested_{false};

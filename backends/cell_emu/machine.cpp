@@ -35,7 +35,7 @@ MachineConfig checked(MachineConfig config) {
   return config;
 }
 
-/// The arena of a program: what its code and stack leave of the local store; empty if that is nothing.
+/// Returns the arena of a program: the local store between its code and stack; empty if nothing is left.
 ArenaRange arena_of(LocalStoreUse use) {
   const std::uint64_t begin = (std::uint64_t{use.code_bytes} + kLineBytes - 1) / kLineBytes * kLineBytes;
   const std::uint64_t taken = begin + use.stack_bytes + 2 * kLineBytes;
@@ -95,12 +95,12 @@ public:
   SpeStatistics statistics(unsigned spe) const override { return spes_.at(spe)->counters.statistics(); }
 
 private:
-  /// Its SPUs execute machine code.
+  /// Returns true if the SPUs execute machine code.
   bool simulated() const { return config_.backend == Backend::cell_sim; }
   bool lockstep() const { return config_.emulation.schedule == Schedule::lockstep; }
   std::unique_ptr<Scheduler> make_scheduler();
   ArenaState arena(unsigned spe, ArenaRange range) const;
-  /// What a program does from its start to its end, and after it.
+  /// The run of a program on an SPE, from its start to its end and clean-up.
   using Run = std::function<void(Spe&)>;
   Run host_code(unsigned spe, const SpeProgram& program, ea_t argument, ArenaRange& range);
   Run machine_code(unsigned spe, const SpeProgram& program, ea_t argument, ArenaRange& range);
@@ -120,16 +120,16 @@ private:
   DiagnosticLog log_;
   Flights flights_;
   Bounds bounds_;
-  std::vector<DmaTiming> timing_; ///< one, or in the free schedule one for every SPE
+  std::vector<DmaTiming> timing_; ///< one, or on the free schedule one for every SPE
   std::vector<ProblemState*> registers_;
   Bus bus_;
   const MfcContext mfc_context_;
   Spes spes_;
   std::unique_ptr<Scheduler> scheduler_;
-  std::unique_ptr<SimulatedPrograms> programs_; ///< what only SPUs that execute machine code need
-  std::vector<bool> started_;                   ///< and not yet collected
+  std::unique_ptr<SimulatedPrograms> programs_; ///< only for SPUs that execute machine code
+  std::vector<bool> started_;                   ///< started and not yet collected
   unsigned stops_seen_ = 0; ///< programs that had stopped when the PPE last waited for mail
-  bool failed_ = false;     ///< an SPE has failed and interrupted the others. PPE thread only.
+  bool failed_ = false;     ///< true if an SPE has failed and interrupted the others; PPE thread only
   std::atomic<bool> interrupted_{false};
 };
 
@@ -320,13 +320,13 @@ void EmulatedCell::collect(Spe& spe) {
   resume_when_idle();
 }
 
-/// Once nobody is left whom a failure could leave waiting, kernels may stall again.
+/// Allows stalls again once no program is left that a failure could leave waiting.
 void EmulatedCell::resume_when_idle() {
   if (!failed_ || std::find(started_.begin(), started_.end(), true) != started_.end()) return;
   failed_ = false;
   for (const auto& spe : spes_)
     spe->state.resume();
-  // An interrupt() from another thread may have come in between; it is for good.
+  // An interrupt() from another thread may have come in between; it is permanent.
   if (interrupted_) scheduler_->interrupt();
 }
 

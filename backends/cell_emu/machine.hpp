@@ -1,8 +1,8 @@
-// The emulated Cell: a thread and a 256 KB local store per SPE, strict checks of every MFC command.
+// The emulated Cell: a 256 KB local store per SPE, and strict checks of every MFC command.
 //
-// An SPE that breaks a rule ends with an SpeError that names the SPE, the command, the addresses, the tag and
-// the rule. When all SPEs have been waited for after such an error, the machine can be used again; after
-// interrupt() it cannot. A kernel that runs for ever without touching a channel that may stall cannot be
+// If an SPE breaks a rule, it ends with an SpeError that names the SPE, the command, the addresses, the tag
+// and the rule. When all SPEs have been waited for after such an error, the machine can be used again; after
+// interrupt() it cannot. A kernel that runs for ever without accessing a channel that may stall cannot be
 // interrupted.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace celltrace::cell_emu {
 
-/// Throws InputError for more than 256 SPEs, for a signal mode that does not exist, if code and stack leave
-/// no arena, and for an EmulationConfig out of range.
+/// Makes the machine. Throws InputError for more than 256 SPEs, for a signal mode that does not exist, if
+/// code and stack leave no arena, and for an EmulationConfig out of range.
 std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 
 } // namespace celltrace::cell_emu

@@ -8,11 +8,11 @@
 
 namespace celltrace::cell_emu {
 
-/// A word on its way: its value, and the arrow that a trace draws for it (0: none).
+/// A word under way: its value, and the number of its arrow in the trace (0: none).
 struct Word {
   std::uint32_t value = 0;
   std::uint64_t arrow = 0;
-  Cycle at = 0; ///< when it arrived
+  Cycle at = 0; ///< time of its arrival
 };
 
 template <unsigned Entries> class Mailbox {
@@ -21,12 +21,12 @@ public:
   bool empty() const { return count_ == 0; }
   bool full() const { return count_ == Entries; }
 
-  /// Appends a word; a full mailbox loses its newest word to it.
+  /// Appends a word; in a full mailbox it replaces the newest word.
   void push(Word word) {
     if (!full()) ++count_;
     entries_[(first_ + count_ - 1) % Entries] = word;
   }
-  /// The oldest word. Not for an empty mailbox.
+  /// Removes and returns the oldest word. The mailbox must not be empty.
   Word pop() {
     const Word word = entries_[first_];
     first_ = (first_ + 1) % Entries;

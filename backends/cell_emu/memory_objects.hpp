@@ -11,18 +11,18 @@
 
 namespace celltrace::cell_emu {
 
-/// Thread safety: all members from any thread.
+/// The registered objects. Thread safety: all members from any thread.
 class MemoryObjects {
 public:
   /// Throws InputError for objects that overlap or have no bytes.
   explicit MemoryObjects(const std::vector<MemoryObject>& objects);
 
-  /// Throws InputError for an object without bytes, or one that overlaps with another.
+  /// Adds an object. Throws InputError if it has no bytes or overlaps another.
   void add(const MemoryObject& object);
-  /// Throws InputError if there is none that begins there.
+  /// Removes the object at `begin`. Throws InputError if there is none.
   void remove(ea_t begin);
 
-  /// The object that [ea, ea + size) touches and leaves. Fast where there are none.
+  /// Returns the object that [ea, ea + size) touches and leaves. Fast if there are no objects.
   std::optional<MemoryObject> left_by(ea_t ea, std::uint32_t size) const {
     if (count_.load(std::memory_order_relaxed) == 0) return std::nullopt;
     return find_left_by(ea, size);
@@ -30,7 +30,7 @@ public:
 
 private:
   std::optional<MemoryObject> find_left_by(ea_t ea, std::uint32_t size) const;
-  /// The first that ends behind `ea`.
+  /// Returns the first object that ends behind `ea`.
   std::map<ea_t, MemoryObject>::const_iterator first_behind(ea_t ea) const;
 
   mutable std::shared_mutex mutex_;

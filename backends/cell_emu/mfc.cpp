@@ -23,7 +23,7 @@ std::string to_hex(std::uint32_t value) {
   return text;
 }
 
-/// Of a rule that is not to stop the program: does the command that broke it still mean something?
+/// Returns whether a command that broke a rule, whose action is not to stop, can still be carried out.
 constexpr bool can_be_carried_out(Rule rule) {
   return rule == Rule::none || rule == Rule::zero_size || rule == Rule::line_alignment ||
          rule == Rule::program_overwritten || rule == Rule::allocation_bounds || rule == Rule::object_bounds;
@@ -36,7 +36,7 @@ std::string describe(const Allocations::Allocation& allocation) {
   return text;
 }
 
-/// Of local store, that a command uses: of a list command the list.
+/// Returns the bytes of local store that a command uses; for a list command those of the list.
 std::uint32_t storage_bytes(const MfcCommand& command) {
   switch (kind_of(command.opcode)) {
   case CommandKind::get:
@@ -129,7 +129,7 @@ void Mfc::finish(Cycle now) {
     else if (note_drained(FlightInfo(flight), diagnostic, now) && diagnostic.action == Action::stop && !first)
       first = diagnostic;
   }
-  // A stopped list of which the program has seen all that was transferred has no flight, but is not done.
+  // A stopped list whose transferred part the program has seen has no flight, but is not done.
   const std::vector<Flight>& flights = context_.flights.of(spe_);
   for (const Entry& entry : queue_)
     if (entry.stalled && !entry.proxy &&
@@ -263,7 +263,7 @@ bool Mfc::note_allocation_overrun(Diagnostic& diagnostic, CallSite site, Cycle n
                                            describe(overrun->allocation));
 }
 
-/// What the program has stored past its local store or its allocations since the last look.
+/// Reports stores past the local store or past allocations since the last check.
 void Mfc::check_stores(CallSite site, Cycle now) {
   Diagnostic overrun;
   if (!bus_.map().local_stores().is_edge_intact(spe_) && note_overrun(overrun, site, now) &&
@@ -273,8 +273,8 @@ void Mfc::check_stores(CallSite site, Cycle now) {
     throw RuleViolation(overrun);
 }
 
-/// The local store of which a command leaves an allocation: of the program that issued it, or of another
-/// SPE's. Of its own SPE's allocations a proxy command knows nothing.
+/// Returns the range of local store in which a command leaves an allocation: of the issuing program, or of
+/// another SPE's. A proxy command is not checked against its own SPE's allocations.
 std::optional<Mfc::LocalRange> Mfc::unallocated(const MfcCommand& command, bool proxy) const {
   const std::uint32_t size = storage_bytes(command);
   if (size == 0) return std::nullopt;
@@ -288,7 +288,7 @@ std::optional<Mfc::LocalRange> Mfc::unallocated(const MfcCommand& command, bool 
   return LocalRange{place.spe, there};
 }
 
-/// Lock lines are whole lines, whatever lies in them.
+/// Returns the object that the command leaves. Lock-line commands move whole lines, whatever lies in them.
 std::optional<MemoryObject> Mfc::left_object(const MfcCommand& command) const {
   const CommandKind kind = kind_of(command.opcode);
   if ((kind != CommandKind::get && kind != CommandKind::put) || is_list(command.opcode) || command.size == 0)
@@ -317,7 +317,7 @@ std::string Mfc::bounds_of(Rule rule, const Entry& entry) const {
   return before ? "; the last one before it" + whose + " is " + describe(*before) : "";
 }
 
-/// A get may only fill what is the program's own.
+/// Checks that a get fills only the program's own part of local store.
 Rule Mfc::broken_arena_rule(const MfcCommand& transfer) const {
   const bool outside = transfer.lsa < arena_.begin || transfer.lsa + transfer.size > arena_.end;
   const bool fills = kind_of(transfer.opcode) == CommandKind::get && transfer.size != 0;
@@ -362,7 +362,7 @@ void Mfc::issue(const MfcCommand& given, CallSite site, Cycle now) {
   if (!check(given, commands_, site, now, false)) return;
   MfcCommand command = given;
   if (kind_of(command.opcode) == CommandKind::lock_line) {
-    // Whoever lets an unaligned one pass gets what the hardware makes of it.
+    // If an unaligned command is let pass, its addresses are truncated as on the hardware.
     command.lsa &= ~(kLineBytes - 1);
     command.ea &= ~ea_t{kLineBytes - 1};
   }
@@ -436,7 +436,7 @@ void Mfc::check_conditional(const MfcCommand& command, CallSite site, Cycle now)
     rule = Rule::reservation_lost_to_own_put;
     break;
   case Bus::Reservation::held:
-    // In the meantime another SPE may have taken it, which is nobody's mistake.
+    // Another SPE may have taken the line in the meantime, which is no mistake.
     if (bus_.reserves_other_than(spe_, command.ea)) rule = Rule::conditional_without_reservation;
     break;
   case Bus::Reservation::lost_to_others:
@@ -513,7 +513,8 @@ void Mfc::start_ready(Cycle now) {
 
 void Mfc::start(Entry& entry, Cycle now) {
   const EmulationConfig& config = context_.config;
-  // What it is ordered behind is complete: so must its data be, however late they may come.
+  // All commands that it is ordered behind are complete, so their data have to be moved, however late that
+  // is.
   std::vector<Flight>::size_type count = context_.flights.of(spe_).size();
   for (std::size_t i = 0; i < count; ++i) {
     Flight& flight = context_.flights.at(spe_, i);
@@ -527,7 +528,7 @@ void Mfc::start(Entry& entry, Cycle now) {
     context_.flights.for_each(spe_, [&](Flight& flight) {
       if (flight.command == entry.number || !is_ordered_before(flight, entry)) return;
       flight.released = true;
-      // The program may learn of it by a wait for the other tag.
+      // A wait for the other tag may tell the program of it.
       if (flight.transfer.tag != entry.command.tag) permit(flight);
     });
   entry.due = time_of(entry, now) + random_.below(config.faults.dma_delay);
@@ -535,7 +536,7 @@ void Mfc::start(Entry& entry, Cycle now) {
   entry.move_at = kNever;
   const bool random = config.transfers == TransferTime::random;
   if (random) entry.due += random_.below(entry.due - now + 1);
-  // A get may as well come when it is waited for.
+  // Half of the gets move their data when they are waited for.
   if (random && !(kind_of(entry.command.opcode) == CommandKind::get && random_.once_in(2)))
     entry.move_at = now + random_.below(entry.due - now + 1);
   for (std::size_t i = 0; i < count; ++i) {
@@ -550,7 +551,7 @@ void Mfc::start(Entry& entry, Cycle now) {
       check_source(flight, entry, now);
       continue;
     }
-    // All that this get is ordered behind has moved its data: what lies there is nobody's.
+    // All data that this get is ordered behind have moved: its target belongs to nobody.
     if (config.transfers != TransferTime::at_issue) {
       flight.hashed = !flight.shared;
       bus_.count_local_store_write(spe_);
@@ -609,7 +610,7 @@ void Mfc::move_data(Entry& entry, Cycle now) {
 void Mfc::complete(std::size_t index, Cycle now) {
   Entry& entry = queue_[index];
   const TransferTime when = context_.config.transfers;
-  // A get whose data nobody has asked for yet comes with the wait.
+  // A get whose data have not been waited for moves them at the wait.
   const bool deferred = kind_of(entry.command.opcode) == CommandKind::get && entry.move_at == kNever &&
                         when != TransferTime::at_issue;
   if (!entry.moved && !deferred) move_data(entry, now);
@@ -684,7 +685,7 @@ bool Mfc::complete_part(Entry& entry, Cycle now) {
   entry.stalled = true;
   entry.due = kNever;
   entry.moved = true;
-  // The event is the rise of the channel's count; what joins an unread status adds to its bits only.
+  // The event is the rise of the channel's count; a stop that joins an unread status only adds its bit.
   const bool rises = stalled_tags_ == 0;
   stalled_tags_ |= 1u << entry.command.tag;
   if (rises) problem_state_.raise_own(event::list_stall);
@@ -694,7 +695,7 @@ bool Mfc::complete_part(Entry& entry, Cycle now) {
 std::uint32_t Mfc::take_list_stall_status(Cycle now) {
   const std::uint32_t tags = stalled_tags_;
   stalled_tags_ = 0;
-  // The parts before the stops have been transferred, and the program knows.
+  // The program now knows that the parts before the stops have been transferred.
   for (const Entry& entry : queue_)
     if (entry.stalled && (tags >> entry.command.tag & 1) != 0) observe_part(entry.number, now);
   return tags;
@@ -708,7 +709,8 @@ void Mfc::acknowledge_list_stall(std::uint32_t tag, CallSite site, Cycle now) {
   for (Entry& entry : queue_) {
     if (!entry.stalled || entry.command.tag != tag) continue;
     entry.stalled = false;
-    // The rest of the list may have been written since it was read ahead: that is what the stop is for.
+    // Read the rest of the list again: the program may have written it during the stop, which is the purpose
+    // of stops.
     const std::uint32_t done = entry.next_element;
     read_list(entry);
     entry.next_element = done;

@@ -1,4 +1,4 @@
-// An MFC command as the SPU hands it over, and what its opcode says.
+// An MFC command as the SPU issues it, and the properties of its opcode.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -7,13 +7,13 @@
 
 namespace celltrace::cell_emu {
 
-/// The queue through which the PPE, or whoever writes an SPE's problem state, gives commands.
+/// Entries of the queue for commands of the PPE, or of any other writer of an SPE's problem state.
 constexpr unsigned kProxyQueueEntries = 8;
-/// Of libspe2; the others are the system's.
+/// Number of tags that libspe2 leaves to programs; the others are the system's.
 constexpr std::uint32_t kProxyTags = 16;
 
 /// The parameters of channels 16..21. For a list command `size` is the length of the list in bytes, the high
-/// half of `ea` that of all its elements, and the low half the local-store address of the list.
+/// half of `ea` is that of all its elements, and the low half is the local-store address of the list.
 struct MfcCommand {
   MfcOpcode opcode;
   std::uint32_t tag;
@@ -69,41 +69,41 @@ constexpr CommandKind kind_of(MfcOpcode opcode) {
   return CommandKind::unknown;
 }
 
-/// The suffix bits mean something for transfers and signals only.
+/// Returns whether the opcode has a suffix bit, which has a meaning only for transfers and signals.
 constexpr bool has_suffix(MfcOpcode opcode, std::uint32_t bit) {
   const CommandKind kind = kind_of(opcode);
   return (kind == CommandKind::get || kind == CommandKind::put || kind == CommandKind::send_signal) &&
          (static_cast<std::uint32_t>(opcode) & bit) != 0;
 }
-/// Ordered after all earlier commands of its tag, and before all later ones.
+/// Returns true if the command is ordered after all earlier commands of its tag, and before all later ones.
 constexpr bool has_barrier(MfcOpcode opcode) {
   return has_suffix(opcode, 1);
 }
-/// Ordered after all earlier commands of its tag.
+/// Returns true if the command is ordered after all earlier commands of its tag.
 constexpr bool has_fence(MfcOpcode opcode) {
   return has_suffix(opcode, 2);
 }
 constexpr bool is_list(MfcOpcode opcode) {
   return has_suffix(opcode, 4);
 }
-/// Executed at once, outside the queue and the tag groups.
+/// Returns true if the command is executed at once, outside the queue and the tag groups.
 constexpr bool is_immediate(MfcOpcode opcode) {
   return kind_of(opcode) == CommandKind::lock_line && opcode != MfcOpcode::putqlluc;
 }
 
-/// Waits for all earlier commands of its tag.
+/// Returns true if the command waits for all earlier commands of its tag.
 constexpr bool follows_its_tag(MfcOpcode opcode) {
   return has_fence(opcode) || has_barrier(opcode) || opcode == MfcOpcode::putqlluc;
 }
 
-/// Changes what lies at its effective address.
+/// Returns true if the command changes the storage at its effective address.
 constexpr bool writes_storage(MfcOpcode opcode) {
   const CommandKind kind = kind_of(opcode);
   return kind == CommandKind::put || opcode == MfcOpcode::sdcrz ||
          (kind == CommandKind::lock_line && opcode != MfcOpcode::getllar);
 }
 
-/// Must `earlier` be complete before `later` of the same queue may move, going by these two alone?
+/// Returns whether `earlier` must be complete before `later` of the same queue may move, by these two alone.
 constexpr bool is_ordered(const MfcCommand& earlier, const MfcCommand& later) {
   if (kind_of(earlier.opcode) == CommandKind::barrier || kind_of(later.opcode) == CommandKind::barrier)
     return true;

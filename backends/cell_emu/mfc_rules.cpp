@@ -57,7 +57,7 @@ Rule broken_list_rule(const MfcCommand& command) {
 }
 
 MfcCommand element_command(const MfcCommand& list, const ListElement& element, std::uint32_t quadword) {
-  // The hardware looks at 15 bits of the size only.
+  // The hardware uses only 15 bits of the size.
   constexpr std::uint32_t kSizeBits = 0x7FFF;
   const MfcOpcode opcode = kind_of(list.opcode) == CommandKind::get ? MfcOpcode::get : MfcOpcode::put;
   const ea_t region = list.ea & ~ea_t{0xFFFFFFFF};

@@ -1,7 +1,7 @@
-// What the architecture demands of an MFC command, as pure functions: which rule does a command break?
+// The architecture's rules for MFC commands, as pure functions: which rule does a command break?
 //
 // Sources: Cell Broadband Engine Programming Handbook, chapter "DMA transfers and inter-processor
-// communication"; spu_mfcio.h of GCC 9.3; Linux spufs_check_valid_dma(). Where the hardware wraps or ignores
+// communication"; spu_mfcio.h of GCC 9.3; Linux spufs_check_valid_dma(). If the hardware wraps or ignores
 // bits silently, these rules are stricter on purpose.
 #pragma once
 
@@ -12,46 +12,46 @@
 
 namespace celltrace::cell_emu {
 
-/// What lies at an effective address.
+/// The kind of storage at an effective address.
 enum class EaKind {
   main_memory,
   local_store,
   signal_1,
   signal_2,
   in_mailbox,
-  no_register, ///< problem state without a register that the emulator has
+  no_register, ///< problem state without a register that the emulator implements
   unmapped,    ///< no storage, or the range leaves the storage that it starts in
 };
 constexpr bool is_register(EaKind kind) {
   return kind == EaKind::signal_1 || kind == EaKind::signal_2 || kind == EaKind::in_mailbox;
 }
 
-/// A get, put or sndsig of `size` bytes. Size 0 is a legal no-op.
+/// Checks a get, put or sndsig of `size` bytes. Size 0 is a legal no-op.
 Rule broken_transfer_rule(const MfcCommand& command, EaKind target);
 
-/// A list command without its elements.
+/// Checks a list command without its elements.
 Rule broken_list_rule(const MfcCommand& command);
 
-/// The transfer that one element of a list asks for; `quadword` is the local-store address of the element's
+/// Returns the transfer of one element of a list; `quadword` is the local-store address of the element's
 /// first quadword, in which the low 4 bits of its effective address choose the byte.
 MfcCommand element_command(const MfcCommand& list, const ListElement& element, std::uint32_t quadword);
 
-/// What element_command() returned.
+/// Checks the result of element_command().
 Rule broken_element_rule(const MfcCommand& part, EaKind target);
 
-/// getllar, putllc, putlluc, putqlluc.
+/// Checks getllar, putllc, putlluc or putqlluc.
 Rule broken_lock_line_rule(const MfcCommand& command, EaKind target);
 
-/// sdcrt and its like. The hints may name any mapped address.
+/// Checks sdcrz and the cache hints. The hints may name any mapped address.
 Rule broken_cache_control_rule(const MfcCommand& command, EaKind target);
 
-/// What holds of a command of the proxy queue besides the rules of a transfer.
+/// Checks the further rules of a command of the proxy queue.
 Rule broken_proxy_rule(const MfcCommand& command);
 
-/// What holds for every command: the opcode exists, the tag is 0..31.
+/// Checks the rules of all commands: the opcode exists, the tag is 0..31.
 Rule broken_common_rule(const MfcCommand& command);
 
-/// The command in one line: "get 20 bytes, LS 0x18010 <- EA 0x7f0010, tag 5".
+/// Returns the command in one line: "get 20 bytes, LS 0x18010 <- EA 0x7f0010, tag 5".
 std::string describe(const MfcCommand& command);
 
 } // namespace celltrace::cell_emu

@@ -1,4 +1,5 @@
-// The MFC's transfers in flight: what meets what, when data move, and whether the program kept its hands off.
+// The MFC's transfers in flight: their conflicts, the moves of their data, and accesses of the program to
+// them.
 #include "backends/cell_emu/access_checkers.hpp"
 #include "backends/cell_emu/isa/state.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
@@ -27,7 +28,7 @@ std::uint8_t* Mfc::local_store(const MfcCommand& transfer) const {
 
 bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
   if (flight.proxy != entry.proxy || flight.command > entry.number) return false;
-  if (flight.command == entry.number) return true; // elements of a list are taken in order
+  if (flight.command == entry.number) return true; // elements of a list are transferred in order
   if (kind_of(entry.command.opcode) == CommandKind::barrier ||
       flight.command < last_queue_barrier_[entry.proxy])
     return true;
@@ -36,7 +37,8 @@ bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
          flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
 }
 
-/// Of a list that goes on after a stop: does the flight belong to a command that waits for all of the list?
+/// Returns, for a list that goes on after a stop, whether the flight belongs to a command that waits for all
+/// of the list.
 bool Mfc::is_ordered_behind(const Flight& flight, const Entry& entry) const {
   if (flight.proxy != entry.proxy || flight.command <= entry.number) return false;
   std::vector<const MfcCommand*> chain{&entry.command};
@@ -52,7 +54,7 @@ bool Mfc::is_ordered_behind(const Flight& flight, const Entry& entry) const {
 }
 
 void Mfc::forbid(Flight& flight) {
-  // Machine code may load what is forbidden to host code, and is judged by what it does with it.
+  // Machine code may load what is forbidden to host code; its use of the loaded data is judged.
   if (!has_checker_ || watch_ != nullptr) return;
   flight.forbidden = true;
   forbid_access(local_store(flight.transfer), flight.bytes());
@@ -91,7 +93,7 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
   const bool lock_line = kind_of(transfer.opcode) == CommandKind::lock_line;
   if (is_immediate(transfer.opcode))
     flight.transfer.opcode = transfer.opcode == MfcOpcode::getllar ? MfcOpcode::get : MfcOpcode::put;
-  // Lines that change hands whole are no race; nor are registers.
+  // Whole lines of lock-line commands are no race; nor are registers.
   flight.has_storage = !lock_line && !is_register(bus_.map().locate(transfer.ea, transfer.size).kind);
   for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
     Flight& other = context_.flights.at(spe_, i);
@@ -118,7 +120,7 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
 
 // --- loads and stores of machine code ---
 
-/// A proxy command is no secret of the SPU's, who cannot know of it.
+/// Marks a flight for loads and stores, except a proxy command, of which the SPU cannot know.
 void Mfc::watch(const Flight& flight) {
   if (watch_ == nullptr || flight.proxy) return;
   const std::uint32_t lsa = flight.transfer.lsa;
@@ -140,7 +142,7 @@ template <class Gone> void Mfc::remove_flights(Gone gone) {
       if (gone(flight)) permit(flight);
     });
   context_.flights.remove_if(spe_, gone);
-  // What others that stay have in the same quadwords.
+  // Restore the marks of other flights in the same quadwords.
   for (const Flight& flight : context_.flights.of(spe_)) {
     watch(flight);
     if (flight.forbidden) forbid_access(local_store(flight.transfer), flight.bytes());
@@ -180,7 +182,7 @@ void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite sit
     const bool get = flight.writes_local_store();
     if (!get && std::memcmp(bus_.map().local_store(spe_) + begin, bytes + (begin - lsa), end - begin) == 0)
       continue;
-    flight.shared = true; // said once
+    flight.shared = true; // reported once
     if (flight.drained)
       report_drained(FlightInfo(flight), now);
     else
@@ -209,7 +211,7 @@ void Mfc::report_touched(const Flight& flight, Cycle now) {
 }
 
 void Mfc::check_source(const Flight& flight, const Entry& entry, Cycle now) {
-  // Machine code is judged by its loads, and may have variables that nobody has set.
+  // Machine code is judged by its loads, and may have uninitialised variables.
   if (watch_ != nullptr || flight.proxy) return;
   const auto found = find_in_flight_word(local_store(flight.transfer), flight.bytes());
   if (!found) return;
@@ -256,7 +258,7 @@ void Mfc::move(Flight& flight, Cycle now, bool observed) {
   flight.moved = true;
   const auto [opcode, tag, lsa, size, ea] = flight.transfer;
   std::uint8_t* const local = local_store(flight.transfer);
-  // The PPE's transfers are no secret once they have been made.
+  // Transfers of the PPE may be accessed once they have been made.
   if (flight.proxy) permit(flight);
   const OpenedLocalStore opened(*this, flight.transfer);
   const AddressMap::Place place = bus_.map().locate(ea, size);
@@ -331,7 +333,7 @@ void Mfc::observe_empty_queue(CallSite site, Cycle now) {
 }
 
 bool Mfc::note_drained(const FlightInfo& flight, Diagnostic& diagnostic, Cycle now) {
-  // What a program does once it does everywhere.
+  // A program that does this once does it everywhere.
   if (drain_reported_) return false;
   drain_reported_ = true;
   diagnostic = about({flight.transfer, flight.command, drain_site_, false, 0}, Rule::drained_queue, now);

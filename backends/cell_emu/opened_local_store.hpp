@@ -1,12 +1,11 @@
-// Opens a part of local store for the emulator itself, where the program's accesses are forbidden at the
-// time.
+// Opens a part of local store for the emulator itself while the program's accesses are forbidden.
 #pragma once
 
 #include "backends/cell_emu/mfc.hpp"
 
 namespace celltrace::cell_emu {
 
-/// Opens it until it is destroyed.
+/// Opens the target of a transfer until this is destroyed.
 class Mfc::OpenedLocalStore {
 public:
   OpenedLocalStore(const Mfc& mfc, const MfcCommand& transfer);

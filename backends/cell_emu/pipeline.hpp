@@ -1,25 +1,25 @@
-// From counted operations to cycles of the SPU: in-order issue to two pipes, as a statistical model.
+// Converts counted operations to cycles of the SPU: in-order issue to two pipes, as a statistical model.
 //
-// The counts say how many instructions of each unit there were and which came in fours, not in which order.
-// The model (latencies and parts in TimingParameters):
+// The counts say how many instructions of each unit there were and which were issued four times, but not in
+// which order. The model (latencies and shares in TimingParameters):
 //
 //   issue       The even pipe gets FX2, FX3, FXB, FP6 and FP7, the odd one LS, SHUF, BR and hints. At most
 //               the smaller of the two sums can issue together with one of the other pipe; `paired_issue` of
 //               it does. Every other instruction takes a cycle of its own.
-//   dependency  An instruction of a chain holds up the one behind it for its latency less one cycle. An
-//               operation on a packet issues for four cycles, one per quadword, so only what its latency
-//               exceeds these by is left. `exposed_latency` of all that finds nothing else to issue. Scalar
-//               work says itself how long it waits.
-//   branches    Only scalar work branches, and says how many cycles it loses where nothing foretold the way.
+//   dependency  An instruction of a chain delays the next one for its latency less one cycle. An
+//               operation on a packet issues for four cycles, one per quadword, so only the latency
+//               beyond these remains. `exposed_latency` of all of this finds nothing else to issue. Scalar
+//               work states its own waits.
+//   branches    Only scalar work branches, and states the cycles that it loses to branches without hints.
 //               Each branch comes with `hints` hints, which go to the odd pipe, with `late_hint` cycles of
-//               waiting for one, and with `no_ops` cycles in which nothing but no-ops issues.
-//   fetch       Where quadwords are moved about, loads and stores leave the local store's port no time to
+//               waiting for one, and with `no_ops` cycles in which only no-ops issue.
+//   fetch       Where quadwords are copied, loads and stores leave the local store's port no time to
 //               fetch instructions: `late_fetch` cycles each.
 //
 // Not modelled: contention for the local store.
 //
-// All sums are integers and the parts multiples of 1/65536, so that every compiler and machine gets the same
-// cycles. The parts lie in [0, 16]; there may be 2^42 instructions at a time.
+// All sums are integers and the shares multiples of 1/65536, so that every compiler and machine gets the same
+// cycles. The shares lie in [0, 16]; there may be 2^42 instructions at a time.
 #pragma once
 
 #include "celltrace/spe/operation_counter.hpp"
@@ -32,14 +32,14 @@ namespace celltrace::cell_emu {
 
 namespace detail {
 
-/// `part` of `n`, rounded to nearest.
+/// Returns the share `part` of `n`, rounded to nearest.
 inline std::uint64_t part_of(std::uint64_t n, double part) {
   constexpr std::uint64_t one = 65536;
   const auto multiple = static_cast<std::uint64_t>(part * static_cast<double>(one) + 0.5);
   return (n * multiple + one / 2) / one;
 }
 
-/// Cycles for which the instructions keep their results back from those that follow, where each issues
+/// Returns the cycles for which the instructions delay those that need their results, if each issues
 /// `width` times in a row.
 inline std::uint64_t latency_beyond_issue(const UnitCounts& n, std::uint32_t width,
                                           const TimingParameters& timing) {
@@ -54,9 +54,9 @@ inline std::uint64_t latency_beyond_issue(const UnitCounts& n, std::uint32_t wid
 
 } // namespace detail
 
-/// Where the cycles of the counted operations went.
+/// Returns the cycles of the counted operations by their use.
 inline SpuCycles cycles_of(const OperationCounts& counts, const TimingParameters& timing) {
-  constexpr std::uint32_t quadwords = 4; // of a packet
+  constexpr std::uint32_t quadwords = 4; // in a packet
   const UnitCounts& packet = counts.packet;
   const UnitCounts& chain = counts.chain;
   SpuCycles cycles;

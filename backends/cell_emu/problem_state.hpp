@@ -1,7 +1,8 @@
-// What of an SPE others can touch: mailboxes, signal notification registers, and the events that they raise.
+// The part of an SPE that others can access: mailboxes, signal notification registers, and the events that
+// they raise.
 //
-// Thread safety: all members from any thread, except those that the comments give to the SPU's own thread.
-// Counts are answered from one atomic word, so that kernels may poll them at little cost.
+// Thread safety: all members from any thread, except those that are marked as the SPU's own.
+// Counts are read from one atomic word, so that kernels may poll them at little cost.
 #pragma once
 
 #include "backends/cell_emu/cycle.hpp"
@@ -20,18 +21,18 @@
 
 namespace celltrace::cell_emu {
 
-/// Who wrote a word, and when.
+/// The writer of a word, and the time.
 struct Sender {
-  unsigned spe; ///< or Diagnostic::kPpe
+  unsigned spe; ///< number of the SPE, or Diagnostic::kPpe
   Cycle at;
 };
 
-/// Is told of stalls. Called with the SPE's problem state locked.
+/// Receives the beginnings and ends of stalls. Called with the SPE's problem state locked.
 class StallObserver {
 public:
   virtual ~StallObserver() = default;
   virtual void stalled(unsigned spe) = 0;
-  /// A change has ended the stall.
+  /// Called when a change has ended the stall.
   virtual void unstalled(unsigned spe) = 0;
 };
 
@@ -41,14 +42,14 @@ public:
 
   // --- registers, for other SPEs and the PPE ---
 
-  /// A write to the mapped register. False if the mailbox was full and lost its newest word.
+  /// Writes the mapped register. Returns false if the mailbox was full and lost its newest word.
   bool write_in_mailbox(std::uint32_t value, Sender sender);
-  /// False if a value that nobody had read was lost.
+  /// Writes a signal. Returns false if an unread value was lost.
   bool write_signal(Signal which, std::uint32_t value, Sender sender);
   std::uint32_t peek_signal(Signal which) const;
   std::optional<std::uint32_t> take_out_mailbox(Cycle now);
   std::optional<std::uint32_t> take_out_interrupt_mailbox(Cycle now);
-  /// An event of this SPE has occurred.
+  /// Raises events of this SPE.
   void raise(std::uint32_t events);
 
   // --- counts: one atomic load each ---
@@ -56,18 +57,18 @@ public:
   unsigned event_count() const { return status() & kEvent ? 1 : 0; }
   unsigned signal_count(Signal which) const { return status() & signal_bit(which) ? 1 : 0; }
   unsigned in_mailbox_count() const { return (status() & kInMailboxCount) / kInMailboxUnit; }
-  /// Free entries: 1 or 0.
+  /// Return the number of free entries: 1 or 0.
   unsigned out_mailbox_space() const { return status() & kOutMailboxFull ? 0 : 1; }
   unsigned out_interrupt_mailbox_space() const { return status() & kOutInterruptMailboxFull ? 0 : 1; }
   bool has_outbound_mail() const { return (status() & (kOutMailboxFull | kOutInterruptMailboxFull)) != 0; }
   bool interrupted() const { return (status() & kInterrupted) != 0; }
-  /// The count of a channel whose count depends on others.
+  /// Returns the count of a channel whose count depends on others.
   unsigned count(Channel channel) const;
 
   // --- channels, for the SPU's own thread; only while the count is not 0 ---
 
-  // Reads at time `now`, which rises to the time at which the word arrived if that is later: exploring, an
-  // SPE may come to read a word before it is as late as the word's sender.
+  // Reads happen at time `now`, which is raised to the arrival time of the word if that is later: when
+  // exploring, an SPE may read a word before its own time has reached the sender's.
   std::uint32_t read_in_mailbox(Cycle& now);
   std::uint32_t read_signal(Signal which, Cycle& now);
   void write_out_mailbox(std::uint32_t value, Cycle now);
@@ -76,39 +77,39 @@ public:
   std::uint32_t event_mask() const { return mask_.load(std::memory_order_relaxed); }
   void write_event_mask(std::uint32_t mask);
   void acknowledge_events(std::uint32_t events);
-  /// As raise(); cheap when the event is pending and masked already.
+  /// As raise(); fast if the event is pending and masked already.
   void raise_own(std::uint32_t events) {
     if ((masked_pending_.load(std::memory_order_relaxed) & events) != events) raise(events);
   }
   /// Throws the SpeError of an SPE that was interrupted at a channel.
   [[noreturn]] void stop_at(Channel channel) const;
-  /// The same for one that was interrupted on its way, at `place`.
+  /// Throws the SpeError of an SPE that was interrupted while it ran, at `place`.
   [[noreturn]] void stop_running(const std::string& place) const;
-  /// The same for one that was interrupted while it was stopped with a signal.
+  /// Throws the SpeError of an SPE that was interrupted while it was stopped with a signal.
   [[noreturn]] void stop_while_stopped(std::uint32_t code) const;
 
-  // --- stalls: who waits for what ---
+  // --- stalls ---
 
   struct Stall {
     Channel channel;
     CallSite site;
-    bool after_phantom; ///< the last event status that the program read was 0
+    bool after_phantom; ///< true if the last event status that the program read was 0
   };
-  /// The SPU waits from now on for `stall.channel` to have a count. False if it has one already, or the SPE
+  /// Begins to wait for `stall.channel` to have a count. Returns false if it has one already, or if the SPE
   /// was interrupted.
   bool begin_stall(const Stall& stall);
-  /// Blocks until the stall has ended by a change; for a thread of the SPE's own.
+  /// Blocks until a change has ended the stall; for a thread of the SPE's own.
   void sleep_until_unstalled();
   void end_stall();
   std::optional<Stall> stall() const;
 
   // --- run control ---
 
-  /// The SPE starts: the event facility is as after a reset, except that full mailboxes and signals are
-  /// pending.
+  /// Starts the SPE: the event facility is as after a reset, except that events of full mailboxes and signals
+  /// are pending.
   void start();
-  /// Makes the SPU stop where it stalls or polls; `because` ends its error, or is empty. Only the first call
-  /// counts.
+  /// Makes the SPU stop where it stalls or polls; its error ends with `because`, which may be empty. Only the
+  /// first call counts.
   void interrupt(std::string because) noexcept;
   /// Takes an interrupt back. Only while the SPE is not running.
   void resume();
@@ -139,7 +140,7 @@ private:
   Word sent(const char* what, std::uint32_t value, Sender sender) const;
   std::uint32_t received(const char* what, Word word, unsigned by, Cycle now) const;
   std::optional<std::uint32_t> take(Mailbox<1>& mailbox, const char* what, std::uint32_t event, Cycle now);
-  /// Makes a change visible: to polls by the status word, to who waits by an end of its stall.
+  /// Makes a change visible: to polls through the status word, to a waiting SPU by ending its stall.
   void publish();
 
   const unsigned spe_;

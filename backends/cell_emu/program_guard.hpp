@@ -1,5 +1,5 @@
-// Watches over the local store that belongs to a program's code and stack on a real SPE: nothing lies there
-// on the emulator, so whatever changes it is a stray store.
+// Guards the local store that holds a program's code and stack on a real SPE: the emulator leaves it
+// unused, so any change to it is a stray store.
 #pragma once
 
 #include "backends/cell_emu/diagnostic_log.hpp"
@@ -12,14 +12,14 @@ class ProgramGuard {
 public:
   ProgramGuard(std::uint8_t* local_store, ArenaRange arena) : local_store_(local_store), arena_(arena) {}
 
-  // Others' DMA may reach the local store meanwhile: call these while the bus holds it.
+  // DMA of others may write the local store meanwhile: call these while the bus holds it.
 
   void fill() const {
     fill_with_poison(local_store_, arena_.begin);
     fill_with_poison(local_store_ + arena_.end, kLocalStoreBytes - arena_.end);
   }
 
-  /// Reports the first bytes that were changed. The arena may have grown to `arena_end`.
+  /// Reports the first changed bytes. The arena may have grown to `arena_end`.
   void check(unsigned spe, std::uint32_t arena_end, DiagnosticLog& log) const {
     const bool code = is_poison(local_store_, arena_.begin);
     const bool stack = is_poison(local_store_ + arena_end, kLocalStoreBytes - arena_end);

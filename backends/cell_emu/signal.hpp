@@ -12,9 +12,9 @@ class SignalRegister {
 public:
   explicit SignalRegister(SignalMode mode) : mode_(mode) {}
 
-  /// The channel count: 1 while a write has not been read.
+  /// Returns the channel count: 1 while a write has not been read.
   unsigned count() const { return count_; }
-  /// True if this write replaces a value that nobody has read.
+  /// Returns true if a write now would replace an unread value.
   bool loses_a_value() const { return count_ != 0 && mode_ == SignalMode::overwrite; }
   void write(Word word) {
     word_.value = mode_ == SignalMode::logical_or ? word_.value | word.value : word.value;
@@ -22,14 +22,14 @@ public:
     word_.at = word.at;
     count_ = 1;
   }
-  /// The SPU's read: clears value and count.
+  /// Reads as the SPU does: clears value and count.
   Word read() {
     const Word word = word_;
     word_ = {};
     count_ = 0;
     return word;
   }
-  /// A read through the main storage domain changes nothing.
+  /// Reads as through the main storage domain: changes nothing.
   std::uint32_t peek() const { return word_.value; }
 
 private:

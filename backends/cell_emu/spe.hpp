@@ -1,4 +1,4 @@
-// One SPE of the machine: its registers, its MFC, its counters, and how its program stands.
+// One SPE of the machine: its registers, its MFC, its counters, and the state of its program.
 #pragma once
 
 #include "backends/cell_emu/counters.hpp"
@@ -23,12 +23,13 @@ struct Spe {
   Mfc mfc;
   Cycle now = 0; ///< the SPU's virtual time while its program does not run
 
-  // What follows is kept by the schedule.
+  // The schedule maintains the members below.
   static constexpr std::uint32_t kNoSignal = ~0u;
   std::atomic<bool> running{false};
-  std::atomic<std::uint32_t> signal{kNoSignal}; ///< it stopped with this code and waits to be resumed
+  /// Code of the signal that it stopped with and waits to be resumed from.
+  std::atomic<std::uint32_t> signal{kNoSignal};
 
-  /// It can be resumed; one that was interrupted in its stop is about to end.
+  /// Returns true if it can be resumed; an SPE that was interrupted in its stop is about to end.
   bool paused() const { return signal != kNoSignal && !state.interrupted(); }
 
   // Written by the program, read when it does not run.

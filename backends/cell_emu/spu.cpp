@@ -52,7 +52,7 @@ SpeAddresses HostCodeSpu::addresses(std::uint32_t spe) const {
   return context_.mfc.bus.map().addresses(spe);
 }
 
-/// Every change of the fill is preceded by a call of arena(), so the peak is seen here.
+/// Returns the arena. Every change of the fill is preceded by a call of arena(), so the peak is updated here.
 ArenaState& HostCodeSpu::arena() {
   counters_.local_store_peak.raise_to(static_cast<std::uint64_t>(arena_.next - arena_.begin) -
                                       mfc_.red_zone_bytes());
@@ -131,7 +131,7 @@ void HostCodeSpu::allocated(void* begin, std::uint32_t bytes, std::uint32_t alig
 }
 
 void HostCodeSpu::release(std::uint8_t* marked, CallSite site) {
-  arena(); // for the peak
+  arena(); // updates the peak
   mfc_.release(marked, site, now(), arena_);
 }
 
@@ -142,7 +142,7 @@ void* HostCodeSpu::local_static(const void* key, std::uint32_t bytes, std::uint3
 }
 
 void HostCodeSpu::issue(MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size, std::uint32_t tag) {
-  // Six channel writes: the parameters and the command.
+  // A command takes six channel writes: the parameters and the command.
   charge(0, 6);
   issue_command({op, tag, lsa, size, ea});
 }

@@ -1,5 +1,5 @@
-// The SPU of host code: what runs a kernel that was compiled for the host. Spells the runtime's operations in
-// channels and MFC commands, and charges the SPE's virtual clock for the operations that were counted.
+// The SPU that runs a kernel compiled for the host. Translates the runtime's operations to
+// channels and MFC commands, and charges the SPE's virtual clock for the counted operations.
 #pragma once
 
 #include "backends/cell_emu/spu_core.hpp"
@@ -13,7 +13,7 @@ namespace celltrace::cell_emu {
 /// One run of a kernel on one SPE. Thread safety: belongs to the thread that runs the SPE.
 class HostCodeSpu final : public SpuCore, public Spu {
 public:
-  /// `arena` is the part of the SPE's local store that is the kernel's.
+  /// Makes the SPU; the kernel allocates from `arena`, a part of the SPE's local store.
   HostCodeSpu(Spe& spe, const SpuContext& context, const ArenaState& arena);
   ~HostCodeSpu();
 
@@ -36,10 +36,10 @@ public:
     return now();
   }
 
-  /// The kernel has returned, or stopped with an exit code: completes what is queued and looks for what it
-  /// left undone.
+  /// Completes queued commands after the kernel has returned, or stopped with an exit code, and reports what
+  /// it left undone.
   void finish();
-  /// The kernel was broken off.
+  /// Ends the run of a kernel that was broken off.
   void abandon();
 
 private:
@@ -51,7 +51,7 @@ private:
   [[noreturn]] void report_absent_module(const CodeModule& module, CallSite site) override;
   void stop(std::uint32_t code) override;
 
-  /// Charges what has been computed since the last access to a channel.
+  /// Charges the operations since the last access to a channel.
   void settle();
   void charge(std::uint32_t channel_reads, std::uint32_t channel_writes);
   void run_interrupts();

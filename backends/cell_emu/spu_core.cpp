@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint64_t kSpuStream = 0x535055;
 
 constexpr unsigned kAllParameters = 0x1F << 16;
-/// EAH keeps 0 in programs that never write it: the 32-bit forms of the intrinsics do not.
+/// Parameters that may stay unwritten: EAH keeps 0 in programs that use the 32-bit forms of the intrinsics.
 constexpr unsigned kOptionalParameters = 1u << static_cast<unsigned>(Channel::mfc_eah);
 
 const char* wait_for(Channel channel) {
@@ -129,7 +129,7 @@ void SpuCore::report_limit(const std::string& passed) {
   diagnostic.site = site_;
   diagnostic.cycle = now_;
   context_.mfc.log.report(diagnostic, "after " + passed + ": " + std::string(text_of(Rule::time_limit)));
-  // To say it once is enough for a program that may go on.
+  // One report is enough for a program that may go on.
   cycle_end_ = kNever;
   host_end_.reset();
 }
@@ -221,7 +221,7 @@ void SpuCore::command_word(std::uint32_t word) {
   await<Channel::mfc_cmd>();
   const unsigned missing = kAllParameters & ~kOptionalParameters & ~written_parameters_;
   written_parameters_ = 0;
-  // The high half holds replacement class and transfer class ids; bits of performance, not of meaning.
+  // The high half holds replacement class and transfer class ids, which affect performance only.
   MfcCommand issued = parameters_;
   issued.opcode = static_cast<MfcOpcode>(word & 0xFFFF);
   if (missing != 0 && kind_of(issued.opcode) != CommandKind::barrier) {
@@ -279,7 +279,7 @@ void SpuCore::start_decrementer(std::uint32_t value) {
 }
 
 void SpuCore::event_mask_channel(std::uint32_t mask) {
-  // What has expired by now meets the old mask: the new one may leave a phantom of it.
+  // An event that has expired by now counts under the old mask: the new one may leave a phantom of it.
   update_decrementer();
   state_.write_event_mask(mask);
 }
@@ -287,7 +287,7 @@ void SpuCore::event_mask_channel(std::uint32_t mask) {
 void SpuCore::event_ack_channel(std::uint32_t events) {
   update_decrementer();
   state_.acknowledge_events(events);
-  // Masked off and acknowledged is how the decrementer is stopped.
+  // Masking the event and acknowledging it stops the decrementer.
   if ((events & ~state_.event_mask() & event::decrementer) != 0) decrementer_.freeze(now_);
 }
 

@@ -1,8 +1,8 @@
-// What every SPU of the machine is made of, whatever executes its program: the channels, the parameters of
-// the next MFC command, the decrementer, and the SPE's virtual clock.
+// The common parts of every SPU of the machine, whatever executes its program: the channels, the parameters
+// of the next MFC command, the decrementer, and the SPE's virtual clock.
 //
-// Who executes the program charges what computing and the accesses themselves take; from then on everything
-// here happens at now().
+// The derived SPU charges the cycles of computing and of the accesses themselves before it calls a member;
+// everything here happens at now().
 #pragma once
 
 #include "backends/cell_emu/decrementer.hpp"
@@ -16,7 +16,7 @@
 
 namespace celltrace::cell_emu {
 
-/// What the SPUs of a machine share.
+/// State that the SPUs of a machine share.
 struct SpuContext {
   const MfcContext& mfc;
   Scheduler& scheduler;
@@ -24,7 +24,7 @@ struct SpuContext {
 
 /// One run of a program on one SPE. Thread safety: belongs to the thread that runs the SPE.
 ///
-/// A stall, or a poll that finds a count of 0, throws SpeError when the SPE has been interrupted; a broken
+/// A stall, or a poll that finds a count of 0, throws SpeError if the SPE has been interrupted; a broken
 /// rule whose action is to stop throws RuleViolation.
 class SpuCore {
 public:
@@ -41,33 +41,34 @@ protected:
 
   template <Channel c> std::uint32_t channel_read();
   template <Channel c> void channel_write(std::uint32_t value);
-  /// A channel that does not exist has the count 0.
+  /// Returns the count of a channel; 0 if it does not exist.
   template <Channel c> std::uint32_t channel_count_of();
-  // The same by number; one that does not exist in this direction ends the program.
+  // Channel access by number; a channel that does not exist in this direction ends the program.
   std::uint32_t channel_read(unsigned channel);
   void channel_write(unsigned channel, std::uint32_t value);
   std::uint32_t channel_count_of(unsigned channel);
-  /// All of a command at once, for who need not write its parameters channel by channel.
+  /// Issues a whole command at once, without writing its parameters channel by channel.
   void issue_command(const MfcCommand& command);
 
   // --- run control ---
 
-  /// Returns when the PPE has resumed the program; throws SpeExit for a code that ends it.
+  /// Stops with a code and returns when the PPE has resumed the program; throws SpeExit for a code that ends
+  /// it.
   void stop_with(std::uint32_t code);
   [[noreturn]] void fail(Rule rule, const std::string& what);
-  /// The program is over: completes what is queued and looks for what it left undone.
+  /// Completes queued commands at the end of the program, and reports what it left undone.
   void finish();
-  /// The program is over or was broken off: leaves its time to the SPE.
+  /// Stores the program's time in the SPE, after its end or a break-off.
   void leave();
 
   // --- virtual time ---
 
   Cycle now() const { return now_; }
-  /// Adds cycles in which the SPU was busy, or was kept from it by its own pipelines; and what faults make of
-  /// them.
+  /// Adds cycles in which the SPU was busy, or was delayed by its own pipelines, scaled by configured
+  /// faults.
   void spend(SpuCycles cycles);
-  /// Breaks Rule::time_limit when the program takes longer than the configuration allows. Cheap: for every
-  /// access to a channel, and for now and then where a program has none.
+  /// Breaks Rule::time_limit if the program takes longer than the configuration allows. Cheap enough for
+  /// every access to a channel; a program without accesses has to call it now and then.
   void check_limits() {
     if (now_ >= cycle_end_ || --looks_left_ == 0) [[unlikely]]
       look_at_limits();
@@ -77,13 +78,13 @@ protected:
     now_ += cycles.total_cycle;
     cycles_ += cycles;
   }
-  /// The pauses that the configuration asks for at accesses to channels.
+  /// Adds the pauses that the configuration asks for at accesses to channels.
   void inject_faults();
-  /// The SPU has stood still until `until`.
+  /// Accounts for a stall that lasted until `until`.
   void waited(Cycle until, const char* what);
   /// Makes the cycles so far visible to the PPE's statistics.
   void publish_cycles() { counters_.cycles.publish(cycles_); }
-  /// Before an access to a channel that others can notice.
+  /// Waits for the SPE's turn, before an access to a channel that others can notice.
   void reach() { context_.scheduler.reach(spe_, now_); }
   void update_decrementer();
 
@@ -92,7 +93,7 @@ protected:
   Mfc& mfc_;
   ProblemState& state_;
   Counters& counters_;
-  CallSite site_; ///< of the operation that is under way
+  CallSite site_; ///< place of the present operation
   std::uint32_t srr0_ = 0;
   bool interrupts_enabled_ = false;
 
@@ -117,25 +118,25 @@ private:
   template <Channel c> std::uint32_t present_count();
 
   static constexpr std::uint64_t kUnit = 65536;
-  /// The bits that an address of an instruction has.
+  /// The address bits of an instruction.
   static constexpr std::uint32_t kInstructionAddress = kLocalStoreBytes - 4;
 
   SeededRandom random_;
-  MfcCommand parameters_{}; ///< channels 16..21 keep what was written
+  MfcCommand parameters_{}; ///< channels 16..21 keep their values
   unsigned written_parameters_ = 0;
   Decrementer decrementer_;
-  bool phantom_ = false; ///< the last event status was 0
+  bool phantom_ = false; ///< true if the last event status was 0
 
   SpuCycles cycles_; ///< since the machine was made
   Cycle now_;
   Cycle computing_since_; ///< for the trace
-  /// The clock of the host is looked at once in so many calls of check_limits().
+  /// Number of calls of check_limits() for each look at the clock of the host.
   static constexpr std::uint32_t kLooks = 1024;
   Cycle start_;
   Cycle cycle_end_ = kNever;
   std::uint32_t looks_left_ = kLooks;
   std::optional<std::chrono::steady_clock::time_point> host_end_;
-  std::uint64_t slowness_ = kUnit; ///< what faults make of a cycle of work, in 1/65536
+  std::uint64_t slowness_ = kUnit; ///< factor of configured faults for each cycle of work, in 1/65536
 };
 
 template <Channel c> void SpuCore::await() {
@@ -178,7 +179,7 @@ template <Channel c> void SpuCore::channel_write(std::uint32_t value) {
   if constexpr (c == Channel::wr_event_mask) event_mask_channel(value);
   if constexpr (c == Channel::wr_event_ack) event_ack_channel(value);
   if constexpr (c == Channel::wr_dec) start_decrementer(value);
-  // What other SPEs have queued has not started, so nothing is on its way to this SPE.
+  // Commands that other SPEs have queued have not started, so nothing is on its way to this SPE.
   if constexpr (c == Channel::wr_ms_sync_req) state_.raise_own(event::multi_source_sync);
   if constexpr (c == Channel::wr_srr0) srr0_ = value & kInstructionAddress;
   if constexpr (c == Channel::mfc_lsa) parameters_.lsa = value;

@@ -1,5 +1,5 @@
-// A stack, and the switch to it and back: by Boost.Context, or by the system's <ucontext.h> in builds that do
-// without Boost. That saves the signal mask with every switch.
+// A stack, and the switch to it and back: by Boost.Context, or by the system's <ucontext.h> in builds
+// without Boost. The latter saves the signal mask with every switch.
 #pragma once
 
 #include <functional>
@@ -37,7 +37,7 @@ public:
   const char* bottom() const { return static_cast<const char*>(mapping_) + guard_bytes_; }
   std::size_t bytes() const { return bytes_; }
 
-  /// `body` is what the first enter() calls, and may not let an exception out.
+  /// Sets the function that the first enter() calls; it must not throw.
   void start(std::function<void()> body) {
     body_ = std::move(body);
     getcontext(&own_);
@@ -48,14 +48,14 @@ public:
     makecontext(&own_, reinterpret_cast<void (*)()>(run), 2, static_cast<unsigned>(address >> 32),
                 static_cast<unsigned>(address));
   }
-  /// Until the body leaves or ends.
+  /// Switches to the body until it leaves or ends.
   void enter() { swapcontext(&caller_, &own_); }
-  /// From the body.
+  /// Switches back, from the body.
   void leave() { swapcontext(&own_, &caller_); }
   bool ended() const { return ended_; }
 
 private:
-  /// makecontext() hands over nothing wider than an int.
+  /// Restores the pointer from two halves: makecontext() passes nothing wider than an int.
   static void run(unsigned high, unsigned low) {
     auto* const self = reinterpret_cast<SwitchedStack*>(static_cast<std::uintptr_t>(high) << 32 | low);
     self->body_();
@@ -78,7 +78,7 @@ public:
   const char* bottom() const { return static_cast<const char*>(stack_.sp) - stack_.size; }
   std::size_t bytes() const { return stack_.size; }
 
-  /// `body` is what the first enter() calls, and may not let an exception out.
+  /// Sets the function that the first enter() calls; it must not throw.
   void start(std::function<void()> body) {
     namespace context = boost::context;
     fiber_ = context::fiber(std::allocator_arg, context::preallocated(stack_.sp, stack_.size, stack_),
@@ -88,9 +88,9 @@ public:
                               return std::move(caller_);
                             });
   }
-  /// Until the body leaves or ends.
+  /// Switches to the body until it leaves or ends.
   void enter() { fiber_ = std::move(fiber_).resume(); }
-  /// From the body.
+  /// Switches back, from the body.
   void leave() { caller_ = std::move(caller_).resume(); }
   bool ended() const { return !fiber_; }
 

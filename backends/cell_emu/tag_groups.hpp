@@ -2,7 +2,7 @@
 //
 // A request (channel 23) is answered at once if its condition holds; else it waits, and is judged again when
 // a command completes or the mask changes. An answer stays until it is read; a later request replaces it only
-// when its own condition holds.
+// when that request's condition holds.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -18,9 +18,9 @@ public:
   void write_mask(std::uint32_t mask) { mask_ = mask; }
   void request(TagUpdate update) { request_ = update; }
 
-  /// Judges the request that waits; `outstanding` are the tags with commands in the queue, `last_command` the
-  /// number of the newest command, up to which the answer speaks. True if the count of channel 24 rose from 0
-  /// to 1: that is the tag status event, whatever was asked for.
+  /// Judges the waiting request; `outstanding` are the tags with commands in the queue, `last_command` is the
+  /// number of the newest command, which the answer covers. Returns true if the count of channel 24 rose from
+  /// 0 to 1: that raises the tag status event, whatever was requested.
   bool judge(std::uint32_t outstanding, std::uint64_t last_command) {
     if (!request_) return false;
     const std::uint32_t completed = mask_ & ~outstanding;
@@ -35,11 +35,11 @@ public:
   }
 
   bool waiting() const { return request_.has_value(); }
-  /// The count of channel 24.
+  /// Returns whether the count of channel 24 is 1.
   bool available() const { return status_.has_value(); }
-  /// The newest command that the answer covers.
+  /// Returns the newest command that the answer covers.
   std::uint64_t answered_up_to() const { return answered_up_to_; }
-  /// The answer. Only when there is one.
+  /// Removes and returns the answer. There must be one.
   std::uint32_t take() {
     const std::uint32_t status = *status_;
     status_.reset();

@@ -10,7 +10,7 @@ namespace celltrace::cell_emu {
 namespace {
 
 constexpr std::uint64_t kNanosecondsPerSecond = 1'000'000'000;
-/// Of a message's slice, which an arrow needs at either end.
+/// Length of a message's slice, which an arrow needs at either end.
 constexpr std::uint64_t kMessageNanoseconds = 20;
 
 constexpr unsigned kCellProcess = 1;
@@ -18,7 +18,7 @@ constexpr unsigned kFirstMfcProcess = 2;
 constexpr unsigned kPpeThread = 1;
 constexpr unsigned kFirstSpeThread = 2;
 
-/// Category and name of all arrows: with the number, they tie the two ends together.
+/// Category and name of all arrows, which together with the number join the two ends.
 constexpr std::string_view kArrow = "message";
 
 std::string numbered(std::string_view name, unsigned number) {
@@ -51,7 +51,7 @@ Trace::~Trace() {
     draw_messages(Diagnostic::kPpe);
     events_.close();
   } catch (const std::exception&) {
-    // A stream that throws keeps the state that says so to whoever opened it.
+    // A stream that throws keeps its error state for its owner.
   }
 }
 
@@ -127,12 +127,13 @@ Trace::Track Trace::messages_of(unsigned spe) {
 }
 
 Trace::Track Trace::mfc_of(unsigned spe) const {
-  // No two threads have the same number: Perfetto tells them apart by it, whatever their processes.
+  // All threads have different numbers, because Perfetto tells them apart by number, whatever their
+  // processes.
   return {kFirstMfcProcess + spe, kFirstSpeThread + 2 * spes_ + spe};
 }
 
 std::uint64_t Trace::nanoseconds(std::uint64_t cycles) const {
-  // In two parts, so that the products stay below 2^64.
+  // Computed in two parts, so that the products stay below 2^64.
   return cycles / clock_hz_ * kNanosecondsPerSecond + cycles % clock_hz_ * kNanosecondsPerSecond / clock_hz_;
 }
 
@@ -162,7 +163,8 @@ void Trace::slice(Track track, std::string_view name, Interval cycles) {
   const std::uint64_t begin = nanoseconds(cycles.begin);
   events_.begin('X', track.process, track.thread);
   events_.time("ts", begin);
-  // Not of the cycles' difference: rounding must not make neighbours overlap, of which Perfetto drops one.
+  // Not the difference of cycles: rounding must not make neighbours overlap, because Perfetto drops one of
+  // them.
   events_.time("dur", nanoseconds(cycles.end) - begin);
   events_.text("name", name);
   events_.end();
@@ -179,7 +181,7 @@ void Trace::draw_messages(unsigned spe) {
   std::stable_sort(messages.begin(), messages.end(),
                    [](const Message& a, const Message& b) { return a.at < b.at; });
   for (auto message = messages.begin(); message != messages.end(); ++message) {
-    // Slices end where the next one begins, or lie in each other if they begin together.
+    // Slices end where the next one begins, or are nested if they begin together.
     const auto next =
         std::find_if(message, messages.end(), [&](const Message& m) { return m.at != message->at; });
     const std::uint64_t longest = message->at + kMessageNanoseconds;
@@ -200,7 +202,7 @@ void Trace::draw(const Message& message, Track track, std::uint64_t end) {
   events_.text("cat", kArrow);
   events_.text("name", kArrow);
   events_.identifier(message.arrow);
-  // At the slice around it, not at the next one.
+  // Binds the arrow to the enclosing slice, not to the next one.
   if (message.phase == 'f') events_.text("bp", "e");
   events_.end();
 }
@@ -226,7 +228,7 @@ void Trace::begin_instant(unsigned spe, std::string_view category, std::string_v
 
 void Trace::site_argument(const CallSite& site) {
   if (site.line == 0) return;
-  // The folders differ from build to build.
+  // The folder is left out, which differs from build to build.
   const std::string_view file(site.file);
   events_.argument("at",
                    std::string(file.substr(file.find_last_of('/') + 1)) + ":" + std::to_string(site.line));

@@ -12,13 +12,13 @@ namespace celltrace::cell_emu {
 /// end(). Independent of the locale. Errors: the stream's own state.
 class TraceEvents {
 public:
-  /// Opens the file. `out` must outlive this.
+  /// Opens the file. `out` must outlive this object.
   TraceEvents(std::ostream& out, std::uint64_t clock_hz);
-  /// Completes the file; nothing follows.
+  /// Completes the file; nothing may follow.
   void close();
 
   void begin(char phase, unsigned process, unsigned thread);
-  /// In the file, microseconds with three decimals.
+  /// Adds a time, written as microseconds with three decimals.
   void time(std::string_view key, std::uint64_t nanoseconds);
   void text(std::string_view key, std::string_view value);
   void identifier(std::uint64_t id);

@@ -8,7 +8,7 @@ namespace {
 
 using Lock = std::unique_lock<std::mutex>;
 
-/// Events that only the kernel's own commands bring about.
+/// Events that only the kernel's own commands cause.
 constexpr std::uint32_t kOwnEvents = event::tag_status | event::list_stall | event::command_queue |
                                      event::decrementer | event::reservation_lost;
 
@@ -140,7 +140,7 @@ void Channels::write_event_mask(std::uint32_t mask) {
 
 void Channels::acknowledge_events(std::uint32_t mask) {
   collect_expiry();
-  // Masked off and acknowledged: the architecture's way to stop the decrementer.
+  // Masking the event and acknowledging it is the architecture's way to stop the decrementer.
   if ((mask & ~mask_ & event::decrementer) != 0) decrementer_.stop();
   const Lock lock(mutex_);
   pending_.store(pending_.load(std::memory_order_relaxed) & ~mask, std::memory_order_relaxed);
@@ -224,7 +224,7 @@ bool Channels::resume() {
 void Channels::interrupt() noexcept {
   const Lock lock(mutex_);
   interrupted_ = true;
-  // The PPE is to find the kernel's end, not the stop before it.
+  // The PPE must find the kernel's end, not the stop before it.
   if (stopped_with_signal()) state_.store(State::running, std::memory_order_release);
   spu_wakes_.notify_all();
   space_made_.notify_all();

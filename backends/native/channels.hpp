@@ -1,5 +1,5 @@
 // Mailboxes, signal notification, events, decrementer and run control of one SPE: everything that other
-// processors can touch.
+// processors can access.
 #pragma once
 
 #include "backends/native/decrementer.hpp"
@@ -16,7 +16,7 @@
 
 namespace celltrace::native {
 
-/// Unwinds a kernel whose stalled channel was interrupted.
+/// The exception that unwinds a kernel whose stalled channel was interrupted.
 struct Interrupted {};
 
 /// The two outbound mailboxes of an SPE.
@@ -30,17 +30,17 @@ enum class OutMailbox : std::uint32_t { plain, interrupting };
 /// are one atomic load, so that kernels can poll them in their loops.
 class Channels {
 public:
-  /// `ppe` is rung when an outbound mailbox fills.
+  /// Makes the channels; `ppe` is rung when an outbound mailbox fills.
   Channels(const SignalMode (&modes)[2], Doorbell& ppe);
   Channels(const Channels&) = delete;
   Channels& operator=(const Channels&) = delete;
 
-  // --- the SPE's thread; what stalls throws Interrupted once interrupt() was called ---
+  // --- the SPE's thread; stalls throw Interrupted once interrupt() was called ---
 
   std::uint32_t read_in_mailbox();
   std::uint32_t in_mailbox_count() const noexcept { return in_count_.load(std::memory_order_acquire); }
   void write_out_mailbox(OutMailbox which, std::uint32_t value);
-  /// Free entries, 1 or 0.
+  /// Returns the number of free entries, 1 or 0.
   std::uint32_t out_mailbox_count(OutMailbox which) const noexcept { return has_mail(which) ? 0 : 1; }
 
   std::uint32_t read_signal(Signal which);
@@ -52,13 +52,13 @@ public:
   std::uint32_t read_event_mask() const noexcept { return mask_; }
   std::uint32_t read_event_status();
   std::uint32_t event_count() {
-    // An event that is not enabled does not count; programs that use the decrementer as a clock come by here
+    // An event that is not enabled does not count. Programs that use the decrementer as a clock call this
     // often.
     if ((mask_ & event::decrementer) != 0 && decrementer_.counts()) collect_expiry();
     return event_count_.load(std::memory_order_acquire);
   }
   void acknowledge_events(std::uint32_t mask);
-  /// Raises an event that the SPE's own commands cause. Cheap while it is pending and not enabled.
+  /// Raises an event that the SPE's own commands cause. Fast while it is pending and not enabled.
   void raise_own(std::uint32_t event) {
     if ((pending_.load(std::memory_order_relaxed) & ~mask_ & event) != event) raise(event);
   }
@@ -66,16 +66,16 @@ public:
   void write_decrementer(std::uint32_t value);
   std::uint32_t read_decrementer() const { return decrementer_.read(); }
 
-  /// For a channel that nothing can fill any more: sleeps until interrupted.
+  /// Stalls on a channel that nothing can fill any more: sleeps until interrupted.
   [[noreturn]] void stall_for_ever();
   /// Sleeps, stopped with a signal, until the PPE calls resume().
   void stop_and_signal(std::uint32_t code);
 
   // --- any thread ---
 
-  /// Register write without flow control: a full mailbox loses its newest word.
+  /// Writes the register without flow control: a full mailbox loses its newest word.
   void put_in_mailbox(std::uint32_t value);
-  /// Waits for space first; false if the mailbox is full and no kernel runs that would empty it.
+  /// Waits for space first; returns false if the mailbox is full and no kernel runs that would empty it.
   bool write_in_mailbox(std::uint32_t value);
   void write_signal(Signal which, std::uint32_t value);
   bool has_mail(OutMailbox which) const noexcept {
@@ -84,21 +84,21 @@ public:
   std::optional<std::uint32_t> take_mail(OutMailbox which);
   void raise(std::uint32_t events);
 
-  /// A kernel begins: its event mask and decrementer are fresh, mailboxes and signals are as others left
+  /// Begins a kernel: resets its event mask and decrementer; mailboxes and signals stay as others left
   /// them.
   void begin();
-  /// A kernel has ended.
+  /// Ends a kernel.
   void end(std::uint32_t exit_code = 0);
   bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::running; }
   bool stopped_with_signal() const noexcept {
     return state_.load(std::memory_order_acquire) == State::stopped;
   }
-  /// How the last kernel ended, or where the present one has stopped. {exit, 0} if there was none.
+  /// Returns how the last kernel ended, or where the present one has stopped. {exit, 0} if there was none.
   SpeStop wait_while_running();
-  /// Lets a kernel that stopped with a signal go on; false if it did not.
+  /// Resumes a kernel that stopped with a signal; returns false if it did not.
   bool resume();
-  /// Makes what stalls now or later throw Interrupted, until withdraw_interrupt(). A stop with a signal
-  /// counts as a stall, and is over at once.
+  /// Makes present and later stalls throw Interrupted, until withdraw_interrupt(). A stop with a signal
+  /// counts as a stall, and ends at once.
   void interrupt() noexcept;
   void withdraw_interrupt();
 
@@ -129,7 +129,7 @@ private:
   std::mutex mutex_;
   std::condition_variable spu_wakes_;     ///< the SPE's thread sleeps here
   std::condition_variable space_made_;    ///< the PPE sleeps here for space in the inbound mailbox
-  std::condition_variable state_changed_; ///< and here until the kernel stops
+  std::condition_variable state_changed_; ///< the PPE sleeps here until the kernel stops
   std::atomic<State> state_{State::idle}; ///< written under the mutex
   SpeStop stop_;
   bool interrupted_ = false;

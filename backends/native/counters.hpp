@@ -8,7 +8,7 @@
 
 namespace celltrace::native {
 
-/// A count that one thread raises and others may read at any time; costs no more than a plain integer.
+/// A counter that one thread raises and others may read at any time; costs no more than a plain integer.
 class Counter {
 public:
   void add(std::uint64_t amount) noexcept { set(get() + amount); }
@@ -23,7 +23,7 @@ private:
   std::atomic<std::uint64_t> value_{0};
 };
 
-/// Written by the SPE's thread only.
+/// The counters of an SPE. Written by the SPE's thread only.
 struct Counters {
   Counter dma_commands;
   Counter dma_list_elements;

@@ -1,14 +1,14 @@
-// The CPUs that threads of this process run on. On systems other than Linux nobody is told where to run.
+// The CPUs that threads of this process run on. On systems other than Linux threads are not bound to CPUs.
 #pragma once
 
 #include <vector>
 
 namespace celltrace::native {
 
-/// The numbers of those that the calling thread may run on, at least one, in rising order.
+/// Returns the numbers of the CPUs that the calling thread may run on, at least one, in ascending order.
 std::vector<unsigned> usable_cpus();
 
-/// Keeps the calling thread on one of them from now on. If the system does not want that, nothing changes.
+/// Binds the calling thread to a CPU from now on. If the system refuses, nothing changes.
 void stay_on_cpu(unsigned cpu);
 
 } // namespace celltrace::native

@@ -19,9 +19,9 @@ public:
   void stop();
 
   bool counts() const noexcept { return counts_; }
-  /// True if the value fell below zero since the last call (the decrementer event).
+  /// Returns true if the value fell below zero since the last call (the decrementer event).
   bool take_expiry();
-  /// When it will next fall below zero after the expiries that were taken.
+  /// Returns when the value will next fall below zero after the expiries that were taken.
   Clock::time_point next_expiry() const;
 
 private:

@@ -1,4 +1,4 @@
-// What the PPE sleeps on while its SPEs work.
+// The condition that the PPE sleeps on while its SPEs work.
 #pragma once
 
 #include <atomic>
@@ -8,13 +8,13 @@
 
 namespace celltrace::native {
 
-/// A condition variable for predicates over atomics that many SPEs change. Thread safety: any thread calls
-/// anything.
+/// A condition variable for predicates over atomics that many SPEs change. Thread safety: all members from
+/// any thread.
 class Doorbell {
 public:
-  /// Wakes the sleeper so that it looks again.
+  /// Wakes the sleeper so that it checks its predicate again.
   void ring() noexcept {
-    // Taking the lock orders the change before the sleeper's next look, or the ring after the start of its
+    // Taking the lock orders the change before the sleeper's next check, or the ring after the start of its
     // sleep.
     { const std::lock_guard lock(mutex_); }
     changed_.notify_all();
@@ -24,9 +24,9 @@ public:
     stopped_.store(true, std::memory_order_release);
     ring();
   }
-  /// Whether an SPE has stopped since the last call.
+  /// Returns whether an SPE has stopped since the last call.
   bool take_stop() noexcept { return stopped_.exchange(false); }
-  /// Sleeps until `ready()` or the timeout; the last value of ready().
+  /// Sleeps until `ready()` or the timeout; returns the last value of ready().
   template <class Ready> bool wait(std::chrono::milliseconds timeout, Ready ready) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, timeout, ready);

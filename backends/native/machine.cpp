@@ -27,8 +27,9 @@ unsigned spe_count_of(const MachineConfig& config) {
   return std::min(static_cast<unsigned>(usable_cpus().size()), kMaxSpes);
 }
 
-/// A CPU for each SPE where there are as many: the system may let two of several threads that wake up at once
-/// share one for milliseconds, which is a frame. Otherwise none, for it knows better who else is there.
+/// Returns a CPU for each SPE if there are enough: otherwise the system may let two threads that wake up at
+/// once share one CPU for milliseconds, which is a frame. Returns none if there are fewer: the system then
+/// balances better.
 std::vector<unsigned> cpus_for(unsigned spes) {
   std::vector<unsigned> cpus = usable_cpus();
   if (spes == 1 || cpus.size() != spes) cpus.clear();
@@ -44,7 +45,7 @@ struct Worker {
   Worker(unsigned id, const MachineConfig& config, Doorbell& ppe) : spe(id, config.signal_mode, ppe) {}
 
   Spe spe;
-  std::thread thread; ///< joinable from start() until the kernel's end was waited for
+  std::thread thread; ///< joinable from start() until the kernel's end has been waited for
   std::string error;  ///< written by the thread, read after it was joined; empty: none
 };
 
@@ -91,7 +92,7 @@ private:
 
   const std::vector<const SpuType*> types_; ///< the widest first; not empty
   const SpuType* current_type_;
-  const std::vector<unsigned> cpus_; ///< of each SPE; empty: anywhere
+  const std::vector<unsigned> cpus_; ///< CPU of each SPE; empty: any
   Doorbell doorbell_;
   std::vector<std::unique_ptr<Worker>> workers_;
   std::unique_ptr<RegisterMap> registers_;
@@ -99,7 +100,7 @@ private:
   std::vector<SpeAddresses> addresses_;
 
   mutable std::mutex failure_mutex_;
-  std::string failure_;    ///< of the first SPE that failed since all were last idle
+  std::string failure_;    ///< error of the first SPE that failed since all were last idle
   bool shut_down_ = false; ///< interrupt() was called
 };
 
@@ -214,7 +215,7 @@ void NativeMachine::resume(unsigned spe) {
   if (!worker(spe).spe.channels.resume()) throw SpeError(name_of(spe) + " has not stopped with a signal");
 }
 
-/// Once nobody is left whom a failure could leave waiting, kernels may stall again.
+/// Joins a thread. Allows stalls again once no kernel is left that a failure could leave waiting.
 void NativeMachine::join(Worker& worker) {
   if (!worker.thread.joinable()) return;
   worker.thread.join();
@@ -281,7 +282,7 @@ void NativeMachine::proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa,
 }
 
 std::uint32_t NativeMachine::proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate /*request*/) {
-  worker(spe); // throws if there is none
+  worker(spe); // throws if there is no such SPE
   return mask;
 }
 

@@ -7,8 +7,8 @@
 
 namespace celltrace::native {
 
-/// Uses `spes`, `simd` and `signal_mode` of the configuration. Throws InputError for a SIMD that is unknown
-/// or that the CPU lacks, and for more SPEs than 256.
+/// Makes the machine from `spes`, `simd` and `signal_mode` of the configuration. Throws InputError for a SIMD
+/// that is unknown or that the CPU lacks, and for more than 256 SPEs.
 std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 
 } // namespace celltrace::native

@@ -12,10 +12,10 @@
 
 namespace celltrace::native {
 
-/// Transfers at once, so tags are complete when the call returns. The exception are lists that stopped at a
-/// notify element (other than their last): they, and what fences and barriers order behind them, wait in the
-/// queue for the acknowledge. Sizes, alignments and addresses are not checked. Element sizes are 15 bits,
-/// like the hardware's.
+/// Transfers data at once, so that tags are complete when the call returns. The exceptions are lists that
+/// stopped at a notify element (other than their last): they, and commands that fences and barriers order
+/// behind them, wait in the queue for the acknowledge. Sizes, alignments and addresses are not checked.
+/// Element sizes are 15 bits, as on the hardware.
 ///
 /// Thread safety: belongs to the SPE's thread.
 class Mfc {
@@ -28,7 +28,7 @@ public:
   void command(MfcOpcode opcode, void* ls, ea_t ea, std::uint32_t size, std::uint32_t tag);
   void list_command(MfcOpcode opcode, void* ls, ea_t ea, const ListElement* list, std::uint32_t bytes,
                     std::uint32_t tag);
-  /// Free entries of the command queue.
+  /// Returns the number of free entries of the command queue.
   std::uint32_t queue_space() const noexcept;
 
   void write_tag_mask(std::uint32_t mask);
@@ -44,7 +44,7 @@ public:
   std::uint32_t read_atomic_status();
   std::uint32_t atomic_status_count() const noexcept { return atomic_status_ready_ ? 1 : 0; }
 
-  /// Forgets all state: a kernel begins or has ended.
+  /// Forgets all state, when a kernel begins or has ended.
   void reset();
 
 private:
@@ -54,7 +54,7 @@ private:
     ea_t ea;
     std::uint32_t size;
     std::uint32_t tag;
-    const ListElement* list; ///< the elements that are left; null unless a list command
+    const ListElement* list; ///< remaining elements; null unless a list command
     const ListElement* list_end;
     bool stalled;
   };

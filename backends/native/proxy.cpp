@@ -9,7 +9,7 @@ namespace celltrace::native {
 
 namespace {
 
-constexpr std::uint32_t kProxyTags = 16; ///< the others are the operating system's
+constexpr std::uint32_t kProxyTags = 16; ///< the other tags are the operating system's
 
 bool is_plain_get(MfcOpcode opcode) {
   return opcode == MfcOpcode::get || opcode == MfcOpcode::getb || opcode == MfcOpcode::getf;

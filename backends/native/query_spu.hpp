@@ -1,12 +1,12 @@
-// What the kernel asks of an SPU that it traverses the scene on, where no SPE is: on a thread of the
-// application's.
+// The interface of an SPU that the kernel needs to traverse the scene, for ray queries on a thread of the
+// application without an SPE.
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
 
 namespace celltrace::native {
 
-/// Knows neither other SPEs nor channels, and has no local store to allocate from. `Simd` is a HostSimd.
+/// A Spu without other SPEs, channels and local store to allocate from. `Simd` is a HostSimd.
 template <class Simd> class QuerySpu : public SpuBase<QuerySpu<Simd>> {
 public:
   static constexpr bool direct_memory = true;

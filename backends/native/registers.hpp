@@ -11,7 +11,7 @@
 
 namespace celltrace::native {
 
-/// Reserves an address range and tells which register of which SPE lies where in it. Nothing is ever stored
+/// Reserves an address range and returns which register of which SPE lies where in it. Nothing is ever stored
 /// there: a write goes to the channels of the SPE, a DMA read of a register gives zeros.
 ///
 /// Thread safety: const members may be called from any thread.
@@ -22,9 +22,9 @@ public:
   /// `spes[i]` are the channels of SPE i, which outlive the map.
   explicit RegisterMap(std::vector<Channels*> spes);
 
-  /// The address of a register of an SPE that exists; its low four bits are 0xC.
+  /// Returns the address of a register of an existing SPE; its low four bits are 0xC.
   ea_t address(unsigned spe, Register which) const;
-  /// True if a transfer to `ea` would write registers. One compare.
+  /// Returns true if a transfer to `ea` would write registers. Takes one compare.
   bool contains(ea_t ea) const noexcept { return ea - begin_ < bytes_; }
   /// Delivers the word at `ls` and returns the register's kind. Throws SpeError if no register lies at `ea`,
   /// or if `size` is not that of a word.

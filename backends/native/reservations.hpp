@@ -13,29 +13,29 @@
 
 namespace celltrace::native {
 
-/// getllar, putllc and putlluc under threads: every line maps to one of a few locks, and every SPE has at
-/// most one reservation, which any other write of that line by an SPE of the machine takes away (event
+/// Implements getllar, putllc and putlluc for threads: every line maps to one of a few locks, and every SPE
+/// has at most one reservation, which any other write of that line by an SPE of the machine takes away (event
 /// 0x400).
 ///
-/// Deviation from the architecture: a plain put is one memmove as long as nobody holds a reservation, so a
+/// Deviation from the architecture: a plain put is one memmove as long as no SPE holds a reservation, so a
 /// put that runs at the same time as a getllar of its line (rather than being ordered after it by a signal, a
-/// mailbox or another lock line) may go unnoticed by it. Stores by the PPE are not seen either.
+/// mailbox or another lock line) may go unnoticed by it. Stores by the PPE are not noticed either.
 ///
 /// Thread safety: all members may be called from any thread.
 class Reservations {
 public:
-  /// `spes[i]` are the channels of SPE i, which outlive this.
+  /// Makes reservations; `spes[i]` are the channels of SPE i, which outlive this object.
   explicit Reservations(std::vector<Channels*> spes);
 
-  // `ea` names a 128-byte line; its low seven bits are ignored, as the hardware does.
+  // For all members below `ea` names a 128-byte line; its low seven bits are ignored, as by the hardware.
 
   void get_and_reserve(unsigned spe, void* ls, ea_t ea);
-  /// False if the reservation was lost; nothing is written then.
+  /// Writes if the reservation still holds; returns whether it did.
   bool put_conditional(unsigned spe, const void* ls, ea_t ea);
   void put_unconditional(unsigned spe, const void* ls, ea_t ea);
-  /// A plain write of any size and place.
+  /// Writes bytes of any number and place.
   void put(unsigned spe, const void* ls, ea_t ea, std::size_t size);
-  /// Gives up whatever the SPE has reserved.
+  /// Gives up the SPE's reservation, if any.
   void release(unsigned spe) noexcept;
 
 private:
@@ -53,7 +53,7 @@ private:
   std::vector<Channels*> spes_;
   std::array<Lock, kLocks> locks_;
   std::vector<std::atomic<ea_t>> reserved_; ///< per SPE: its line, or kNone; set under the lock of the line
-  std::atomic<unsigned> held_{0};           ///< how many SPEs hold a reservation
+  std::atomic<unsigned> held_{0};           ///< number of SPEs that hold a reservation
 };
 
 } // namespace celltrace::native

@@ -1,4 +1,4 @@
-// One SPE of the native machine: what its Spu object, whatever the SIMD, operates on.
+// One SPE of the native machine: the state that its Spu object operates on, whatever the SIMD.
 #pragma once
 
 #include "backends/native/channels.hpp"
@@ -12,13 +12,13 @@
 
 namespace celltrace::native {
 
-/// Unwinds a kernel that ended by a stop with one of the exit codes.
+/// The exception that unwinds a kernel that ended by a stop with one of the exit codes.
 struct Exited {
   std::uint32_t code;
 };
 
-/// Bytes of an SPE's arena, which is all of its local store. Far more than a Cell's, because what a kernel
-/// keeps in local store there (code, stack) does not lie in it here.
+/// Bytes of an SPE's arena, which is all of its local store. Far more than a Cell's; code and stack, which
+/// a Cell keeps in local store, do not lie in it.
 constexpr std::uint32_t kArenaBytes = 1024 * 1024;
 
 struct Spe {
@@ -29,10 +29,11 @@ struct Spe {
 
   /// Empties the arena and resets the MFC and the SPU's own channels.
   void begin();
-  /// Ends the kernel towards the PPE.
+  /// Ends the kernel as the PPE sees it.
   void end(std::uint32_t exit_code);
 
-  /// The arena, for the SPE's thread. Every change of its fill is preceded by a call, which keeps the peak.
+  /// Returns the arena, for the SPE's thread. Every change of its fill is preceded by a call, which updates
+  /// the peak.
   ArenaState& tracked_arena() {
     counters.local_store_peak.raise_to(static_cast<std::uint64_t>(arena.next - arena.begin));
     return arena;

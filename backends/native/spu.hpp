@@ -1,7 +1,7 @@
-// The SPU of the native backend: the runtime contract of celltrace/spe/spu.hpp on a host thread.
+// The SPU of the native backend: the interface of celltrace/spe/spu.hpp on a host thread.
 //
-// Kernels are compiled once per instruction set, with `Arch` as part of every name. Everything that does not
-// depend on it is compiled once (spe.hpp, channels.hpp, mfc.hpp), and this header pulls in no code that
+// Kernels are compiled once per instruction set, with `Arch` as part of every name. Code that does not
+// depend on it is compiled once (spe.hpp, channels.hpp, mfc.hpp), and this header includes no code that
 // another translation unit would pick up although it was compiled for a wider CPU.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace celltrace::native {
 
-/// Names of the SPU types: "native." and what MachineConfig::simd calls them.
+/// Names of the SPU types: "native." and the name of the MachineConfig::simd level.
 template <class Arch> constexpr const char* kSpuKey = nullptr;
 #ifdef CELLTRACE_HAS_XSIMD
 template <> inline constexpr const char* kSpuKey<xsimd::sse2> = "native.sse2";
@@ -23,8 +23,8 @@ template <> inline constexpr const char* kSpuKey<xsimd::neon64> = "native.neon64
 #endif
 template <> inline constexpr const char* kSpuKey<GenericArch> = "native.generic";
 
-/// Transfers are memmoves that are complete when the call returns; nothing is checked; stalled channels
-/// sleep. Deviations from the Cell: see Mfc and Reservations.
+/// A native SPU. Transfers are memmoves that are complete when the call returns; nothing is checked; stalled
+/// channels sleep. Deviations from the Cell: see Mfc and Reservations.
 template <class Arch> class Spu : public SpuBase<Spu<Arch>> {
 public:
   static constexpr bool direct_memory = true;

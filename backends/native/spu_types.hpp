@@ -1,4 +1,4 @@
-// The SPU types of this build and which of them a CPU can run.
+// The SPU types of this build, and which of them a CPU can run.
 #pragma once
 
 #include "celltrace/spe/backend.hpp"
@@ -21,11 +21,11 @@ struct SpuType {
   void (*run)(Spe& spe, SpeProgram::Entry entry, ea_t argument);
 };
 
-/// All of this build, the widest first.
+/// Returns all types of this build, the widest first.
 const std::vector<SpuType>& spu_types();
 
-/// Those a machine may use: one, or for `automatic` all that the CPU supports. Throws InputError for a level
-/// that the build or the CPU lacks.
+/// Returns the types that a machine may use: one, or for `automatic` all that the CPU supports. Throws
+/// InputError for a level that the build or the CPU lacks.
 std::vector<const SpuType*> usable_spu_types(SimdLevel simd);
 
 } // namespace celltrace::native

@@ -1,11 +1,11 @@
-# Prints what a program takes of an SPE's local store, and fails if that is more than there is.
+# Prints how much of an SPE's local store a program takes, and fails if that is more than there is.
 #
 #   cmake -DELF=... -DSTACK=... -DMAP=... -DARENA=bytes [-DSAID_CODE=bytes -DSAID_STACK=bytes] [-DMODULES=modules.hpp]
 #     [-DFREE=bytes] -DSIZE_TOOL=spu-elf-size -DOBJDUMP_TOOL=spu-elf-objdump -P check_budget.cmake
 #
-# SAID_... is what the emulator takes the program's code with its data, and its stack, to be: they may not be more. The
-# same is true of the code modules in MODULES. FREE is what the program has to leave.
-# MAP is the linker's map. STACK is what it printed with --stack-analysis: the worst call chain from the entry, crt0
+# SAID_... are the sizes that the emulator assumes for the program's code with its data, and for its stack: upper limits, as
+# are the sizes of the code modules in MODULES. FREE is the number of bytes that the program has to leave.
+# MAP is the linker's map. STACK is the linker's output with --stack-analysis: the worst call chain from the entry, crt0
 # included.
 
 cmake_minimum_required(VERSION 3.25)

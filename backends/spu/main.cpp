@@ -15,13 +15,14 @@ alignas(celltrace::kLineBytes) uint8_t arena[CELLTRACE_SPU_ARENA_BYTES];
 
 } // namespace
 
-/// The effective address of this program's file, high word first: modules.S fetches code from there.
+/// The effective address of this program's file, high word first, from which modules.S fetches code.
 extern "C" {
 extern uint32_t celltrace_program_image[4];
 alignas(16) uint32_t celltrace_program_image[4];
 }
 
-// Nothing is to be done at the end: what newlib keeps lists of functions for that would take 2 KB of local store.
+// Replaces newlib's atexit(): nothing has to be done at the end, and its lists of functions would take 2 KB
+// of local store.
 extern "C" int atexit(void (*)()) {
   return 0;
 }
@@ -29,7 +30,8 @@ extern "C" void exit(int status) {
   _exit(status);
 }
 
-/// As crt0 calls it: the id that the PPE's library gave the SPE, and two arguments of spe_context_run().
+/// Runs the kernel. crt0 passes the id that the PPE's library gave the SPE, and two arguments of
+/// spe_context_run().
 int main(unsigned long long, unsigned long long control_block, unsigned long long) {
   celltrace::spu::Spu spu(control_block, arena, sizeof arena);
   celltrace_program_image[0] = static_cast<uint32_t>(spu.program_image() >> 32);

@@ -1,10 +1,10 @@
-# Finds calls from which a code module could not return: of a module that gets the region of one which is under way, also
+# Finds calls from which a code module could not return: calls of a module that replaces a running one in its region, also
 # through resident functions and other modules.
 #
 #   awk -f module_calls.awk SECTIONS SYMBOLS MAP
 #
-# SECTIONS is what `size -A` says of the program, SYMBOLS what `objdump -t` does, MAP the linker's map with
-# --stack-analysis, which lists who calls whom.
+# SECTIONS is the output of `size -A` for the program, SYMBOLS that of `objdump -t`, MAP the linker's map with
+# --stack-analysis, which lists all calls.
 
 FILENAME == ARGV[1] { if ($1 ~ /^\.module\./) region[$1] = $3; next }
 FILENAME == ARGV[2] { if (NF > 3 && $(NF - 2) ~ /^\.module\./) module[$NF] = $(NF - 2); next }

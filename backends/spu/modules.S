@@ -1,11 +1,11 @@
-# Fetches code modules: what the linker's stubs for calls into overlays branch to.
+# Fetches code modules: the linker's stubs for calls into overlays branch to this code.
 #
 # The linker makes _ovly_table (for each overlay, from 1 on: address, bytes, offset in the program's file, number of
-# its region from 1 on) and _ovly_buf_table (for each region: the overlay that is there). A stub puts the overlay's
-# number into $78 and the function's address into $79. Of the registers, $75 to $79 are free here; the caller's
-# return address stays, as modules are called by resident code only.
+# its region from 1 on) and _ovly_buf_table (for each region: the present overlay). A stub puts the overlay's
+# number into $78 and the function's address into $79. The registers $75 to $79 are free here; the caller's
+# return address stays valid, because only resident code calls modules.
 #
-# DMA commands of 16 KB at most, with a tag that belongs to nobody else, and a wait. A program's file does not cross a
+# A fetch is DMA commands of 16 KB at most, with a tag of their own, and a wait. A program's file does not cross a
 # boundary of 4 GB.
 
   .set TAG, 31
@@ -15,7 +15,7 @@
   .global __ovly_load
   .type __ovly_load, @function
 __ovly_load:
-  # What is in the region?
+  # Is the module in its region already?
   shli    $77, $78, 4
   ila     $76, _ovly_table - 16
   lqx     $77, $77, $76
@@ -27,7 +27,7 @@ __ovly_load:
   rotqby  $76, $76, $75
   ceq     $76, $76, $78
   brnz    $76, .Lthere
-  # The module, from now on.
+  # From now on the region holds the module.
   lqd     $77, 0($75)
   cwd     $76, 0($75)
   shufb   $77, $78, $77, $76
@@ -83,7 +83,7 @@ __ovly_load:
   bi      $79
   .size __ovly_load, . - __ovly_load
 
-# The linker wants it where functions of modules call others; those here return to resident code.
+# The linker needs this symbol if functions of modules call other modules; here they return to resident code.
   .global __ovly_return
   .type __ovly_return, @function
 __ovly_return:

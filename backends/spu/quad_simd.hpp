@@ -1,5 +1,5 @@
-// The SIMD facade with the four lanes of one quadword, for code that runs rarely: it takes a quarter of the
-// local store that the same code takes with 16 lanes.
+// The SIMD facade with the four lanes of one quadword, for code that runs rarely: its code takes a quarter of
+// the local store of the same code with 16 lanes.
 #pragma once
 
 #include "backends/spu/simd.hpp"
@@ -10,7 +10,7 @@ struct QuadSimd {
   static constexpr uint32_t kLanes = 4;
 
   struct M {
-    vec_uint4 quad; ///< all ones or all zeros a lane
+    vec_uint4 quad; ///< each lane all ones or all zeros
 
     static M none() { return {spu_splats(0u)}; }
     static M all() { return {spu_splats(~0u)}; }
@@ -41,7 +41,7 @@ struct QuadSimd {
     friend F operator-(const F& a) { return (vec_float4)spu_xor((vec_uint4)a.quad, spu_splats(0x80000000u)); }
     friend M operator<(const F& a, const F& b) { return b > a; }
     friend M operator>(const F& a, const F& b) { return {spu_cmpgt(a.quad, b.quad)}; }
-    // There are no NaNs: not greater is less or equal.
+    // There are no NaNs: "not greater" means "less or equal".
     friend M operator<=(const F& a, const F& b) { return !(a > b); }
     friend M operator>=(const F& a, const F& b) { return !(b > a); }
     friend M operator==(const F& a, const F& b) { return {spu_cmpeq(a.quad, b.quad)}; }
@@ -67,8 +67,8 @@ struct QuadSimd {
     numbers.quad[first / kLanes] = part.quad;
   }
 
-  /// Without a loop over the rows of a lane: an SPU executes in order, and waits for each number that it
-  /// looks up unless it has others to look up meanwhile.
+  /// Sums rows without a loop over the rows of a lane: an SPU executes in order, and waits for each number
+  /// that it looks up unless it has others to look up meanwhile.
   template <uint32_t kRows, uint32_t kChannels, class StartsOf, class FactorsOf>
   static void sum_rows(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                        F (&sums)[kChannels]) {

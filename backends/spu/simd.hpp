@@ -13,24 +13,24 @@ struct Simd {
   static constexpr uint32_t kLanes = kSimdLanes;
   static constexpr int kQuads = 4;
 
-  /// Lane l of a quad holds 1 << (4 * quad + l).
+  /// Returns bits by lane: lane l of a quad holds 1 << (4 * quad + l).
   static vec_uint4 lane_bits(int quad) {
     const vec_uint4 first = {1, 2, 4, 8};
     return spu_sl(first, static_cast<unsigned>(4 * quad));
   }
-  /// 1/x to within one unit in the last place: the estimate and one Newton-Raphson step.
+  /// Returns 1/x to within one unit in the last place: the estimate and one Newton-Raphson step.
   static vec_float4 reciprocal(vec_float4 x) {
     const vec_float4 estimate = spu_re(x);
     return spu_madd(estimate, spu_nmsub(x, estimate, spu_splats(1.0f)), estimate);
   }
-  /// The quotient is corrected by its remainder, because SPU arithmetic truncates.
+  /// Divides. The quotient is corrected by its remainder, because SPU arithmetic truncates.
   static vec_float4 divide(vec_float4 a, vec_float4 b) {
     const vec_float4 inverse = reciprocal(b);
     const vec_float4 quotient = spu_mul(a, inverse);
     return spu_madd(spu_nmsub(quotient, b, a), inverse, quotient);
   }
-  /// Goldschmidt's iteration from the estimate of 1/sqrt(x), then a correction by the remainder. 0 gives 0,
-  /// because the estimate of 1/sqrt(0) is finite.
+  /// Returns the root by Goldschmidt's iteration from the estimate of 1/sqrt(x), then a correction by the
+  /// remainder. 0 gives 0, because the estimate of 1/sqrt(0) is finite.
   static vec_float4 square_root(vec_float4 x) {
     const vec_float4 half = spu_splats(0.5f);
     const vec_float4 estimate = spu_rsqrte(x);
@@ -42,7 +42,7 @@ struct Simd {
     return spu_madd(spu_nmsub(root, root, x), half_inverse, root);
   }
 
-  /// Four floats from any one on: shuffled from the quadwords of the first and the last.
+  /// Loads four floats from any address of a float: shuffled from the quadwords of the first and the last.
   static vec_float4 load_floats(const float* words) {
     const auto quad_at = [](const void* place) {
       return *reinterpret_cast<const vec_uchar16*>(reinterpret_cast<uintptr_t>(place) & ~uintptr_t{15});
@@ -54,7 +54,7 @@ struct Simd {
   }
 
   struct M {
-    vec_uint4 quad[kQuads]; ///< all ones or all zeros a lane
+    vec_uint4 quad[kQuads]; ///< each lane all ones or all zeros
 
     static M from_bits(uint32_t bits) {
       const vec_uint4 all = spu_splats(static_cast<unsigned>(bits));
@@ -144,7 +144,7 @@ struct Simd {
     friend M operator>(const F& a, const F& b) {
       return test(a, b, [](vec_float4 x, vec_float4 y) { return spu_cmpgt(x, y); });
     }
-    // There are no NaNs: not greater is less or equal.
+    // There are no NaNs: "not greater" means "less or equal".
     friend M operator<=(const F& a, const F& b) { return !(a > b); }
     friend M operator>=(const F& a, const F& b) { return !(b > a); }
     friend M operator==(const F& a, const F& b) {
@@ -164,7 +164,7 @@ struct Simd {
         const vec_int4 at = spu_and(four, 124);
         return join_words([&](int lane) {
           const int offset = spu_extract(at, lane);
-          // Loads take the quadword that an address is in.
+          // Loads take the quadword that an address lies in.
           const qword quad = si_lqx(si_from_ptr(line), si_from_int(offset));
           return (vec_int4)si_rotqby(quad, si_from_int(offset));
         });
@@ -215,7 +215,7 @@ struct Simd {
     }
   };
 
-  /// Joins what is in the first words of four quadwords, `quad_of(lane)`.
+  /// Joins the first words of four quadwords, `quad_of(lane)`.
   template <class QuadOf> static vec_int4 join_words(QuadOf quad_of) {
     const vec_uchar16 first_two = {0, 1, 2, 3, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0};
     const vec_uchar16 halves = {0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23};
@@ -294,7 +294,7 @@ struct Simd {
   static void transpose(vec_float4& a, vec_float4& b, vec_float4& c, vec_float4& d) {
     const vec_uchar16 low = {0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23};
     const vec_uchar16 high = {8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31};
-    // Numbers of every other row come to lie side by side, twice.
+    // Interleave the numbers of every other row, twice.
     const vec_float4 ac_low = spu_shuffle(a, c, low), ac_high = spu_shuffle(a, c, high);
     const vec_float4 bd_low = spu_shuffle(b, d, low), bd_high = spu_shuffle(b, d, high);
     a = spu_shuffle(ac_low, bd_low, low);

@@ -1,4 +1,4 @@
-// The SPU of the spu backend: the runtime contract of celltrace/spe/spu.hpp on a real SPE, as inline wrappers
+// The SPU of the spu backend: the interface of celltrace/spe/spu.hpp on a real SPE, as inline wrappers
 // over the channel intrinsics of spu-elf-g++.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace celltrace::spu {
 
-/// Rules that a command breaks are found by the MFC, which then stops the SPE. halt() stops it with the
+/// A real SPU. The MFC detects rules that a command breaks, and then stops the SPE. halt() stops it with the
 /// signal kHaltStop + code, which libspe2 reports as SPE_STOP_AND_SIGNAL.
 class Spu : public SpuBase<Spu> {
 public:
@@ -21,7 +21,8 @@ public:
   using simd = Simd;
   using rare_simd = QuadSimd;
 
-  /// `arena` is `bytes` of local store; `control_block` the ea of the ControlBlock.
+  /// Makes the SPU; `arena` is `bytes` of local store, `control_block` the effective address of the
+  /// ControlBlock.
   Spu(ea_t control_block, uint8_t* arena, uint32_t bytes) : arena_{arena, arena + bytes, arena} {
     initialise_base();
     control_ = fetch<ControlBlock>(control_block, 1);
@@ -32,9 +33,9 @@ public:
 
   uint32_t id() const { return control_->id; }
   uint32_t count() const { return control_->count; }
-  /// The argument of the kernel.
+  /// Returns the argument of the kernel.
   ea_t argument() const { return control_->argument; }
-  /// Of the program's file, from which code modules are fetched.
+  /// Returns the address of the program's file, from which code modules are fetched.
   ea_t program_image() const { return control_->image; }
   const SpeAddresses& addresses(uint32_t spe) const { return addresses_[spe]; }
 
@@ -59,14 +60,14 @@ public:
     enqueue<op>(ls, ea, static_cast<uint32_t>(reinterpret_cast<uintptr_t>(list)), bytes, tag);
   }
 
-  /// The PPE may look at local store and main storage, and change them, before it lets the SPU go on.
+  /// Stops. The PPE may read and change local store and main storage before it lets the SPU go on.
   template <uint32_t code> void stop() {
     __asm__ volatile("" ::: "memory");
     spu_stop(code);
     __asm__ volatile("" ::: "memory");
   }
   [[noreturn]] void halt(HaltCode code) {
-    // The code is part of the instruction.
+    // The code is part of the instruction, so each needs its own.
     switch (code) {
     case HaltCode::local_store_exhausted:
       stop_for_good<HaltCode::local_store_exhausted>();
@@ -82,8 +83,9 @@ public:
   ArenaState& arena() { return arena_; }
 
 private:
-  /// The compiler keeps loads and stores on their side of channels 21 to 27 by itself (-msafe-dma), but moves
-  /// them across mailboxes, signals and events, by which other processors say that memory has changed.
+  /// Keeps memory accesses on their side of a channel. The compiler does so for channels 21 to 27
+  /// (-msafe-dma), but moves them across mailboxes, signals and events, by which other processors announce
+  /// that memory has changed.
   template <Channel c> static void order_memory() {
     constexpr bool ordered_by_compiler = c >= Channel::mfc_cmd && c <= Channel::rd_atomic_stat;
     if constexpr (!ordered_by_compiler) __asm__ volatile("" ::: "memory");

@@ -2,8 +2,8 @@
 // compared by SIMD instructions. Freestanding C++17 (kernel dialect); needs an Spu (spe/spu.hpp), no tracer.
 // docs/software-cache.md is the guide.
 //
-// What an application's host side has, recording what a cache is asked for and replaying it through caches of
-// other shapes, is in celltrace/cache/trace.hpp and celltrace/cache/replay.hpp.
+// celltrace/cache/trace.hpp and celltrace/cache/replay.hpp, for an application's host side, record the
+// requests to a cache and replay them through caches of other shapes.
 #pragma once
 
 #include "celltrace/cache/config.hpp"

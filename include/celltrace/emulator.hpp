@@ -1,4 +1,4 @@
-// Any callable as an SPE program on an emulated Cell: for unit tests of SPE code on a PC.
+// Runs any callable as an SPE program on an emulated Cell: for unit tests of SPE code on a PC.
 //
 //   alignas(128) float data[32] = {1, 2, 3};
 //   const EmulatedRun run = emulate(lockstep(1), [&](EmulatedSpu& spu) {
@@ -25,52 +25,53 @@
 
 namespace celltrace {
 
-/// What a program sees of its SPE: SpuBase, and what only the emulator has.
+/// The SPE as a program sees it: SpuBase, and functions that only the emulator has.
 using EmulatedSpu = cell_emu::Spu;
 
-/// What a run of programs left behind.
+/// The outcome of a run of programs.
 struct CELLTRACE_EXPORT EmulatedRun {
   std::vector<Diagnostic> diagnostics; ///< in the order of their discovery
-  /// By SPE: the error that ended its program; "" if there was none.
+  /// The errors that ended the SPEs' programs, by SPE; "" for a program that ended well.
   std::vector<std::string> errors;
-  /// The SpeError that one of the PPE's calls ended with, a deadlock for instance; or "".
+  /// The message of the SpeError that one of the PPE's calls ended with, a deadlock for instance; or "".
   std::string ppe_error;
   std::vector<std::uint32_t> exit_codes; ///< by SPE
   std::vector<SpeStatistics> spes;       ///< by SPE
-  /// Virtual cycles of the SPE that took most, from its start to its end.
+  /// Virtual cycles of the SPE that took the longest, from its start to its end.
   std::uint64_t cycles = 0;
 
-  /// No rule was broken and no program failed.
+  /// Returns true if no rule was broken and no program failed.
   bool ok() const;
   bool broke(Rule rule) const { return count(rule) != 0; }
   std::size_t count(Rule rule) const;
-  /// The first diagnostic of a rule, or null.
+  /// Returns the first diagnostic of a rule, or null.
   const Diagnostic* find(Rule rule) const;
-  /// All diagnostics and errors, a line each; for messages of failed tests.
+  /// Returns all diagnostics and errors, a line each, for the messages of failed tests.
   std::string report() const;
 };
 
-/// A machine in lockstep by virtual time.
+/// Returns the configuration of a machine in lockstep by virtual time.
 CELLTRACE_EXPORT MachineConfig lockstep(unsigned spes);
-/// A machine in lockstep that explores the interleavings of `seed`, with data that move at random times.
+/// As lockstep(), but the order of the SPEs' turns and the times at which DMA moves data are random, from
+/// `seed`.
 CELLTRACE_EXPORT MachineConfig exploring(unsigned spes, std::uint64_t seed);
 /// As exploring(), with slow and pausing SPEs, late DMA and late words from the PPE.
 CELLTRACE_EXPORT MachineConfig exploring_with_faults(unsigned spes, std::uint64_t seed);
-/// A machine with a thread per SPE.
+/// Returns the configuration of a machine with one thread per SPE.
 CELLTRACE_EXPORT MachineConfig free_running(unsigned spes);
 
 using EmulatedProgram = std::function<void(EmulatedSpu&, ea_t)>;
 using EmulatedPpe = std::function<void(Machine&)>;
 
-/// Runs the program on every SPE of a new machine while `ppe` plays the PPE, and waits for all. A program
-/// that stops with a signal is the PPE's to resume. Programs may use whatever the host has, also what they
-/// capture; on the free schedule they run at the same time. Throws InputError for a configuration out of
-/// range, and what `ppe` throws unless that is an SpeError.
+/// Runs `program` on every SPE of a new machine while `ppe` plays the PPE, and waits for all SPEs. If a
+/// program stops with a signal, `ppe` has to resume it. Programs may use everything that the host has,
+/// including what they capture; on the free schedule they run at the same time. Throws InputError if the
+/// configuration is out of range, and passes on exceptions of `ppe` other than SpeError.
 CELLTRACE_EXPORT EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& program,
                                              ea_t argument, const EmulatedPpe& ppe);
 
-/// The same on a machine that is there, with a program as machines take it. Of the machine before there must
-/// be nothing left to wait for.
+/// As emulate_program(), on an existing machine and with a program in the form that machines take. The
+/// machine must have nothing left to wait for from earlier runs.
 CELLTRACE_EXPORT EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument = 0,
                                         const EmulatedPpe& ppe = {});
 

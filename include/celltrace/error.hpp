@@ -1,4 +1,4 @@
-// What celltrace throws.
+// The exceptions that celltrace throws.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -24,31 +24,32 @@ public:
   using Error::Error;
 };
 
-/// Something that was found in the text of a scene.
+/// A note, warning or error about the text of a scene.
 struct Finding {
   enum class Severity {
     note,
-    warning, ///< the scene's own, and what was left out because it is not supported
-    error    ///< for which the scene is refused
+    warning, ///< a #warning of the scene's own, or a feature that was left out because it is not supported
+    error    ///< a fault for which the scene is refused
   };
   Severity severity = Severity::error;
   std::string file;                    ///< as messages name it
-  std::uint32_t line = 1, column = 1;  ///< from 1; both 0: the file as a whole, which cannot be read
-  std::string text;                    ///< what it is
+  std::uint32_t line = 1, column = 1;  ///< both from 1; both 0 for the file as a whole, if it cannot be read
+  std::string text;                    ///< the message
   std::vector<std::string> reached_by; ///< the includes and macros on the way there, from the inside out
-  bool is_unsupported = false;         ///< it is left out with ParseOptions::lenient
+  bool is_unsupported = false;         ///< true for a feature that ParseOptions::lenient leaves out
 };
 
 /// The text of a scene is wrong or uses what is not supported. what() starts with "file:line:column: error:"
-/// ("file: error:" if it cannot be read) and may go on with the include stack and further errors, a line each.
+/// ("file: error:" if it cannot be read) and may go on with the include stack and further errors, a line
+/// each.
 class CELLTRACE_EXPORT SceneError : public InputError {
 public:
   /// At least one of `findings` is an error.
   SceneError(const std::string& what, std::vector<Finding> findings)
       : InputError(what), findings_(std::make_shared<const std::vector<Finding>>(std::move(findings))) {}
 
-  /// All of the run, in the order in which they were found: notes, warnings, each feature that is not
-  /// supported, and what ended it. Of notes and warnings the first thousand.
+  /// Returns all findings of the run in the order of their discovery: the first thousand notes and warnings,
+  /// each feature that is not supported, and the error that ended the run.
   const std::vector<Finding>& findings() const noexcept { return *findings_; }
 
 private:

@@ -1,4 +1,4 @@
-// What the shared libraries offer to others: everything is hidden but what carries CELLTRACE_EXPORT.
+// Marks what the shared libraries export: everything without CELLTRACE_EXPORT is hidden.
 #pragma once
 
 #if defined(__GNUC__) && !defined(__SPU__)

@@ -1,12 +1,12 @@
-// Rendering in the background: a scene's file, its text or a Scene in, a picture out, while the application
-// does something else.
+// Rendering in the background: takes a scene's file, its text or a Scene, and returns a picture, while the
+// application does something else.
 //
 //   RenderJob job("scene.pov", options);
 //   job.cancel();                         // from any thread, at any time
 //   RenderResult result = job.take();     // waits
 //
-// Thread safety: every member of RenderJob but construction, assignment and destruction may be called from
-// any thread at any time. Jobs are independent of each other: any number may run at once.
+// Thread safety: any thread may call any member of RenderJob at any time, except construction, assignment and
+// destruction. Jobs are independent of each other: any number may run at once.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -25,81 +25,83 @@
 
 namespace celltrace {
 
-/// A scene in POV-Ray's language, in memory. `name` stands in messages.
+/// A scene in POV-Ray's language, in memory. Messages call it `name`.
 struct SceneText {
   std::string text;
   std::string name = "<string>";
 };
 
-/// What a job renders: a scene's file, its text, or one that is there already, which must not change.
+/// The scene of a job: a file, a text, or an existing Scene, which must not change while the job runs.
 using JobScene = std::variant<std::filesystem::path, SceneText, Scene, std::shared_ptr<const Scene>>;
 
-/// What a job does at the moment.
+/// The work that a job does at the moment.
 enum class JobPhase {
-  waiting,  ///< for a thread
-  reading,  ///< the scene's text
-  building, ///< the scene image and the accelerator
+  waiting,  ///< the job waits for a thread
+  reading,  ///< the scene's text is read
+  building, ///< the scene image and the accelerator are built
   rendering,
   over
 };
 
 struct JobProgress {
   JobPhase phase = JobPhase::waiting;
-  double phase_fraction = 0; ///< of the phase, 0..1; where loops or included files are read it stands still
-  double fraction = 0;       ///< of the whole job, 0..1; never falls
+  /// Share of the phase that is done, 0..1; stands still while loops or included files are read.
+  double phase_fraction = 0;
+  double fraction = 0; ///< share of the whole job that is done, 0..1; never falls
 };
 
 class RenderJob;
 
-/// Functions of `parse` and `render` are called as well, by the thread that works; one that cancels cancels
-/// the job.
+/// Options of a job. The functions in `parse` and `render` are called by the thread that works; if one of
+/// them cancels, the whole job is cancelled.
 struct JobOptions {
-  /// Of a scene's text. Its width, height and quality are those of `render`.
+  /// Options for a scene that is read; width, height and quality are taken from `render`.
   ParseOptions parse;
   RenderOptions render;
-  /// The host's way to run `work`, once, in some thread, now or later; a thread pool's for example. It must
-  /// not run it before it returns where the caller does not want to wait. A job whose `work` is dropped is
-  /// cancelled. Empty: each job has a thread of its own. What renders besides are the SPEs' threads
-  /// (RenderOptions::spes).
+  /// Runs `work` once in some thread of the host's, such as a thread pool's, now or later. It must not run
+  /// `work` before it returns if the caller is not to wait. If `work` is dropped, the job is cancelled.
+  /// Empty: each job has a thread of its own. The SPEs' threads (RenderOptions::spes) are besides.
   std::function<void(std::function<void()> work)> executor;
-  /// Hears of the job every few milliseconds, by the thread that works. What it throws ends the job, and is
-  /// what take() throws.
+  /// Called every few milliseconds by the thread that works. An exception of this function ends the job, and
+  /// take() throws it.
   std::function<void(const JobProgress& progress)> progress;
-  /// Called once, when the job is over and take() would not wait: by the thread that worked, or by that which
-  /// cancelled a job that still waited for one. Must not throw. `job` is the job, also if its owner has moved
-  /// or not even finished constructing it, and is good during the call.
+  /// Called once, when the job is over and take() would not wait: by the thread that worked, or by the thread
+  /// that cancelled a job which still waited for one. Must not throw. `job` refers to the job even if its
+  /// owner has moved it or has not finished constructing it, and is valid during the call.
   std::function<void(RenderJob& job)> finished;
 };
 
-/// A job that runs, or has run. Movable; what has been moved from can be destroyed and assigned to only.
+/// A job that runs, or has run. Movable; a job that has been moved from can only be destroyed and assigned
+/// to.
 class CELLTRACE_EXPORT RenderJob {
 public:
-  /// Starts. Errors, also of options, are take()'s; what an executor throws passes through.
+  /// Starts the job. take() throws all errors, including those of options; exceptions of an executor pass
+  /// through.
   explicit RenderJob(JobScene scene, JobOptions options = {});
-  /// Cancels, and waits until no function of the options is called any more, unless one of these is who
-  /// destroys it.
+  /// Cancels the job, and waits until no function of the options is called any more, unless one of these
+  /// functions destroys the job.
   ~RenderJob();
   RenderJob(RenderJob&&) noexcept;
   RenderJob& operator=(RenderJob&&) noexcept;
 
-  /// Ends the job soon, whatever it does at the moment; if it is over, nothing happens.
+  /// Ends the job soon, whatever it does at the moment; does nothing if the job is over.
   void cancel() noexcept;
 
   JobProgress progress() const;
   bool is_over() const;
-  /// Until the job is over.
+  /// Waits until the job is over.
   void wait() const;
-  /// As wait(); false if it takes longer.
+  /// As wait(), for no longer than `timeout`. Returns whether the job is over.
   bool wait_for(std::chrono::milliseconds timeout) const;
 
-  /// Waits, and returns the picture, once. Of a job that was cancelled while it rendered it is what was
-  /// finished (RenderResult::complete). Throws Cancelled if it was cancelled before; else what parse_file()
-  /// or render() threw; InputError the second time.
+  /// Waits, and returns the picture, once. If the job was cancelled while it rendered, the picture has what
+  /// was finished (RenderResult::complete is false). Throws Cancelled if the job was cancelled earlier; else
+  /// the exceptions of load_scene() or render(); InputError the second time.
   RenderResult take();
 
-  /// What has been found in the scene's text until now: the first thousand.
+  /// Returns the first thousand findings in the scene's text until now.
   std::vector<Finding> findings() const;
-  /// The scene once it has been read, null before.
+  /// Returns the scene once it has been read, null before.
   std::shared_ptr<const Scene> scene() const;
 
 private:
@@ -108,7 +110,7 @@ private:
   void leave() noexcept;
 
   std::shared_ptr<Impl> impl_;
-  bool is_owner_ = true; ///< not what `finished` gets
+  bool is_owner_ = true; ///< false for the job that `finished` gets
 };
 
 } // namespace celltrace

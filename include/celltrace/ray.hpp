@@ -1,18 +1,19 @@
-// Rays and what they hit: plain data that applications and the kernel share.
+// Rays and their hits: plain data that applications and the kernel share.
 #pragma once
 
 #include <stdint.h>
 
 namespace celltrace {
 
-/// As far as there is anything.
+/// The reach of a ray without an end.
 constexpr float kEndless = __builtin_inff();
 
-/// From `origin` along `direction`, in the scene's coordinates.
+/// A ray from `origin` along `direction`, in the scene's coordinates.
 struct Ray {
   float origin[3];
   float direction[3]; ///< 1e-18 to 1e18 long
-  /// How far it reaches: hits there or beyond are none. In the scene's unit, whatever the direction's length.
+  /// Reach of the ray: hits at this distance or beyond do not count. In the scene's unit, whatever the
+  /// direction's length.
   float tfar = kEndless;
 };
 
@@ -21,20 +22,19 @@ struct RayHit {
   static constexpr uint32_t kNone = 0xFFFFFFFF;
 
   float distance = kEndless; ///< in the scene's unit; infinity if nothing is hit
-  /// Barycentric coordinates in a triangle: the shares of its second and third vertex. They mean nothing on
+  /// Barycentric coordinates in a triangle: the weights of its second and third vertex. Without meaning for
   /// other shapes.
   float u = 0.0f, v = 0.0f;
   uint32_t object = kNone; ///< index in Scene::objects, or kNone
-  uint32_t record = kNone; ///< what of the object is hit; for RayQueries::surface()
+  uint32_t record = kNone; ///< part of the object that is hit; for RayQueries::surface()
 
   explicit operator bool() const { return object != kNone; }
 };
 
-/// A point on a surface.
+/// The surface at a point that a ray hits.
 struct RaySurface {
   float point[3];  ///< on the object, to its own precision
-  float normal[3]; ///< of length 1, on the side that the ray comes from; interpolated where triangles are
-                   ///< smooth
+  float normal[3]; ///< of length 1, on the side that the ray comes from; interpolated on smooth triangles
 };
 
 } // namespace celltrace

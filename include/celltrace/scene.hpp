@@ -1,9 +1,8 @@
-// Scene: what to render, as people build it or as the POV-Ray parser delivers it.
+// Scene: the description of a picture, as people build it or as the POV-Ray parser delivers it.
 //
 // Units are the scene's own; angles are in degrees unless said otherwise; the axes are POV-Ray's
 // (left-handed, y up). Colours are linear in the scene's working space (see GammaMode). A Scene is a plain
-// value: copyable, without threads of its own; reading one from several threads is safe while nobody changes
-// it.
+// value: copyable, without threads of its own; several threads may read one while no thread changes it.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -19,7 +18,7 @@
 namespace celltrace {
 
 struct Camera {
-  /// POV-Ray's kinds, by the ray through pixel (x, y) of a W x H picture: with u = (x+.5)/W-.5 from -.5 at
+  /// POV-Ray's kinds, by the ray through pixel (x, y) of a W x H picture, with u = (x+.5)/W-.5 from -.5 at
   /// the left to .5 at the right, and v = .5-(y+.5)/H from -.5 at the bottom to .5 at the top.
   enum class Kind {
     perspective,      ///< from the location along direction + right*u + up*v
@@ -27,102 +26,104 @@ struct Camera {
     spherical,        ///< columns are longitudes, angle*u; rows are latitudes, vertical_angle*v
     ultra_wide_angle, ///< as perspective, but with angle*u, and angle*v times the ratio of up's length to
                       ///< right's
-    omnimax,          ///< a fisheye of 180 degrees cut off below; outside it is black
+    omnimax,          ///< a fisheye of 180 degrees, cut off below; black outside
     panoramic,        ///< along direction*cos(180*u) + right*sin(180*u) + up*tan(180*v)
     cylinder_1,       ///< columns are angles, angle*u; rows are heights, up*v; on a cylinder of radius 1
     cylinder_2,       ///< columns are widths, right*u; rows are angles, angle*v
-    cylinder_3,       ///< as 1, but each row is seen from its height on the cylinder's axis
-    cylinder_4,       ///< as 2, but each column is seen from its place there
-    fisheye ///< angle/2 off direction at a length of 1 of 2*|right|*u, 2*|up|*v; farther out it is black
+    cylinder_3,       ///< as cylinder_1, but each row is seen from its height on the cylinder's axis
+    cylinder_4,       ///< as cylinder_2, but each column is seen from its place on the axis
+    fisheye ///< at angle/2 from direction for (2*|right|*u, 2*|up|*v) of length 1; black farther out
   };
   Kind kind = Kind::perspective;
-  // The finished camera, after sky, look_at and transformations, and for perspective and orthographic cameras
-  // after the angle, too. Only these and panoramic ones look at the length of direction.
+  // Values after sky, look_at and transformations, and for perspective and orthographic cameras also
+  // after the angle. Only these two kinds and panoramic use the length of direction.
   Vec3 location{0, 0, 0};
   Vec3 direction{0, 0, 1};
   Vec3 right{1.33, 0, 0};
   Vec3 up{0, 1, 0};
-  double angle = 90;           ///< that a picture is wide, in degrees, not negative; of kinds that mention it
-  double vertical_angle = 180; ///< that it is high, likewise
+  double angle = 90;           ///< width of the picture in degrees, not negative; for kinds that mention it
+  double vertical_angle = 180; ///< height of the picture in degrees, not negative; for kinds that mention it
 
-  /// How the camera adapts to the ratio of a picture's width to its height.
+  /// Ways in which the camera adapts to the ratio of a picture's width to its height.
   enum class Framing {
-    fixed, ///< not at all, as in POV-Ray: what it sees is squeezed into the picture
-    width, ///< what it sees is as wide as before, and higher or lower
-    whole  ///< what it sees is wider or higher, and never less
+    fixed, ///< not at all, as in POV-Ray: the view is squeezed into the picture
+    width, ///< the view keeps its width, and gets higher or lower
+    whole  ///< the view gets wider or higher, and is never cut off
   };
   Framing framing = Framing::fixed;
 
-  /// A perspective camera at `from` with `to` in the middle of its picture, which is `angle` degrees wide,
-  /// above 0 and below 180. With `aspect`, above 0, it is for pictures that are `aspect` times as wide as
-  /// high, and others are squeezed; without, for pictures of any shape (Framing::width). What lies along
-  /// `sky` is up. Throws InputError for numbers out of range or not finite, where `from` is `to`, and where
-  /// `sky` is 0 or along the way from one to the other.
+  /// Returns a perspective camera at `from` with `to` in the middle of its picture, which is `angle` degrees
+  /// wide, above 0 and below 180. With `aspect`, above 0, the view is for pictures that are `aspect` times as
+  /// wide as high, and squeezed into others; without `aspect`, it fits pictures of any shape
+  /// (Framing::width). The direction `sky` points up in the picture. Throws InputError for numbers out of
+  /// range or not finite, if `from` is `to`, and if `sky` is 0 or parallel to the direction from `from` to
+  /// `to`.
   CELLTRACE_EXPORT static Camera look_at(const Vec3& from, const Vec3& to, double angle = 67.38,
                                          std::optional<double> aspect = {}, const Vec3& sky = {0, 1, 0});
 };
 
-/// What colour values mean and how they become 8 bits.
+/// The meaning of colour values and their conversion to 8 bits.
 enum class GammaMode {
-  none,   ///< legacy: pixel values are written as they are
-  srgb,   ///< working space is already encoded: written as they are (`assumed_gamma srgb`)
+  none,   ///< legacy: pixel values are written unchanged
+  srgb,   ///< working space is already encoded: values are written unchanged (`assumed_gamma srgb`)
   assumed ///< working space has exponent Scene::assumed_gamma: sRGB-encoded on output
 };
 
-/// The inside of an object. Objects that a ray can be inside of at the same time have one each; the children
-/// of a union share the union's if they have none.
+/// The inside of an object. Objects that a ray can be inside of at the same time have an interior each; the
+/// children of a union share the union's interior if they have none.
 struct Interior {
   double ior = 1;
-  /// Light that leaves it after `fade_distance` is halfway to `fade_colour`: of the rest 1/(1 +
-  /// (d/distance)^power) is left, or with a power from 1000 on an exponential. A distance of 0: it does not
-  /// fade. With a power of 0 shadows do not, either.
+  /// Fading: light that travels `fade_distance` in the interior is halfway to `fade_colour`. The share 1/(1 +
+  /// (d/distance)^power) of the rest is left after a distance d, or with a power from 1000 on an exponential
+  /// share. A distance of 0: light does not fade. A power of 0: shadows do not fade, either.
   double fade_distance = 0;
   double fade_power = 0;
   Vec3 fade_colour{0, 0, 0};
-  double caustics = 0; ///< shadows get lighter where light falls through it straight; more is less wide
-  /// What light that passes a surface of it, going in or out, is multiplied by, where it is totally reflected
-  /// as well: POV-Ray's `refraction` of a finish. Not the light of shadow rays. Less than 0 counts as 0.
+  /// Brightens shadows where light passes straight through; greater values brighten a smaller area.
+  double caustics = 0;
+  /// Factor for light that passes a surface of the interior, going in or out, or is totally reflected there:
+  /// POV-Ray's `refraction` of a finish. Not for the light of shadow rays. Less than 0 counts as 0.
   double refraction = 1;
-  bool hollow = false; ///< there is fog in it, too
+  bool hollow = false; ///< true: fog fills the interior, too
 };
 
-/// What light passes through on its way between surfaces, but for rays that are in an object whose interior
-/// is not hollow.
+/// A medium that light passes through on its way between surfaces, except along rays inside an object whose
+/// interior is not hollow.
 struct Fog {
   Vec3 colour{0, 0, 0};
-  double filter = 0;   ///< how much of what is seen through it takes its colour
-  double transmit = 0; ///< the share of light that passes it however far, 0 to 1
-  double distance = 0; ///< after which 1/e of the light is left; 0: there is no fog
-  /// It lies on the ground and thins out above `offset`, as 1/(1 + y^2) at y times `altitude` above that.
-  /// Heights are along `up`, of length 1.
+  double filter = 0;   ///< share of the light through the fog that takes the fog's colour
+  double transmit = 0; ///< the share of light that passes the fog at any distance, 0 to 1
+  double distance = 0; ///< distance after which 1/e of the light is left; 0: there is no fog
+  /// True: the fog lies on the ground and thins out above `offset`, as 1/(1 + y^2) at y times `altitude`
+  /// above `offset`. Heights are along `up`, of length 1.
   bool is_ground = false;
   double offset = 0;
   double altitude = 0; ///< 0: there is no fog above the offset
   Vec3 up{0, 1, 0};
-  Turbulence turbulence;           ///< clears it here and there, where an amount is not 0
-  double turbulence_depth = 0.5;   ///< how much
-  Vec3 turbulence_origin{0, 0, 0}; ///< in the scene, of the noise
+  Turbulence turbulence;           ///< thins the fog here and there, if an amount is not 0
+  double turbulence_depth = 0.5;   ///< strength of the turbulence
+  Vec3 turbulence_origin{0, 0, 0}; ///< origin of the noise in the scene
 };
 
-/// A bow of colours, with POV-Ray's formulas: it is seen before whatever rays meet there, the more the
-/// farther away that is, also before nothing at all; not by rays that are in an object whose interior is not
-/// hollow. Where several are seen they count the same. Fog is before all of them.
+/// A bow of colours, by POV-Ray's formulas. It lies in front of the surface that a ray meets, and is stronger
+/// the farther away the surface is; it is also seen where rays meet nothing. Rays inside an object whose
+/// interior is not hollow do not see it. Several rainbows count equally. Fog lies in front of all of them.
 struct Rainbow {
   struct Colour {
     double position; ///< ascending, 0 at the inner edge of the bow to 1 at the outer one
     Vec3 rgb{0, 0, 0};
-    double filter = 0;   ///< how much of what is seen through it takes the colour
-    double transmit = 0; ///< the share of it that is seen in any case
+    double filter = 0;   ///< share of the light through the bow that takes the colour
+    double transmit = 0; ///< share of that light that passes in any case
   };
-  Vec3 direction{0, 0,
-                 1};      ///< in which light falls, of any length but 0: the bow is around what is seen there
-  double angle = 0;       ///< to that, of the middle of the bow, in degrees
-  double width = 0;       ///< of the bow, in degrees; 0: there is none
-  double distance = 0;    ///< of what is seen by 1/e; not above 0: there is no bow
-  double jitter = 0;      ///< by so much of the width colours lie elsewhere, at random
-  Vec3 up{0, 1, 0};       ///< where the middle of its arc is; not along the direction
-  double arc_angle = 360; ///< of the arc, in degrees
-  double falloff_angle = 360;  ///< of the part of the arc that does not fade toward the ends
+  Vec3 direction{0, 0, 1}; ///< direction of the light, of any length but 0; the bow surrounds it
+  double angle = 0;        ///< angle between the direction and the middle of the bow, in degrees
+  double width = 0;        ///< width of the bow, in degrees; 0: there is none
+  double distance = 0; ///< distance at which 1/e of a surface's light is left; not above 0: there is no bow
+  double jitter = 0;   ///< random shift of the colours, as a share of the width
+  Vec3 up{0, 1, 0};    ///< direction to the middle of the arc; not along `direction`
+  double arc_angle = 360; ///< length of the arc, in degrees
+  /// Length of the part of the arc that does not fade toward the ends, in degrees.
+  double falloff_angle = 360;
   std::vector<Colour> colours; ///< 1 to 256, blended in between
 };
 
@@ -130,72 +131,76 @@ struct Rainbow {
 using Index = std::uint32_t;
 inline constexpr Index kNoIndex = 0xFFFFFFFFu;
 
-/// The area of a light that casts soft shadows: a grid of places in a parallelogram around its location, from
-/// each of which shadows are cast as from a point. POV-Ray looks at the corners, and at what lies between
-/// them where they differ.
+/// The area of a light that casts soft shadows: a grid of points in a parallelogram around the light's
+/// location, each of which casts shadows as a point light does. POV-Ray traces the corners of the grid, and
+/// divides it where they differ.
 struct LightArea {
   Vec3 across{1, 0, 0}, along{0, 1, 0}; ///< from the first column to the last, from the first row to the last
   int columns = 2, rows = 2;            ///< 1 to 256 each
-  int adaptive = 100;    ///< times, from 0 on, that the grid is divided even if its corners do not differ
-  bool jitter = false;   ///< places are moved by up to half of the way to the next, always in the same manner
+  int adaptive = 100; ///< levels, from 0 on, that the grid is divided even if its corners do not differ
+  /// True: points are moved by up to half of the distance to the next, always in the same manner.
+  bool jitter = false;
   bool circular = false; ///< the grid is pulled into an ellipse
-  /// It turns to each surface, with both sides as long as `across`, and is circular, too.
+  /// True: the area turns to face each surface, with both sides as long as `across`, and is circular, too.
   bool orient = false;
 };
 
 struct Object;
 
-/// A light source with POV-Ray's formulas and defaults.
+/// A light source, by POV-Ray's formulas and with its defaults.
 struct Light {
   enum class Kind {
-    point,     ///< to all sides
-    spotlight, ///< in a cone
-    cylinder   ///< in a cylinder that begins at the location, with parallel rays
+    point,     ///< shines in all directions
+    spotlight, ///< shines in a cone
+    cylinder   ///< shines in a cylinder that begins at the location, with parallel rays
   };
   Vec3 location{0, 0, 0};
   Vec3 colour{1, 1, 1};
-  bool shadowless = false; ///< casts no shadows and makes no highlights
+  bool shadowless = false; ///< true: casts no shadows and makes no highlights
   Kind kind = Kind::point;
-  /// Where the axis of all but points goes to, from the location. If it is the location there is no light.
+  /// End of the axis from the location, for all kinds except point. If it is the location there is no light.
   Vec3 point_at{0, 0, 1};
-  /// Of all but points: where the edge begins and ends. Spotlights: angles to the axis in degrees; cylinders:
-  /// distances from it.
+  /// Inner and outer edge of the light, for all kinds except point. Spotlights: angles to the axis in
+  /// degrees; cylinders: distances from the axis.
   double radius = 30, falloff = 45;
-  double tightness = 0;  ///< the exponent by which light decreases off the axis, of all but points
-  bool parallel = false; ///< all rays along the axis, also behind the location; a spotlight has no edge then
-  /// At which there is as much light as without fading; 0: it does not fade. As in POV-Ray, the share of
-  /// light is 2 / (1 + (distance / fade_distance)^fade_power) for negative distances, too: those behind
+  double tightness = 0;  ///< exponent by which light decreases off the axis, for all kinds except point
+  bool parallel = false; ///< true: all rays are parallel to the axis, also behind the location; a spotlight
+                         ///< has no edge then
+  /// Distance with as much light as without fading; 0: light does not fade. As in POV-Ray, the share of
+  /// light is 2 / (1 + (distance / fade_distance)^fade_power), also for negative distances, which are behind
   /// parallel light.
   double fade_distance = 0;
-  double fade_power = 0; ///< the exponent by which light decreases with distance; 0: it does not fade
-  /// Of what its shadows are; else of a point.
+  double fade_power = 0; ///< exponent by which light decreases with distance; 0: light does not fade
+  /// The area that casts the light's shadows; none: a point.
   std::optional<LightArea> area = std::nullopt;
-  /// Only what comes through it shines, from there on: what is between it and the light casts no shadows. Its
-  /// materials and interiors mean nothing. No mesh may be a part of a CSG in it. Null: light goes everywhere.
+  /// Object that the light is projected through (`projected_through`): light shines only through it and
+  /// beyond, and objects between it and the light cast no shadows. Its materials and interiors have no
+  /// effect. A CSG in it may have no mesh as a part. Null: light goes everywhere.
   std::shared_ptr<const Object> projected_through = nullptr;
-  bool is_dimmed_by_fog = false; ///< what comes through fogs is less, but not of a shadowless light
-  bool is_global = true; ///< shines on all objects but those of light groups that leave global lights out
+  bool is_dimmed_by_fog = false; ///< true: fogs weaken the light, unless it is shadowless
+  /// True: shines on all objects except those of light groups that leave out global lights.
+  bool is_global = true;
 };
 
-/// Which lights shine on the objects that refer to it. Shadows are cast by all objects, whatever group they
-/// or the light are in.
+/// The lights that shine on the objects which refer to the group. All objects cast shadows, whatever group
+/// they or the light are in.
 struct LightGroup {
-  std::vector<Index> lights;  ///< into Scene::lights
-  bool global_lights = false; ///< those of Light::is_global, too
+  std::vector<Index> lights;  ///< indices into Scene::lights
+  bool global_lights = false; ///< true: lights with Light::is_global belong to the group, too
 };
 inline constexpr int kMostLightGroups = 255;
 
 /// Triangles with shared vertices; vertices, normals and surface coordinates are single precision, as in
-/// POV-Ray. Where a material looks different from inside, a triangle's outside is where its normals point, or
-/// that of a flat one where -(b - a) x (c - a) does, of its corners a, b and c; of a face with several
-/// materials the first says what it looks like from there.
+/// POV-Ray. For a material that looks different from inside, the outside of a smooth triangle is where its
+/// normals point; of a flat triangle with corners a, b and c, where -(b - a) x (c - a) points. If a face has
+/// several materials, the first one decides what it looks like from each side.
 struct Mesh {
   struct Triangle {
     Index vertex[3];
-    /// kNoIndex in all three, never in one or two: flat.
+    /// kNoIndex in all three, never in one or two: the triangle is flat.
     Index normal[3] = {kNoIndex, kNoIndex, kNoIndex};
-    /// Index into Scene::materials; kNoIndex: the instance's material. Three different ones are blended over
-    /// the face by its barycentric coordinates.
+    /// Indices into Scene::materials; kNoIndex: the instance's material. Three different ones are blended
+    /// over the face by its barycentric coordinates.
     Index material[3] = {kNoIndex, kNoIndex, kNoIndex};
   };
   std::vector<Vec3f> vertices;
@@ -205,10 +210,10 @@ struct Mesh {
   struct Coordinates {
     Vec2f corner[3] = {{0, 0}, {0, 0}, {0, 0}};
   };
-  std::vector<Coordinates> coordinates; ///< by triangle; empty: 0 all over
-  /// A direction of any length, in the mesh's space. For CSG a point is in the mesh if the ray from there
-  /// along it crosses an odd number of triangles. Zero: nothing is in the mesh, and nothing in its inverse
-  /// either.
+  std::vector<Coordinates> coordinates; ///< by triangle; empty: all are 0
+  /// Direction of any length, in the mesh's space, that defines the inside for CSG: a point is in the mesh if
+  /// the ray from there along the direction crosses an odd number of triangles. Zero: nothing is in the mesh,
+  /// and nothing in its inverse either.
   Vec3 inside_vector{0, 0, 0};
 
   bool has_inside() const { return inside_vector != Vec3(0); }
@@ -219,13 +224,14 @@ struct Sphere {
   double radius = 1;
 };
 
-/// Infinite; the side that the normal points away from is inside.
+/// An infinite plane; the side that the normal points away from is inside.
 struct Plane {
   Vec3 normal{0, 1, 0}; ///< of any length
-  double distance = 0;  ///< of the origin, along the unit normal
+  double distance = 0;  ///< distance from the origin, along the unit normal
 };
 
-/// Flat and round, with a hole. Inside of its plane, for CSG, is the side that the normal points away from.
+/// A flat, round disc with a hole. The inside of its plane, for CSG, is the side that the normal points away
+/// from.
 struct Disc {
   Vec3 centre{0, 0, 0};
   Vec3 normal{0, 1, 0}; ///< of any length
@@ -233,7 +239,7 @@ struct Disc {
   double hole_radius = 0;
 };
 
-/// From one corner to the opposite one.
+/// A box from one corner to the opposite one, with its sides along the axes.
 struct Box {
   Vec3 corner[2] = {{-1, -1, -1}, {1, 1, 1}};
 };
@@ -241,24 +247,24 @@ struct Box {
 struct Cylinder {
   Vec3 base{0, 0, 0}, cap{0, 1, 0}; ///< middles of its two ends
   double radius = 1;
-  bool open = false; ///< without the ends
+  bool open = false; ///< true: without the ends
 };
 
-/// Also cut off, if both radii are greater than 0.
+/// A cone, cut off if both radii are greater than 0.
 struct Cone {
   Vec3 base{0, 0, 0}, cap{0, 1, 0};
   double base_radius = 1, cap_radius = 0;
-  bool open = false; ///< without the ends
+  bool open = false; ///< true: without the ends
 };
 
-/// Around the y axis.
+/// A torus around the y axis.
 struct Torus {
   double major_radius = 1; ///< from the centre to the middle of the tube
   double minor_radius = 0.25;
 };
 
-/// Where dot(square, (xx, yy, zz)) + dot(mixed, (xy, xz, yz)) + dot(linear, (x, y, z)) + constant = 0. Below
-/// 0 is inside.
+/// The surface dot(square, (xx, yy, zz)) + dot(mixed, (xy, xz, yz)) + dot(linear, (x, y, z)) + constant = 0.
+/// Values below 0 are inside.
 struct Quadric {
   Vec3 square{1, 1, 1};
   Vec3 mixed{0, 0, 0};
@@ -266,76 +272,81 @@ struct Quadric {
   double constant = -1;
 };
 
-/// Where (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1, e being `east_west` and n `north_south`: a sphere
-/// where both are 1, more like a box the smaller they are, and with edges that bend inward above 2. Less than
-/// 1e-4 counts as that.
+/// The surface (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1, with e = `east_west` and n = `north_south`: a
+/// sphere if both are 1, more like a box the smaller they are, and with edges that bend inward above 2.
+/// Values below 1e-4 count as 1e-4.
 struct Superellipsoid {
   double east_west = 1, north_south = 1;
 };
 
-/// Flat: loops of points in one plane, each of them closed from its last point to its first. It is there
-/// where an odd number of lines of theirs lies to one side: a loop inside another one is a hole. For CSG
-/// nothing is inside of it, and nothing of its inverse either.
+/// A flat polygon: loops of points in one plane, each closed from its last point to its first. A point is in
+/// the polygon if a line from there to one side crosses an odd number of edges: a loop inside another one is
+/// a hole. For CSG nothing is inside of a polygon, and nothing inside of its inverse either.
 struct Polygon {
   std::vector<std::vector<Vec3>> loops;
 };
 
 struct Csg;
 
-/// One thing to hit: a shape, placed. Plain unions are already taken apart.
+/// One thing to hit: a shape and its place. Plain unions are already taken apart.
 struct Object {
   std::variant<Sphere, std::shared_ptr<const Mesh>, Plane, Disc, Box, Cylinder, Cone, Torus, Quadric,
                Superellipsoid, std::shared_ptr<const Polygon>, std::shared_ptr<const Csg>>
       shape;
   Transform transform;
-  Index material = 0;        ///< of a CSG: means nothing, its parts have their own
-  Index interior = kNoIndex; ///< likewise; kNoIndex: one of its own, as Interior() makes it
-  // Of these three POV-Ray does not take all that parts of a CSG say: in unions all, but in those that are
-  // clipped or parts of other operations only no_reflection; in merges all but no_shadow; in others nothing.
-  // What a ray does not see of a merge hides nothing of its other parts from that ray.
+  Index material = 0; ///< no effect for a CSG, whose parts have their own
+  /// No effect for a CSG; kNoIndex: an interior of its own with the defaults of Interior.
+  Index interior = kNoIndex;
+  // Visibility flags. Parts of a CSG pass on to it, as in POV-Ray: in a top-level union all three; in a union
+  // that is clipped or nested in another operation only no_reflection; in a merge all but no_shadow; else
+  // none. A part of a merge that rays of one kind do not see hides nothing of the other parts from these
+  // rays.
   bool no_shadow = false;
-  bool no_image = false;      ///< seen in mirrors alone
-  bool no_reflection = false; ///< seen in no mirror
-  /// Neither seen nor in the way of light, and nothing is inside of it. Rendering goes on from there and back
-  /// at small cost. Of parts of a CSG, of what clips or what lights are projected through: means nothing.
+  bool no_image = false;      ///< true: seen only in mirrors
+  bool no_reflection = false; ///< true: seen in no mirror
+  /// True: the object is neither seen nor in the way of light, and nothing is inside of it. Hiding and
+  /// showing an object between frames is cheap. No effect for parts of a CSG, and for objects that clip or
+  /// that lights are projected through.
   bool is_hidden = false;
-  bool inverse = false; ///< inside and outside change places
-  /// Light that falls on the other side counts as if it fell on this one: POV-Ray's double_illuminate. Of a
-  /// CSG: means nothing.
+  bool inverse = false; ///< true: inside and outside are swapped
+  /// True: light that falls on the other side counts as if it fell on this one, POV-Ray's double_illuminate.
+  /// No effect for a CSG.
   bool is_lit_through = false;
-  /// Index into Scene::light_groups: its lights shine on it. kNoIndex: all global ones. Of a CSG: means
-  /// nothing.
+  /// Index into Scene::light_groups: the lights that shine on the object. kNoIndex: all global lights. No
+  /// effect for a CSG.
   Index light_group = kNoIndex;
-  /// Only what is inside all of these is there. They are placed as the object is, and their materials mean
-  /// nothing. Null: all of it.
+  /// Objects that clip this one: only the part inside all of them is there. Clipping
+  /// objects are transformed with this one, and their materials have no effect. Null: the whole object is
+  /// there.
   std::shared_ptr<const std::vector<Object>> clipped_by = nullptr;
 };
 
-/// Constructive solid geometry, as in POV-Ray: which parts of its parts' surfaces are there. A surface that
-/// is there has the material of the part that it belongs to.
+/// Constructive solid geometry, as in POV-Ray: the operation decides which pieces of its parts' surfaces are
+/// there. Each piece has the material of the part that it belongs to.
 struct Csg {
   enum class Operation {
-    union_,       ///< all of them
-    merge,        ///< what is in no other part
-    intersection, ///< what is in all other parts
+    union_,       ///< all pieces
+    merge,        ///< pieces that are in no other part
+    intersection, ///< pieces that are in all other parts
     difference    ///< the first part without the others
   };
   Operation operation = Operation::union_;
-  std::vector<Object> parts; ///< placed in the space of the CSG
+  std::vector<Object> parts; ///< in the space of the CSG
 };
 
 struct CELLTRACE_EXPORT Scene {
-  std::string name; ///< for messages: the file it came from
+  std::string name; ///< file that the scene came from, for messages
   Camera camera;
   Vec3 background{0, 0, 0};
-  /// Share of what is behind the picture that comes through the background, 0 to 1; counts where a picture
-  /// has alpha. Below version 3.7 it means nothing: only mirrors see sky and background there.
+  /// Share, 0 to 1, of the light behind the picture that comes through the background; for pictures with
+  /// alpha. No effect below version 3.7, where only mirrors see sky and background.
   double background_transparency = 1;
-  /// What reflected rays see in place of the background, those in glass too, where a picture has alpha and
-  /// the scene no sky; none: the same. `background` is what is left of it then behind the picture.
+  /// Background that reflected rays see, also inside glass, if the picture has alpha and the scene no sky;
+  /// none: they see `background`. If there is one, `background` is the share of it that is left behind the
+  /// picture.
   std::optional<Vec3> mirrored_background;
-  /// Layers over the background, the last one on top: what rays meet that hit nothing. Their patterns are
-  /// asked at the ray's direction, of length 1.
+  /// Layers of the sky over the background, the last one on top, for rays that hit nothing. Their patterns
+  /// are evaluated at the ray's direction, of length 1.
   std::vector<Pigment> sky_sphere;
   Vec3 ambient_light{1, 1, 1};
   std::vector<Fog> fogs;
@@ -343,21 +354,21 @@ struct CELLTRACE_EXPORT Scene {
   std::vector<Light> lights;
   std::vector<LightGroup> light_groups; ///< at most kMostLightGroups
   std::vector<Material> materials;      ///< objects refer to these by index
-  std::vector<Interior> interiors; ///< one per object (or union); its identity matters, not only its values
+  std::vector<Interior> interiors;      ///< one per object (or union); the index matters, not only the values
   std::vector<Object> objects;
 
   GammaMode gamma_mode = GammaMode::assumed;
   double assumed_gamma = 1;
-  /// Effective language version (3.62 for a scene without #version): below 3.7 the opacity of a surface is
+  /// Effective language version (3.62 for a scene without #version). Below 3.7 the opacity of a surface is
   /// 1 - (filter*max(r,g,b) + transmit), from 3.7 on 1 - filter - transmit.
   double version = 3.7;
   int max_trace_level = 5;
   double adc_bailout = 1.0 / 255;
-  Vec3 irid_wavelength{0.7, 0.52, 0.48}; ///< of red, green and blue, where films are thin
-  int noise_generator = 2;               ///< of patterns that do not say: 1 to 3 as POV-Ray counts them
-  int number_of_waves = 10;              ///< of ripples and waves
+  Vec3 irid_wavelength{0.7, 0.52, 0.48}; ///< wavelengths of red, green and blue in thin films
+  int noise_generator = 2;               ///< for patterns that name none: 1 to 3 as POV-Ray counts them
+  int number_of_waves = 10;              ///< for ripples and waves
 
-  /// Appends and returns the index.
+  /// Append `material` or `interior` and return its index.
   Index add(const Material& material);
   Index add(const Interior& interior);
 };

@@ -1,4 +1,4 @@
-// Binaries for the SPU on a simulated Cell: for tests of the machine code that the SPU's compiler makes.
+// Runs binaries for the SPU on a simulated Cell: for tests of the machine code that the SPU's compiler makes.
 //
 //   const std::vector<std::uint8_t> elf = ...; // spu-elf-gcc -O2 saxpy.c -o saxpy.elf
 //   const SimulatedRun run = simulate(simulated(1), elf, to_ea(&control_block));
@@ -19,37 +19,37 @@
 
 namespace celltrace {
 
-/// What a run of a binary left behind.
+/// The outcome of a run of a binary.
 struct SimulatedRun : EmulatedRun {
-  /// What the programs wrote; empty where the configuration takes it (SimulationConfig::output).
+  /// Text that the programs wrote; empty if SimulationConfig::output receives it.
   std::string output, error_output;
 };
 
-/// Throws InputError, which says why, if `elf` is no executable for the SPU.
+/// Throws InputError, with the reason, if `elf` is no executable for the SPU.
 CELLTRACE_EXPORT void check_spu_program(std::span<const std::uint8_t> elf);
 
-/// A machine of SPUs that execute machine code, in lockstep by virtual time.
+/// Returns the configuration of a machine whose SPUs execute machine code, in lockstep by virtual time.
 CELLTRACE_EXPORT MachineConfig simulated(unsigned spes);
 
 /// Runs a stand-alone program, main(speid, argp, envp) or one that is linked with -mstdmain, on every SPE of
-/// a new machine while `ppe` plays the PPE, and waits for all. `argument` is argp. A request to stop ends the
-/// programs with errors. Throws InputError for a configuration out of range or of another backend than
-/// "cell_sim" and for an `elf` that is no executable for the SPU, and what `ppe` throws unless that is an
-/// SpeError. Thread safety: runs are independent of each other.
+/// a new machine while `ppe` plays the PPE, and waits for all SPEs. `argument` is argp. If `stop` is
+/// requested, the programs end with errors. Throws InputError if the configuration is out of range or of a
+/// backend other than "cell_sim", or if `elf` is no executable for the SPU, and passes on exceptions of `ppe`
+/// other than SpeError. Thread safety: runs are independent of each other.
 CELLTRACE_EXPORT SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf,
                                        ea_t argument = 0, const EmulatedPpe& ppe = {},
                                        const std::stop_token& stop = {});
 
-/// The counters of all SPEs together, in the order of IBM's full-system simulator; several lines. `timing` is
-/// that of the machine.
+/// Returns the counters of all SPEs together, in the order of IBM's full-system simulator; several lines.
+/// `timing` is the machine's.
 CELLTRACE_EXPORT std::string counters_text(const EmulatedRun& run, const TimingParameters& timing);
 
-/// Where the cycles of a profile went, for people: the functions, hottest first, then the instructions of the
-/// hottest ones that make up `listed` (0..1) of all cycles together. `elf` is the program that was profiled;
-/// throws InputError if it is none.
+/// Returns a profile's cycles as text for people: the functions, hottest first, then the hottest
+/// instructions, which make up the share `listed` (0..1) of all cycles together. `elf` is the program that
+/// was profiled; throws InputError if it is no executable for the SPU.
 CELLTRACE_EXPORT std::string profile_text(const SpuProfile& profile, std::span<const std::uint8_t> elf,
                                           double listed = 0.95);
-/// The same as JSON, which docs/simulator.md describes, with all instructions that were executed.
+/// Returns the profile as JSON, which docs/simulator.md describes, with all instructions that were executed.
 CELLTRACE_EXPORT std::string profile_json(const SpuProfile& profile, std::span<const std::uint8_t> elf);
 
 } // namespace celltrace

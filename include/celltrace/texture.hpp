@@ -1,6 +1,6 @@
-// Textures: what surfaces look like. A pattern is a number at every point of space; maps make colours,
-// normals and whole textures of it. All formulas and defaults are POV-Ray's. Values of these types are plain:
-// copyable, and what they share is never changed.
+// Textures: the looks of surfaces. A pattern is a number at every point of space; maps turn it into colours,
+// normals and whole textures. All formulas and defaults are POV-Ray's. These types are plain values:
+// copyable, and the data that copies share is never changed.
 #pragma once
 
 #include "celltrace/transform.hpp"
@@ -14,8 +14,8 @@ namespace celltrace {
 struct Object;
 struct Pigment;
 
-/// Displaces points by noise: `amount` times a sum of `octaves` octaves, each of them `lambda` times finer
-/// and `omega` times weaker than the one before.
+/// A displacement of points by noise: `amount` times a sum of `octaves` octaves, each of them `lambda` times
+/// finer and `omega` times weaker than the one before.
 struct Turbulence {
   Vec3 amount{0, 0, 0};
   int octaves = 6; ///< 1 to 10
@@ -23,17 +23,17 @@ struct Turbulence {
   double lambda = 2;
 };
 
-/// The kinds of patterns. Numbers are those at
-/// a point p = (x, y, z) of the pattern's own space; most are in 0..1.
+/// The kinds of patterns. Each is a number at a point p = (x, y, z) of the pattern's own space, for most
+/// kinds in 0..1.
 namespace pattern {
 
-// Lists: the number is the index of the entry that is there.
-struct Checker {};    ///< unit cubes by turns: 2 entries
-struct Square {};     ///< unit squares of the xz plane: 4
-struct Hexagon {};    ///< hexagons with sides of length 1 in the xz plane: 3
-struct Triangular {}; ///< triangles in the xz plane: 6
-struct Cubic {};      ///< by the side of a cube that the point is seen through from the origin: 6
-/// Mortar and brick: 2.
+// Lists: the number is the index of an entry.
+struct Checker {};    ///< unit cubes in alternation: 2 entries
+struct Square {};     ///< unit squares of the xz plane: 4 entries
+struct Hexagon {};    ///< hexagons with sides of length 1 in the xz plane: 3 entries
+struct Triangular {}; ///< triangles in the xz plane: 6 entries
+struct Cubic {};      ///< by the side of a cube that the point is seen through from the origin: 6 entries
+/// Mortar and brick: 2 entries.
 struct Brick {
   Vec3 size{8, 3, 4.5};
   double mortar = 0.5;
@@ -44,81 +44,84 @@ struct Gradient {
   Vec3 direction{1, 0, 0}; ///< of any length but 0; the pattern repeats after one unit along it
 };
 struct Boxed {};       ///< from 1 at the origin to 0 at the sides of the cube from -1 to 1
-struct Spherical {};   ///< likewise of the unit sphere
-struct Cylindrical {}; ///< likewise of the unit cylinder around the y axis
-struct Planar {};      ///< likewise of the planes y = -1 and y = 1
+struct Spherical {};   ///< from 1 at the origin to 0 at the unit sphere
+struct Cylindrical {}; ///< from 1 on the y axis to 0 at the unit cylinder around it
+struct Planar {};      ///< from 1 at y = 0 to 0 at the planes y = -1 and y = 1
 struct Leopard {};     ///< spots in all directions
 struct Onion {};       ///< shells one unit apart
 struct Radial {};      ///< once around the y axis
-/// Arms around the z axis; with `is_crossed`, and as many the other way.
+/// Arms around the z axis; if `is_crossed`, crossed by as many in the other direction.
 struct Spiral {
   int arms = 1;
   bool is_crossed = false;
 };
-/// Pillows: cubes whose surfaces bulge as the two numbers say.
+/// Cubes whose surfaces bulge like pillows; the two controls say how much.
 struct Quilted {
   double control[2] = {1, 1};
 };
 
 // Blends of noise.
 struct Bozo {};     ///< smooth noise
-struct Bumps {};    ///< the same; as a normal, noise in each coordinate
-struct Dents {};    ///< its cube
+struct Bumps {};    ///< smooth noise; as a normal, noise in each coordinate
+struct Dents {};    ///< the cube of smooth noise
 struct Granite {};  ///< six octaves with creases
 struct Wrinkles {}; ///< ten octaves
 struct Agate {
-  double turbulence = 1; ///< by which its bands are bent
+  double turbulence = 1; ///< strength of the bending of its bands
 };
 struct Marble {};  ///< along x, with the pattern's turbulence
 struct Wood {};    ///< rings around the z axis, with the pattern's turbulence
-struct Ripples {}; ///< waves from points around the origin, which run into each other
-struct Waves {};   ///< likewise, of different lengths
-struct Cells {};   ///< unit cubes of a random number each
-/// Distances to the nearest of random points, of which there is one in each unit cube.
+struct Ripples {}; ///< waves from points around the origin, which overlap
+struct Waves {};   ///< as ripples, with waves of different lengths
+struct Cells {};   ///< a random number in each unit cube
+/// Distances to the nearest of random points, one in each unit cube.
 struct Crackle {
   double form[3] = {-1, 1, 0}; ///< factors of the three shortest distances
-  double metric = 2;           ///< 1: the sum of the coordinates' differences; 2: as the crow flies; ...
+  double metric = 2; ///< exponent of the distance: 1 adds the coordinates' differences, 2 is Euclidean
   double offset = 0;
-  bool is_solid = false; ///< one number for each of the points
+  bool is_solid = false; ///< one number in the whole cell of each point
 };
-/// How long a point of the xy plane takes to leave when it is iterated: the Mandelbrot set, and what is like
-/// it. POV-Ray's numbers of what is counted outside and inside of the set.
+/// The number of iterations after which a point of the xy plane escapes: the Mandelbrot set and similar
+/// fractals. `exterior` and `interior` are POV-Ray's numbers of the quantities that are shown outside and
+/// inside of the set.
 struct Fractal {
-  bool is_julia = false; ///< of `c`; otherwise each point is its own c
+  bool is_julia = false; ///< true: c is the same everywhere; false: each point is its own c
   double c[2] = {0, 0};
   int iterations = 1; ///< 0 to 65535
-  int exponent = 2;   ///< 2 to 33, of z^n + c
+  int exponent = 2;   ///< n in z^n + c, 2 to 33
   int magnet = 0;     ///< 1 or 2: formulas of magnetism, without exponent
   int exterior = 1;   ///< 0 to 8
   double exterior_factor = 1;
   int interior = 0; ///< 0 to 8
   double interior_factor = 1;
 };
-/// How much the surface faces a direction, 0 away from it to 1 toward it, by the angle; with an altitude, the
-/// mean with how far a point is along that. Each counts by the length of its vector.
+/// The angle between a surface's normal and a direction: 0 if the surface faces away, 1 if it faces toward.
+/// With an altitude, the mean of that and the point's position along the altitude, weighted by the lengths of
+/// both vectors.
 struct Slope {
-  Vec3 direction{0, 1, 0};    ///< in the scene, wherever the pattern is moved; 0 if only the altitude counts
-  double least = 0, most = 1; ///< of what the surface faces: here the number is 0 and 1
+  /// In the scene's space, however the pattern is transformed; 0 if only the altitude counts.
+  Vec3 direction{0, 1, 0};
+  double least = 0, most = 1; ///< slopes at which the number is 0 and 1
   Vec3 altitude{0, 0, 0};
-  double lowest = 0, highest = 1; ///< along the altitude: likewise
+  double lowest = 0, highest = 1; ///< positions along the altitude at which the number is 0 and 1
 };
-/// How bright a pigment is: 0.297 of its red, 0.589 of its green and 0.114 of its blue. It is in the space of
-/// this pattern, as if it were in its map; so it counts as one level of nested maps.
+/// The brightness of a pigment: 0.297 of its red, 0.589 of its green and 0.114 of its blue. The pigment is in
+/// the space of this pattern, as an entry of its map would be, and counts as one level of nested maps.
 struct Grey {
   std::shared_ptr<const Pigment> of;
 };
-/// A list of 2: what is outside of an object, and what is inside. The object is in the pattern's space; it
-/// has no meshes. Its materials and the like mean nothing.
+/// A list of 2 entries: outside and inside of an object. The object is in the pattern's space, and has no
+/// meshes. Its materials, interior and flags have no effect.
 struct Inside {
   std::shared_ptr<const Object> of;
 };
-/// Only as a normal: the same direction all over each cell of crackle's points.
+/// One direction in each cell of crackle's points; for normals only.
 struct Facets {
-  double coords = 0; ///< how far that may be from the surface's own; instead of the normal's amount
-  /// Instead of that, how large facets of a unit sphere are: they are as the surface's normal is, wherever
-  /// it is. Less than 0: it is smooth.
+  double coords = 0; ///< largest deviation from the surface's normal; replaces Normal::amount
+  /// Size of facets of a unit sphere, in place of `coords`: facets then depend on the surface's normal alone,
+  /// not on the point. Below 0: the surface is smooth.
   double size = 0;
-  double metric = 2; ///< as crackle's
+  double metric = 2; ///< as Crackle::metric
 };
 
 using Kind =
@@ -128,108 +131,113 @@ using Kind =
 
 } // namespace pattern
 
-/// How else space is bent.
+/// Warps: transformations of space other than affine ones and turbulence.
 namespace warp {
 
-/// The slice of space from 0 to `width` along an axis, again and again.
+/// Repeats the slice of space from 0 to `width` along an axis.
 struct Repeat {
   int axis = 0;         ///< 0 to 2
   double width = 1;     ///< not 0
-  Vec3 flip{0, 0, 0};   ///< every other slice is mirrored along axes of which this is not 0
-  Vec3 offset{0, 0, 0}; ///< of each slice from the one before
+  Vec3 flip{0, 0, 0};   ///< axes with a value other than 0 are mirrored in every other slice
+  Vec3 offset{0, 0, 0}; ///< shift of each slice against the one before
 };
-/// Draws points in a sphere to its centre.
+/// Draws the points in a sphere toward its centre.
 struct BlackHole {
   Vec3 centre{0, 0, 0};
   double radius = 1;
   double strength = 1;
   double falloff = 2;
-  bool is_inverse = false;  ///< pushes them away
-  Vec3 repeat{0, 0, 0};     ///< distances of its copies, 0 along axes without
-  Vec3 turbulence{0, 0, 0}; ///< of the copies
+  bool is_inverse = false;  ///< true: pushes the points away
+  Vec3 repeat{0, 0, 0};     ///< distances between copies, 0 along axes without copies
+  Vec3 turbulence{0, 0, 0}; ///< displacement of the copies
 };
 /// Wraps the unit square of the xy plane around a shape; z is the distance.
 struct Mapping {
   enum class Shape { planar, cylindrical, spherical, toroidal };
   Shape shape = Shape::planar;
   Vec3 orientation{0, 0, 1};
-  double distance = 0;          ///< of planar: what z is
-  double distance_exponent = 0; ///< of the others: the square grows with the distance to this power
-  double major_radius = 1;      ///< of toroidal
+  double distance = 0; ///< value of z, for planar
+  /// Exponent for the other shapes: the square grows with the distance to this power.
+  double distance_exponent = 0;
+  double major_radius = 1; ///< major radius of the torus
 };
 
 } // namespace warp
 
-/// What is done to space before the pattern is asked.
+/// A step that transforms space before the pattern is evaluated.
 using SpaceStep = std::variant<Transform, Turbulence, warp::Repeat, warp::BlackHole, warp::Mapping>;
 
 struct Pattern {
   enum class Wave { ramp, triangle, sine, scallop, cubic, poly };
 
   pattern::Kind kind = pattern::Gradient{};
-  /// As written from the pattern outward: to a point in the scene the last one is done first.
+  /// In the order in which a scene's text has them: the last one is the first to be applied to a point of the
+  /// scene.
   std::vector<SpaceStep> space = {};
-  Turbulence turbulence = {}; ///< of points in the pattern's own space, after all steps
+  Turbulence turbulence = {}; ///< displaces points in the pattern's own space, after all steps
   Wave wave = Wave::ramp;
-  double wave_exponent = 1; ///< of Wave::poly
-  double frequency = 1;     ///< 0: the number as it is, without phase, in its wave
+  double wave_exponent = 1; ///< exponent of Wave::poly
+  double frequency = 1;     ///< 0: the wave gets the number as it is, without phase
   double phase = 0;
   int noise_generator = 0; ///< 1 to 3 as POV-Ray counts them; 0: the scene's
-  /// Its space is that of (u, v, 0), the surface's coordinates, wherever in the scene the surface is and
-  /// whatever maps are around. They are 0 to 1 around a sphere, from pole to pole; over an unfolded box;
-  /// around a torus, and its tube; a Mesh says its own; of all other shapes they are x and y of the point in
-  /// the scene.
+  /// True: the pattern's space is (u, v, 0), the surface's coordinates, wherever in the scene the surface is
+  /// and whatever maps are around the pattern. The coordinates are 0 to 1 around a sphere and from pole to
+  /// pole; over an unfolded box; around a torus and its tube; a Mesh has its own; for all other shapes they
+  /// are x and y of the point in the scene.
   bool uv_mapping = false;
-  /// With uv_mapping: what normals go through from there to the scene. Points do not.
+  /// Transformation of normals, not of points, from that space to the scene; with uv_mapping.
   Transform normal_space = {};
 };
 
-/// What a pattern's numbers stand for. Between two entries values are blended, before the first and after the
-/// last they are theirs; lists take the entry of the number. No more than 256 entries, at least one; nested
-/// no deeper than kDeepestMap.
+/// The values that a pattern's numbers stand for. Between two entries values are blended, before the first
+/// and after the last entry they are its value; lists take the entry whose index is the number. 1 to 256
+/// entries; nested no deeper than kDeepestMap.
 ///
-/// Patterns inside an entry are in the space of the map's pattern: they are asked at the point that this one
-/// is asked at, after its steps and its turbulence (marble and wood use theirs inside, it moves no points).
-/// So is everything inside an average.
+/// Patterns inside an entry, also of an average, are in the space of the map's pattern: they are evaluated at
+/// the same point, after its steps and its turbulence (but the turbulence of marble and wood moves no
+/// points).
 template <class T> struct PatternMap {
   struct Entry {
-    double position; ///< ascending; of lists it means nothing; of an average, the entry's weight
+    double position; ///< ascending; of an average, the entry's weight; lists ignore it
     T value;
   };
   Pattern pattern;
   std::vector<Entry> entries;
-  bool is_average = false; ///< all entries by their weights; of the pattern only steps and turbulence count
+  /// The mean of all entries by their weights; of the pattern only steps and turbulence count.
+  bool is_average = false;
 };
 inline constexpr int kDeepestMap = 8;
 inline constexpr int kMostMapEntries = 256;
 
-/// Colour with POV-Ray's two transparency channels; neither is limited to 0..1.
+/// A colour with POV-Ray's two transparency channels; neither is limited to 0..1.
 struct Pigment {
   Vec3 rgb{0, 0, 0};
   double filter = 0;
   double transmit = 0;
-  std::shared_ptr<const PatternMap<Pigment>> map = nullptr; ///< instead of the above
+  std::shared_ptr<const PatternMap<Pigment>> map = nullptr; ///< replaces the members above
 
-  /// Maps are equal if they are the same object.
+  /// True if all members are equal; maps are equal if they are the same object.
   bool operator==(const Pigment&) const = default;
 };
 
 /// A point of a curve over a pattern's numbers.
 struct SlopePoint {
-  double position; ///< ascending, as those of maps
+  double position; ///< ascending
   double height;
-  double slope; ///< of the curve, from one point to the next
+  double slope; ///< slope of the curve at this point
 };
 
-/// Disturbs the direction of a surface, as if it were not smooth.
+/// A disturbance of the surface's normal, which makes the surface look rough.
 struct Normal {
   Pattern pattern = {pattern::Bumps{}};
-  double amount = 0.5;    ///< how deep
-  double accuracy = 0.02; ///< distance of the points that slopes are taken of, in the pattern's space
-  /// Heights instead of the pattern's numbers; no more than 256. Empty: the numbers. Patterns that disturb by
-  /// another rule than their slope ignore it: bumps, dents, wrinkles, quilted, ripples, waves, facets.
+  double amount = 0.5; ///< depth of the bumps
+  /// Distance between the points that slopes are computed from, in the pattern's space.
+  double accuracy = 0.02;
+  /// Curve that turns the pattern's numbers into heights, at most 256 points; empty: the numbers are the
+  /// heights. Patterns that do not disturb by their slope ignore it: bumps, dents, wrinkles, quilted,
+  /// ripples, waves, facets.
   std::vector<SlopePoint> slopes = {};
-  std::shared_ptr<const PatternMap<Normal>> map = nullptr; ///< instead of the above
+  std::shared_ptr<const PatternMap<Normal>> map = nullptr; ///< replaces the members above
 };
 
 /// POV-Ray's finish with POV-Ray's defaults.
@@ -237,13 +245,14 @@ struct Finish {
   Vec3 ambient{0.1, 0.1, 0.1};
   Vec3 emission{0, 0, 0};
   double diffuse = 0.6;
-  double diffuse_behind = 0; ///< of light that falls on the other side, which makes no highlights
+  /// Diffuse share of light that falls on the other side, which makes no highlights.
+  double diffuse_behind = 0;
   double brilliance = 1;
   double phong = 0;
   double phong_size = 40;
   double specular = 0;
   double roughness = 0.05;
-  double metallic = 0; ///< of the highlights
+  double metallic = 0; ///< share of the pigment's colour in the highlights
   Vec3 reflection_min{0, 0, 0};
   Vec3 reflection_max{0, 0, 0};
   double reflection_falloff = 1;
@@ -251,26 +260,26 @@ struct Finish {
   double reflection_metallic = 0;
   bool reflection_fresnel = false;
   bool conserve_energy = false;
-  double crand = 0; ///< diffuse light is less by up to so much, at random
-  double irid = 0;  ///< a film on the surface makes light stronger or weaker by up to this share of it,
-  double irid_thickness = 0;  ///< of this thickness,
-  double irid_turbulence = 0; ///< which noise changes
+  double crand = 0;           ///< largest random loss of diffuse light
+  double irid = 0;            ///< a thin film makes light stronger or weaker by up to this share
+  double irid_thickness = 0;  ///< thickness of the film
+  double irid_turbulence = 0; ///< noise in the thickness
 
   bool operator==(const Finish&) const = default;
 };
 
-/// A texture, in the space of the scene: patterns do not move with the objects that have it.
+/// A texture, in the space of the scene: patterns do not move with the objects that use it.
 struct Material {
   Pigment pigment;
   Finish finish;
   std::shared_ptr<const Normal> normal = nullptr;  ///< null: the surface is smooth
   std::shared_ptr<const Material> below = nullptr; ///< the layer that shines through this one
   std::shared_ptr<const PatternMap<Material>> map =
-      nullptr; ///< instead of all of the above; no entry is a layer over others' map
-  /// Of an object's material: what it looks like from inside, itself without one. Null: the same.
+      nullptr; ///< replaces all members above; no entry may be a layer over others' map
+  /// Look of an object's material from inside; has no `inside` itself. Null: the same as from outside.
   std::shared_ptr<const Material> inside = nullptr;
 
-  /// Normals, maps and other materials are equal if they are the same object.
+  /// True if all members are equal; normals, maps and other materials are equal if they are the same object.
   bool operator==(const Material&) const = default;
 };
 inline constexpr int kMostLayers = 64;

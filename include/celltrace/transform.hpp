@@ -17,20 +17,20 @@ struct CELLTRACE_EXPORT Transform {
   Vec3 rows[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
 
   static Transform translate(const Vec3& offset);
-  /// About x, then y, then z, in degrees, left-handed. NaN where an angle is not finite.
+  /// Rotates about x, then y, then z, in degrees, left-handed. NaN if an angle is not finite.
   static Transform rotate(const Vec3& degrees);
-  /// A factor of 0 counts as 1, as in POV-Ray.
+  /// Scales; a factor of 0 counts as 1, as in POV-Ray.
   static Transform scale(const Vec3& factors);
   static Transform matrix(const double (&values)[12]);
 
   Vec3 point(const Vec3& p) const { return p.x * rows[0] + p.y * rows[1] + p.z * rows[2] + rows[3]; }
   Vec3 direction(const Vec3& d) const { return d.x * rows[0] + d.y * rows[1] + d.z * rows[2]; }
-  /// A normal transforms by the inverse transpose; not normalised.
+  /// Transforms a normal by the inverse transpose; the result is not normalised.
   Vec3 normal(const Vec3& n) const;
   double determinant() const;
   /// Throws InputError if the transformation is singular.
   Transform inverse() const;
-  /// First this, then `next`.
+  /// Returns the transformation that applies this one first, then `next`.
   Transform then(const Transform& next) const;
   bool is_identity() const;
 };

@@ -14,18 +14,18 @@ using cache_trace::Operation;
 
 namespace {
 
-/// A state of a line: once main memory has changed, the line is another one.
+/// A version of a line: when main memory has changed, the line counts as another one.
 using Version = std::uint32_t;
 
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
-/// What happens to a set.
+/// An event in a set.
 struct Event {
   Version version = 0;
-  std::size_t next_use = kNever; ///< of the version: number of an event
+  std::size_t next_use = kNever; ///< number of the event that uses the version next
   std::uint32_t kind = 0;
-  std::uint32_t times = 0; ///< that it counts as a reference: not for a prefetch
-  bool reset = false;      ///< only the counters are
+  std::uint32_t times = 0; ///< number of references that it counts as: 0 for a prefetch
+  bool reset = false;      ///< true if only the counters are reset
 };
 
 /// The events of every set.
@@ -89,13 +89,13 @@ private:
   Version versions_ = 0;
 };
 
-/// A set that knows the future.
+/// A set with knowledge of the future.
 class Set {
 public:
-  /// `next_use` is room for all versions: of those in the set, when they are needed next.
+  /// Makes the set. `next_use` has room for all versions: for those in the set, the event of their next use.
   Set(std::uint32_t ways, std::vector<std::size_t>& next_use) : ways_(ways), next_use_(next_use) {}
 
-  /// True if the version was there.
+  /// Uses a version; returns true if it was in the set.
   bool use(const Event& event) {
     const bool hit = next_use_[event.version] != kAbsent;
     if (!hit) make_room();
@@ -112,7 +112,7 @@ private:
       ++lines_;
       return;
     }
-    // Entries are left behind when a version is used: they say when it was needed that time.
+    // A used version leaves entries with its earlier next uses behind.
     while (next_use_[by_next_use_.top().second] != by_next_use_.top().first)
       by_next_use_.pop();
     next_use_[by_next_use_.top().second] = kAbsent;

@@ -1,4 +1,4 @@
-// A replay is the cache itself on an SPU that has nothing but room.
+// Replays with the cache itself on an SPU that has only local store.
 #include "celltrace/cache/replay.hpp"
 
 #include "celltrace/cache.hpp"
@@ -14,7 +14,7 @@ using cache_trace::Operation;
 
 namespace {
 
-/// Transfers are counted, and move nothing.
+/// An SPU that counts transfers without moving data.
 class CountingSpu {
 public:
   static constexpr bool direct_memory = false;
@@ -27,7 +27,7 @@ public:
     const std::size_t at = next_;
     next_ += count * sizeof(T);
     if (next_ > store_.size() * kLineBytes) halt(HaltCode::local_store_exhausted);
-    // Of all lines: an object may be longer than one.
+    // An object may be longer than a line, so the check is against all of the store.
     T* objects = reinterpret_cast<T*>(reinterpret_cast<std::byte*>(store_.data()) + at);
     for (std::uint32_t i = 0; i < count; ++i)
       new (static_cast<void*>(objects + i)) T();
@@ -74,7 +74,7 @@ public:
     case Operation::prefetch:
       return cache_.prefetch(offset);
     case Operation::synchronize:
-      // One byte less: there may be no offset behind the last line.
+      // One byte less, because there may be no offset behind the last line.
       return cache_.synchronize(offset, request.count * kLineBytes - 1);
     case Operation::synchronize_all:
       return cache_.synchronize_all();

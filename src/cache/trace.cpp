@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t kAllLines = 1u << (32 - kOperationBits);
 
-/// The shape that two words say; in no other way than the cache does.
+/// Returns the shape that two words encode, checked against the cache's own encoding.
 CacheConfig config_of(std::uint32_t first, std::uint32_t second) {
   CacheConfig config;
   config.ways = first >> 16;
@@ -33,7 +33,7 @@ CacheConfig config_of(std::uint32_t first, std::uint32_t second) {
   return config;
 }
 
-/// Takes the words of one cache.
+/// Decodes the words of one cache.
 class Decoder {
 public:
   /// Returns the number of requests that were added.
@@ -86,7 +86,7 @@ private:
     return request;
   }
 
-  /// So that nobody waits for days.
+  /// Limit, so that a replay does not take days.
   static constexpr std::uint64_t kMaxRepetitions = std::uint64_t{1} << 36;
 
   std::uint64_t repetitions_ = 0;
@@ -100,7 +100,7 @@ public:
     file_.read(magic.data(), magic.size());
     if (!file_ || magic != kMagic) refuse("the file is none");
   }
-  /// False at the end.
+  /// Returns false at the end.
   bool next(ChunkHead& head, std::vector<std::uint32_t>& words) {
     if (file_.peek() == std::istream::traits_type::eof()) return false;
     const std::vector<std::uint32_t> numbers = read(3);
@@ -148,7 +148,7 @@ std::vector<CacheTrace> read_cache_traces(std::istream& file, std::uint64_t max_
   while (reader.next(head, words)) {
     Entry& entry = caches[{head.spe, head.cache}];
     entry.trace.spe = head.spe;
-    // A cache counts as a request: a file of nothing but caches must not take more memory either.
+    // A cache counts as a request: a file with nothing but caches must not take more memory either.
     requests += 1 + entry.decoder.take(entry.trace, words);
     if (requests > max_requests) refuse("it has more than " + std::to_string(max_requests) + " requests");
   }

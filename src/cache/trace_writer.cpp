@@ -33,7 +33,7 @@ public:
     }
     Stream& stream = *from.last;
     if (stream.words_to_come == 0 && operation_of(word) == Operation::begin) {
-      // Where a cache was that is gone.
+      // A new cache lies where an old one was.
       write(spe, stream);
       stream.cache = from.caches++;
     }
@@ -48,13 +48,13 @@ public:
   }
 
 private:
-  /// Of one cache.
+  /// The words of one cache.
   struct Stream {
     std::uint32_t cache = 0;
     std::vector<std::uint32_t> words;
     bool after_reference = false;    ///< the last word is a reference, which may be repeated
-    std::uint32_t repeats = 0;       ///< of it, not yet among the words
-    std::uint32_t words_to_come = 0; ///< that belong to the last operation
+    std::uint32_t repeats = 0;       ///< repetitions of it that are not yet among the words
+    std::uint32_t words_to_come = 0; ///< words still to come that belong to the last operation
   };
   struct Spe {
     std::unordered_map<const void*, Stream> streams;
@@ -72,7 +72,7 @@ private:
         return;
       }
       end_repeats(stream);
-      // No operation is cut in two.
+      // Words of one operation stay in one chunk.
       if (stream.words.size() + 4 > kMaxChunkWords) write(spe, stream);
       stream.words_to_come = words_after(operation_of(word));
       stream.after_reference = is_reference(word);
@@ -98,7 +98,7 @@ private:
     file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
 
-  std::mutex mutex_; ///< of the file
+  std::mutex mutex_; ///< for the file
   std::ostream& file_;
   std::vector<Spe> spes_;
 };

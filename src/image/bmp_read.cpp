@@ -1,4 +1,4 @@
-// Windows' bitmaps in: of 24 and 32 bits a pixel, not compressed.
+// Reads Windows' bitmaps of 24 and 32 bits a pixel that are not compressed.
 #include "image/formats.hpp"
 #include "image/limits.hpp"
 
@@ -10,7 +10,7 @@ namespace celltrace::image {
 namespace {
 
 constexpr std::size_t kBmpHeader = 54,
-                      kAlphaMask = 66; ///< with version 3's header; where version 4 has the mask
+                      kAlphaMask = 66; ///< with the header of version 3; place of the mask in version 4
 
 std::int64_t number_at(const std::uint8_t* bytes, int count) {
   std::int64_t number = 0;
@@ -20,7 +20,7 @@ std::int64_t number_at(const std::uint8_t* bytes, int count) {
 }
 
 struct BmpHeader {
-  std::int64_t first; ///< where pixels begin
+  std::int64_t first; ///< offset of the pixels
   int width, height;
   bool from_the_top;
   std::size_t pixel_bytes;
@@ -50,7 +50,7 @@ BmpHeader header_of(std::FILE* file) {
           has_alpha};
 }
 
-/// Alpha that is 0 everywhere is none: version 3's header does not say what the fourth byte is.
+/// Drops alpha that is 0 everywhere: the header of version 3 does not say what the fourth byte means.
 void drop_empty_alpha(Image& image) {
   for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4)
     if (image.rgba[alpha] != 0) return;

@@ -1,5 +1,5 @@
-// Windows' bitmaps out, after Microsoft's "Bitmap Storage": rows from the bottom, as most readers want them,
-// and a header of version 3. Alpha is the fourth byte of a pixel, for which that header has no word: most
+// Writes Windows' bitmaps, after Microsoft's "Bitmap Storage": rows from the bottom, as most readers expect,
+// and a header of version 3. Alpha is the fourth byte of a pixel, which this header does not define: most
 // readers take it for alpha nevertheless, and POV-Ray writes it so.
 #include "image/format_table.hpp"
 #include "image/rows.hpp"
@@ -40,7 +40,7 @@ private:
     put(kFirst);
     put(kInfoHeader);
     put(static_cast<std::uint32_t>(format().width));
-    put(static_cast<std::uint32_t>(format().height)); // above 0: from the bottom
+    put(static_cast<std::uint32_t>(format().height)); // positive: rows from the bottom
     put(1, 2);
     put(static_cast<std::uint32_t>(8 * bytes_), 2);
     put(kNoCompression);
@@ -68,7 +68,7 @@ private:
   }
   void end() override { out_.finish(); }
 
-  std::size_t bytes_; ///< a pixel
+  std::size_t bytes_; ///< bytes of a pixel
   std::size_t row_bytes_;
   SeekableFile out_;
   std::vector<std::uint8_t> rows_;

@@ -44,7 +44,7 @@ void count_differences(const Image& a, const Image& b, Comparison& result) {
   }
 }
 
-/// Rec. 601 luma, 0..255.
+/// Returns the Rec. 601 luma, 0..255.
 double luma(const std::uint8_t* rgb) {
   return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
 }
@@ -53,7 +53,8 @@ struct Block {
   int x, y, width, height;
 };
 
-/// Wang et al. (2004), equation 13, with K1 = 0.01 and K2 = 0.03 and population statistics.
+/// Returns the SSIM of a block: Wang et al. (2004), equation 13, with K1 = 0.01, K2 = 0.03 and population
+/// statistics.
 double ssim(const Image& a, const Image& b, const Block& block) {
   double sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
   for (int y = block.y; y < block.y + block.height; ++y)

@@ -1,5 +1,5 @@
-// DirectDraw surfaces of format DXT1 out, and their blocks as pixels. The header is that of Microsoft's
-// "Programming guide for DDS".
+// Writes DirectDraw surfaces of format DXT1, and converts their blocks to pixels. The header is that of
+// Microsoft's "Programming guide for DDS".
 #include "image/formats.hpp"
 #include "image/limits.hpp"
 
@@ -9,7 +9,7 @@ namespace celltrace::image {
 
 namespace {
 
-/// Words of the header, the magic number first.
+/// The words of the header, the magic number first.
 using DdsHeader = std::array<std::uint32_t, 32>;
 
 constexpr std::uint32_t four_characters(const char (&text)[5]) {
@@ -19,7 +19,7 @@ constexpr std::uint32_t four_characters(const char (&text)[5]) {
   return word;
 }
 
-/// Red, green and blue of 5, 6 and 5 bits.
+/// Returns red, green and blue from 5, 6 and 5 bits.
 std::array<int, 3> colour_of(unsigned end) {
   const unsigned red = end >> 11, green = end >> 5 & 63, blue = end & 31;
   return {static_cast<int>(red << 3 | red >> 2), static_cast<int>(green << 2 | green >> 4),
@@ -58,7 +58,7 @@ void write_dds(std::FILE* file, const BlockImage& blocks) {
   constexpr std::uint32_t kFourCharacters = 0x4, kTexture = 0x1000;
   DdsHeader header = {};
   header[0] = four_characters("DDS ");
-  header[1] = 124; // bytes of what follows
+  header[1] = 124; // bytes of the header from here on
   header[2] = kCaps | kHeight | kWidth | kPixelFormat | kLinearSize;
   header[3] = static_cast<std::uint32_t>(blocks.height);
   header[4] = static_cast<std::uint32_t>(blocks.width);

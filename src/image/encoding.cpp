@@ -9,7 +9,7 @@ namespace celltrace::image {
 
 namespace {
 
-/// POV-Ray's luminance.
+/// Returns POV-Ray's luminance.
 double luminance(const float* rgb) {
   return 0.297 * static_cast<double>(rgb[0]) + 0.589 * static_cast<double>(rgb[1]) +
          0.114 * static_cast<double>(rgb[2]);
@@ -19,7 +19,7 @@ template <class Channel> Channel rounded(double value) {
   return static_cast<Channel>(std::lround(value * std::numeric_limits<Channel>::max()));
 }
 
-/// Returns 0 for what is not a number.
+/// Returns the value clipped to 0..1, and 0 for NaN.
 double clipped(double value) {
   return value > 0 ? std::min(value, 1.0) : 0;
 }
@@ -41,7 +41,7 @@ void Encoding::encode(const float* rgba, std::size_t pixels, Channel* out, Alpha
     double alpha = kept == Alpha::kept ? clipped(static_cast<double>(pixel[3])) : 1;
     double share = 1;
     if (alpha < 1) {
-      // Luminance that is not a number leaves alpha as it is.
+      // Luminance that is NaN leaves alpha unchanged.
       if (const double bright = std::min(luminance(pixel), 1.0); bright > alpha) alpha = bright;
       if (alpha > 0) share = 1 / alpha;
     }

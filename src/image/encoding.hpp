@@ -1,4 +1,4 @@
-// How colours as rays brought them become the values of files.
+// Encodes colours as rays brought them for files.
 #pragma once
 
 #include "celltrace/image.hpp"
@@ -10,20 +10,21 @@ namespace celltrace::image {
 
 /// The treatment of alpha.
 enum class Alpha {
-  kept,    ///< colours are divided by their alpha, as files with alpha have them
-  left_out ///< colours stay as they are: in front of black
+  kept,    ///< colours are divided by their alpha, for files with alpha
+  left_out ///< colours are not divided: they appear in front of black
 };
 
 /// Encodes colours for files of 8 or 16 bits a channel.
 class Encoding {
 public:
-  /// `colour_gamma` as ColourImage::gamma; colours that are for display as they are ignore `file`.
+  /// Makes an encoding. `colour_gamma` as ColourImage::gamma; colours that are for display as they are ignore
+  /// `file`.
   explicit Encoding(std::optional<double> colour_gamma, const FileGamma& file = {})
       : colour_gamma_(colour_gamma), power_(file.power) {}
 
-  /// Returns the encoded value, 0 to 1, of one channel. What is not a number becomes 0.
+  /// Returns the encoded value, 0 to 1, of one channel. NaN becomes 0.
   double encoded(double colour) const;
-  /// Encodes `pixels` pixels of four channels. `grey` makes the three colours their luminance.
+  /// Encodes `pixels` pixels of four channels. `grey` replaces the three colours by their luminance.
   template <class Channel>
   void encode(const float* rgba, std::size_t pixels, Channel* out, Alpha alpha, bool grey) const;
 
@@ -35,7 +36,7 @@ private:
 /// Returns the light, 0 to 1, that an encoded value from 0 to 1 stands for.
 double decoded(double value, const FileGamma& gamma);
 
-/// Makes the colours of `count` rows linear, in place. `gamma` as ColourImage::gamma.
+/// Makes the colours of `pixels` pixels linear, in place. `gamma` as ColourImage::gamma.
 void make_linear(float* rgba, std::size_t pixels, std::optional<double> gamma);
 
 } // namespace celltrace::image

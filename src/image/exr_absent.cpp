@@ -1,4 +1,4 @@
-// Builds without OpenEXR.
+// Replaces exr_write.cpp in builds without OpenEXR.
 #include "image/format_table.hpp"
 
 namespace celltrace::image {

@@ -1,4 +1,4 @@
-// OpenEXR out, by its library; its errors become ours here.
+// Writes OpenEXR by its library, whose errors are converted here.
 #include "image/format_table.hpp"
 #include "image/rows.hpp"
 #include "image/seekable.hpp"
@@ -18,7 +18,7 @@ namespace celltrace::image {
 
 namespace {
 
-/// A file as the library writes it: it goes back to where it says how long the parts are.
+/// A file for the library, which seeks back to write the lengths of the parts.
 class PictureStream : public Imf::OStream {
 public:
   PictureStream(std::FILE* file, std::uint64_t expected) : OStream("picture"), file_(file, expected) {}
@@ -32,11 +32,11 @@ private:
   SeekableFile file_;
 };
 
-/// A channel of a file, and where its pixels are in what is written.
+/// A channel of a file, and the place of its pixels in the rows to write.
 struct Channel {
   const char* name;
   Imf::PixelType type;
-  std::size_t first, stride; ///< in numbers
+  std::size_t first, stride; ///< in numbers of its type
   enum { colours, depth, normal, object } source;
 };
 
@@ -73,7 +73,7 @@ private:
     return channels;
   }
 
-  /// Lets `work` call the library.
+  /// Runs `work`, which calls the library, and converts the library's errors.
   template <class Work> static void translating(Work work) {
     try {
       work();
@@ -117,12 +117,12 @@ private:
     row_ += count;
   }
 
-  /// `first` is of the next row; the library counts from the picture's first.
+  /// Adds a channel. `first` is of the next row; the library counts from the picture's first row.
   template <class Number>
   void add(Imf::FrameBuffer& frame, const Channel& channel, const Number* first, std::size_t stride) const {
     const std::size_t row_bytes = stride * sizeof(Number) * width();
     const auto base = reinterpret_cast<std::uintptr_t>(first) - static_cast<std::uintptr_t>(row_) * row_bytes;
-    // The library takes no pointer to what is constant; it only reads.
+    // The library only reads, but takes no pointer to const.
     frame.insert(channel.name,
                  Imf::Slice(channel.type, reinterpret_cast<char*>(base), stride * sizeof(Number), row_bytes));
   }
@@ -134,7 +134,7 @@ private:
 
   PictureStream stream_;
   std::optional<Imf::OutputFile> out_;
-  std::int64_t row_ = 0; ///< the next one
+  std::int64_t row_ = 0; ///< number of the next row
 };
 
 } // namespace

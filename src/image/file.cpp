@@ -27,7 +27,7 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
-/// A name beside the target that no other thread or process takes.
+/// Returns a name beside the target that no other thread or process uses.
 fs::path temporary_name(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
   fs::path name = target;
@@ -47,14 +47,14 @@ bool is_writable(const fs::path& path) {
   return faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0;
 }
 
-/// Throws InputError for a regular file that is there and must not be written.
+/// Throws InputError for an existing regular file that must not be written.
 void check_permission(const fs::path& file, const struct stat& status) {
   if ((status.st_mode & 0222) == 0) throw InputError("is write-protected");
   if (!is_writable(file)) fail(errno);
 }
 
-/// Gives a new file the mode and the owner of the one whose place it is to take. False: that is not possible,
-/// or it has more to lose.
+/// Gives a new file the mode and the owner of the one that it is to replace. Returns false if that is not
+/// possible, or if replacing would lose more than these.
 bool takes_after(int descriptor, const fs::path& path, const struct stat& old) {
   struct stat status;
   if (old.st_nlink > 1 || fstat(descriptor, &status) != 0) return false;
@@ -65,7 +65,7 @@ bool takes_after(int descriptor, const fs::path& path, const struct stat& old) {
   return fchmod(descriptor, old.st_mode & 07777) == 0;
 }
 
-/// Makes a file have the bytes of another one.
+/// Gives a file the bytes of another one.
 void copy_into(const fs::path& target, int source) {
   struct Descriptor {
     int number;
@@ -196,7 +196,7 @@ OutputFile::OutputFile(const fs::path& path) {
     file_.reset(fdopen(descriptor, "w+b"));
   } else {
     temporary_.clear();
-    if (is_there) file_.reset(std::tmpfile()); // the folder cannot be written, but the file
+    if (is_there) file_.reset(std::tmpfile()); // the folder cannot be written, but the file can
   }
   if (!file_) fail(error);
 }
@@ -224,12 +224,12 @@ void OutputFile::take_name() {
 
 void OutputFile::commit() {
   if (std::ferror(file_.get()) != 0)
-    throw InputError("cannot be written to its end"); // why, the write that failed has known
+    throw InputError("cannot be written to its end"); // the reason is known only to the write that failed
   if (std::fflush(file_.get()) != 0) fail(errno);
   if (!target_.empty()) take_name();
   const bool closed = std::fclose(file_.release()) == 0;
   const int error = errno;
-  if (!temporary_.empty()) { // was copied
+  if (!temporary_.empty()) { // the bytes were copied
     std::error_code ignored;
     fs::remove(std::exchange(temporary_, {}), ignored);
   }
@@ -246,7 +246,7 @@ void remove_abandoned_parts(const std::set<fs::path>& paths) {
   for (const fs::path& folder : folders) {
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-      // As temporary_name() makes them: TARGET.PROCESS-NUMBER.part
+      // Names have the form of temporary_name(): TARGET.PROCESS-NUMBER.part.
       const fs::path file = entry.path();
       if (file.extension() != ".part" || targets.count(file.parent_path() / file.stem().stem()) == 0)
         continue;

@@ -1,4 +1,4 @@
-// Files as the picture formats use them: C streams that close themselves and appear whole or not at all.
+// Files for the picture formats: C streams that close themselves and appear whole or not at all.
 #pragma once
 
 #include <cstdio>
@@ -16,27 +16,27 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 /// Opens a regular file for reading. Throws InputError without the path ("cannot be opened: ...").
 File open_for_reading(const std::filesystem::path& path);
 
-/// Returns where a path leads, also if nothing is there yet.
+/// Returns the target of a path after symbolic links, also if it does not exist yet.
 std::filesystem::path follow_links(std::filesystem::path path);
 
 /// Returns the descriptor of this process that a path such as /dev/stdout or /dev/fd/3 names; -1: none.
 int descriptor_named(const std::filesystem::path& path);
 
-/// Whether a path names an open descriptor, or something that exists and is neither a regular file nor a
-/// folder: a pipe or a device, to which bytes are written as they come.
+/// Returns true if a path names an open descriptor, or something that exists and is neither a regular file
+/// nor a folder: a pipe or a device, to which bytes are written directly.
 bool is_stream(const std::filesystem::path& path);
 
 /// Throws the InputError that an OutputFile for this path would throw. Nothing is written.
 void check_output(const std::filesystem::path& path);
 
-/// A file that is complete when it takes the name `path`, on commit(); without commit() nothing happens. It
-/// is written under another name in the same folder and renamed. A file that is there keeps its mode, its
-/// owner and its other names (hard links): where renaming would change them, or the folder cannot be written,
+/// A file that becomes complete when it takes the name `path`, on commit(); without commit() nothing happens.
+/// It is written under another name in the same folder and renamed. An existing file keeps its mode, its
+/// owner and its other names (hard links): if renaming would change them, or the folder cannot be written,
 /// the bytes are copied into it. Links are followed; streams are written to directly. Not thread safe;
 /// several objects for the same path may exist, the last commit() wins.
 class OutputFile {
 public:
-  /// Throws InputError if nothing can be written there: a file without a permission to write is protected
+  /// Throws InputError if the path cannot be written: a file without a permission to write is protected
   /// from root, too.
   explicit OutputFile(const std::filesystem::path& path);
   OutputFile(const OutputFile&) = delete;
@@ -51,11 +51,11 @@ private:
   void take_name();
 
   std::filesystem::path target_;    ///< empty: a stream
-  std::filesystem::path temporary_; ///< empty: a file without a name is to be copied
+  std::filesystem::path temporary_; ///< empty: a nameless file is copied
   File file_;
 };
 
-/// Removes what processes that were killed have left of an OutputFile for one of these paths.
+/// Removes files that killed processes have left of an OutputFile for one of these paths.
 void remove_abandoned_parts(const std::set<std::filesystem::path>& paths);
 
 } // namespace celltrace::image

@@ -11,7 +11,7 @@ namespace celltrace::image {
 
 namespace {
 
-constexpr std::int64_t kMostPixels = 1 << 28; // a side: a row has 2^31 bytes at most
+constexpr std::int64_t kMostPixels = 1 << 28; // a side: a row has at most 2^31 bytes
 constexpr std::uint64_t kAnySize = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t k32Bits = std::numeric_limits<std::uint32_t>::max();
 
@@ -72,9 +72,9 @@ void check(const FormatRow& row, const RowFormat& format) {
     throw InputError(name + " has no channels of " + std::to_string(format.bits) + " bits");
   if (format.first_hits && row.format != ImageFormat::exr)
     throw InputError(name + " has no channels of what is seen first");
-  // The product of two sides of 31 bits and 8 bytes a channel at most fits.
+  // The product fits 64 bits: two sides of 31 bits, and at most 8 bytes a channel.
   const auto pixels = static_cast<std::uint64_t>(format.width) * static_cast<std::uint64_t>(format.height);
-  constexpr std::uint64_t kHeader = 1024; // more than any format has besides pixels
+  constexpr std::uint64_t kHeader = 1024; // more than any format needs besides pixels
   if (pixels > (row.limits.bytes - kHeader) / static_cast<std::uint64_t>(format.channels))
     throw InputError("a picture of " + size_text(format) + " pixels is too large for " + name);
 }
@@ -117,7 +117,7 @@ std::unique_ptr<RowWriter> open_rows(std::FILE* file, ImageFormat format, const 
   check(row, rows);
   RowFormat stored = rows;
   if (!row.holds.alpha) stored.channels = rows.channels < 3 ? 1 : 3;
-  if (!rows.colour_gamma) stored.gamma = {}; // colours are as they are, which readers take for sRGB
+  if (!rows.colour_gamma) stored.gamma = {}; // values are written unchanged, which readers take for sRGB
   return row.open(file, stored);
 }
 

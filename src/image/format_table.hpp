@@ -1,4 +1,4 @@
-// The picture formats as a table: what each is called and can hold, and who writes it.
+// The picture formats as a table: their names, what each can hold, and the functions that write it.
 #pragma once
 
 #include "image/row_writer.hpp"
@@ -20,28 +20,29 @@ enum class Pixels {
 
 struct FormatChannels {
   Pixels pixels;
-  std::vector<int> bits; ///< a channel, the usual number first
+  std::vector<int> bits; ///< bits a channel, the usual number first
   bool grey, alpha;      ///< whether the format has these
 };
 
 struct FormatLimits {
   std::int64_t side;   ///< pixels
-  std::uint64_t bytes; ///< of a file
+  std::uint64_t bytes; ///< bytes of a file
 };
 
 /// A picture format.
 struct FormatRow {
   ImageFormat format;
-  const char* name;                         ///< for people, with its article
+  const char* name;                         ///< name for people, with its article
   std::vector<std::string_view> extensions; ///< lower case, without their dot; POV-Ray's first
   FormatChannels holds;
   FormatLimits limits;
-  std::unique_ptr<RowWriter> (*open)(std::FILE*, const RowFormat&); ///< null: the format is not made of rows
-  const char* absent = nullptr; ///< a library that this build lacks for the format; null: it has all
+  /// Null: the format is not written by rows.
+  std::unique_ptr<RowWriter> (*open)(std::FILE*, const RowFormat&);
+  const char* absent = nullptr; ///< library that this build lacks for the format; null: none
 };
 
 const FormatRow& row_of(ImageFormat format);
-/// Returns null if no format has this extension, which may be of either case and has a dot.
+/// Returns the format of an extension in upper or lower case, with its dot; null if there is none.
 const FormatRow* find_format(const std::string& extension);
 /// Returns one extension of each format: ".png, .ppm and .dds".
 std::string extensions();
@@ -55,7 +56,7 @@ std::unique_ptr<RowWriter> open_hdr(std::FILE* file, const RowFormat& format);
 std::unique_ptr<RowWriter> open_tga(std::FILE* file, const RowFormat& format);
 std::unique_ptr<RowWriter> open_bmp(std::FILE* file, const RowFormat& format);
 std::unique_ptr<RowWriter> open_jpeg(std::FILE* file, const RowFormat& format);
-/// Whether the build has the libraries of these.
+/// True if the build has the libraries of these formats.
 extern const bool kHasExr, kHasJpeg;
 
 } // namespace celltrace::image

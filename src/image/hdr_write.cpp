@@ -1,5 +1,5 @@
-// Radiance's pictures (RGBE), after Ward, "Real Pixels" (Graphics Gems II, 1991): three mantissas of 8 bits
-// and one exponent a pixel, in run-length encoded rows.
+// Writes Radiance's pictures (RGBE), after Ward, "Real Pixels" (Graphics Gems II, 1991): three mantissas of 8
+// bits and one exponent a pixel, in run-length encoded rows.
 #include "image/format_table.hpp"
 #include "image/formats.hpp"
 #include "image/rows.hpp"
@@ -16,17 +16,17 @@ namespace {
 
 using Pixel = std::array<std::uint8_t, 4>;
 
-/// The greatest channel has 8 significant bits.
+/// Encodes a pixel, so that the greatest channel has 8 significant bits.
 Pixel encoded(const float* rgb) {
   double channel[3], greatest = 0;
   for (int i = 0; i < 3; ++i) {
     const auto value = static_cast<double>(rgb[i]);
-    channel[i] = value > 0 ? std::min(value, 1e38) : 0; // also of what is not a number
+    channel[i] = value > 0 ? std::min(value, 1e38) : 0; // NaN becomes 0, too
     greatest = std::max(greatest, channel[i]);
   }
   int exponent = 0;
   std::frexp(greatest, &exponent);
-  // Rounding may carry the greatest one into the next power of two.
+  // Rounding may carry the greatest channel into the next power of two.
   if (std::lround(std::ldexp(greatest, 8 - exponent)) > 255) ++exponent;
   if (greatest < 1e-32 || exponent < -127) return {0, 0, 0, 0};
   Pixel pixel;
@@ -36,7 +36,7 @@ Pixel encoded(const float* rgb) {
   return pixel;
 }
 
-/// One channel of a row: a count above 128 and a byte that is repeated so often, less 128; or a count and as
+/// Appends one channel of a row: for a run, 128 plus its length and a byte; else a count and as
 /// many bytes.
 void append_runs(const std::vector<Pixel>& row, std::size_t channel, std::string& out) {
   constexpr std::size_t kLongestRun = 127, kMostBytes = 128, kWorthwhile = 4;

@@ -10,7 +10,7 @@ namespace celltrace {
 
 namespace {
 
-/// The largest value of a channel.
+/// Largest value of a channel.
 template <class Channel> constexpr Channel kOpaque = std::numeric_limits<Channel>::max();
 template <> constexpr float kOpaque<float> = 1.0f;
 

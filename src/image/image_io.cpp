@@ -1,4 +1,4 @@
-// Whole pictures to and from files: chooses the format and names the file in errors.
+// Reads and writes whole pictures: chooses the format and names the file in errors.
 #include "image/file.hpp"
 #include "image/format_table.hpp"
 #include "image/formats.hpp"
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// By the extension, unless the caller knows the format.
+/// Returns the format by the extension, unless the caller knows it.
 const image::FormatRow& format_of(const fs::path& path, std::optional<ImageFormat> known) {
   const image::FormatRow* const row =
       known ? &image::row_of(*known) : image::find_format(path.extension().string());
@@ -107,13 +107,13 @@ void write_blocks(std::FILE* file, ImageFormat format, const BlockImage& blocks)
   image::write_dds(file, blocks);
 }
 
-/// What has no name is complete when it has left the program.
+/// Flushes a stream without a name, and throws InputError if a write failed.
 void flush(std::FILE* file) {
   if (std::fflush(file) != 0 || std::ferror(file) != 0)
     throw InputError("cannot be written: " + std::generic_category().message(errno));
 }
 
-/// The formats that are read, by the bytes they begin with.
+/// The formats that can be read, and the bytes that they begin with.
 struct Reader {
   std::string_view magic;
   Image (*read)(std::FILE*, std::uintmax_t);
@@ -135,7 +135,7 @@ Image load(std::FILE* file, std::uintmax_t file_bytes) {
   throw InputError(begin.empty() ? "is empty" : "is neither a PNG nor a binary PPM (P6), BMP, JPEG or TGA");
 }
 
-/// What `write` writes to a stream that it is given.
+/// Returns the bytes that `write` writes to a stream.
 template <class Write> std::vector<std::uint8_t> written_by(Write write) {
   struct Memory {
     char* bytes = nullptr;
@@ -165,7 +165,7 @@ template <class Work> auto naming_the_file(const fs::path& path, Work work) {
   }
 }
 
-/// `write` gets the stream and the format.
+/// Saves a picture; `write` gets the stream and the format.
 template <class Write> void save(const fs::path& path, std::optional<ImageFormat> known, Write write) {
   naming_the_file(path, [&] {
     const ImageFormat format = format_of(path, known).format;
@@ -239,7 +239,7 @@ std::vector<std::uint8_t> encode_image(const BlockImage& blocks, ImageFormat for
 Image decode_image(const std::uint8_t* bytes, std::size_t count) {
   return naming_the_file("picture in memory", [&] {
     if (count == 0) throw InputError("is empty");
-    // Only ever read, which the interface cannot say.
+    // The stream only reads, which the interface cannot express.
     const image::File stream(fmemopen(const_cast<std::uint8_t*>(bytes), count, "rb"));
     if (!stream) throw OutOfMemory();
     return load(stream.get(), count);

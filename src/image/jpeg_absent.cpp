@@ -1,4 +1,4 @@
-// Builds without libjpeg.
+// Replaces jpeg_read.cpp and jpeg_write.cpp in builds without libjpeg.
 #include "image/format_table.hpp"
 #include "image/formats.hpp"
 

@@ -1,5 +1,5 @@
-// libjpeg's errors. It leaves by longjmp when it fails; every function that calls setjmp therefore keeps
-// nothing with a destructor, and owners live in its caller.
+// libjpeg's errors. libjpeg leaves by longjmp when it fails; a function that calls setjmp therefore has
+// no locals with a destructor, and owners live in its caller.
 #pragma once
 
 #include <csetjmp>
@@ -10,11 +10,11 @@
 namespace celltrace::image {
 
 struct JpegFailure {
-  jpeg_error_mgr manager; ///< first: libjpeg knows this part only
+  jpeg_error_mgr manager; ///< first, because libjpeg knows only this part
   std::jmp_buf leave;
   char text[JMSG_LENGTH_MAX] = "";
 
-  /// Returns what a compressor's or decompressor's `err` is to be.
+  /// Returns the value for the `err` of a compressor or decompressor.
   jpeg_error_mgr* begin() {
     jpeg_error_mgr* const errors = jpeg_std_error(&manager);
     errors->error_exit = [](j_common_ptr info) {

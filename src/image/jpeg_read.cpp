@@ -1,4 +1,4 @@
-// JPEG in, by libjpeg.
+// Reads JPEG by libjpeg.
 #include "image/formats.hpp"
 #include "image/jpeg_error.hpp"
 #include "image/limits.hpp"
@@ -9,7 +9,7 @@ namespace celltrace::image {
 
 namespace {
 
-/// Bytes of pixels that a byte of a file can stand for at most: a block of 8x8 pixels has some bits.
+/// Most bytes of pixels that a byte of a file can stand for: a block of 8x8 pixels takes some bits.
 constexpr std::uintmax_t kMostPixelsOfByte = 2048;
 
 struct Decompressor {

@@ -1,5 +1,5 @@
-// JPEG out, by libjpeg: baseline, colours as fine as brightness, as POV-Ray has it. libjpeg leaves by longjmp
-// when it fails; every function here that calls setjmp therefore keeps nothing with a destructor.
+// Writes JPEG by libjpeg: baseline, colours not subsampled, as POV-Ray does. libjpeg leaves by longjmp
+// when it fails; functions here that call setjmp therefore have no locals with a destructor.
 #include "image/format_table.hpp"
 #include "image/jpeg_error.hpp"
 #include "image/rows.hpp"
@@ -38,7 +38,7 @@ bool finish_picture(jpeg_compress_struct& info, JpegFailure& failure) {
   return true;
 }
 
-/// libjpeg's state, which frees what it has.
+/// libjpeg's state, freed on destruction.
 struct JpegCompressor {
   JpegFailure failure;
   jpeg_compress_struct info = {};

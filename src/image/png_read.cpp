@@ -1,5 +1,5 @@
-// PNG in, by libpng. libpng leaves by longjmp when it fails; every function here that calls setjmp therefore
-// keeps nothing with a destructor, and owners live in its caller.
+// Reads PNG by libpng. libpng leaves by longjmp when it fails; functions here that call setjmp therefore
+// have no locals with a destructor, and owners live in their callers.
 #include "image/formats.hpp"
 #include "image/limits.hpp"
 
@@ -12,7 +12,7 @@ namespace celltrace::image {
 
 namespace {
 
-/// Bytes of pixel data a byte of a deflate stream can stand for at most.
+/// Most bytes of pixel data that a byte of a deflate stream can stand for.
 constexpr std::uintmax_t kMaxDeflateRatio = 1032;
 
 struct Message {
@@ -43,10 +43,10 @@ struct Reader {
   throw InputError(std::string("is damaged: ") + (message.text[0] ? message.text : "unknown error"));
 }
 
-/// Reads up to the pixels and asks for 8-bit RGBA.
+/// Reads up to the pixels and selects 8-bit RGBA.
 bool read_header(png_structp png, png_infop info, std::FILE* file) {
   if (setjmp(png_jmpbuf(png))) return false;
-  // The limits of check_size() give the message for sizes; libpng's own would say less.
+  // check_size() reports sizes; libpng's own limits would give a worse message.
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   png_set_chunk_malloc_max(png, 8u << 20);
   png_set_chunk_cache_max(png, 64);
@@ -68,7 +68,7 @@ bool read_pixels(png_structp png, png_infop info, png_bytepp rows) {
   return true;
 }
 
-/// A small file cannot hold a large picture: seen before memory is taken for it.
+/// Throws if the file is too small for its picture, before memory is taken for it.
 void check_plausible(png_structp png, png_infop info, std::uintmax_t file_bytes) {
   const std::uintmax_t bits_per_pixel =
       std::uintmax_t{png_get_bit_depth(png, info)} * png_get_channels(png, info);

@@ -1,6 +1,6 @@
-// PNG out, after the specification (ISO/IEC 15948). libpng would compress by zlib, which takes three times as
-// long as libdeflate for larger files; the rest of a file is a header, checksums and differences of rows.
-// libdeflate needs all of a picture at once: a picture that is too large for that is compressed by zlib.
+// Writes PNG, after the specification (ISO/IEC 15948). libpng would compress by zlib, which takes three times
+// as long as libdeflate for larger files; the rest of a file is a header, checksums and differences of rows.
+// libdeflate needs all of a picture at once: larger pictures are compressed by zlib.
 #include "image/format_table.hpp"
 #include "image/formats.hpp"
 #include "image/rows.hpp"
@@ -18,14 +18,15 @@ namespace celltrace::image {
 
 namespace {
 
-/// libdeflate's levels 2 to 4 are equally fast on rendered pictures; below, it is slower and compresses less.
+/// Compression level: 2 to 4 are equally fast on rendered pictures; lower levels are slower and compress
+/// less.
 constexpr int kLevel = 4;
-constexpr int kStreamLevel = 4; ///< zlib's, whose files are as large
-/// Bytes of pixels that are compressed at once.
+constexpr int kStreamLevel = 4; ///< level of zlib that gives files of the same size
+/// Most bytes of pixels that are compressed at once.
 constexpr std::uint64_t kMostAtOnce = 64u << 20;
 
 constexpr std::uint8_t kFilterUp = 2;
-constexpr std::uint8_t kColourTypes[] = {0, 4, 2, 6}; // by channels: grey, and alpha, RGB, and alpha
+constexpr std::uint8_t kColourTypes[] = {0, 4, 2, 6}; // by channels: grey, grey and alpha, RGB, RGBA
 
 using Bytes = std::unique_ptr<std::uint8_t[]>;
 
@@ -59,13 +60,13 @@ void write_header(std::FILE* file, const RowFormat& format) {
   header[8] = static_cast<std::uint8_t>(format.bits);
   header[9] = kColourTypes[format.channels - 1];
   write_chunk(file, "IHDR", header, sizeof header);
-  if (!format.gamma.power) return; // sRGB is what readers take a PNG for
+  if (!format.gamma.power) return; // readers take a PNG for sRGB
   std::uint8_t gamma[4];
   put_big_endian(gamma, static_cast<std::uint32_t>(std::lround(100000 / *format.gamma.power)));
   write_chunk(file, "gAMA", gamma, sizeof gamma);
 }
 
-/// Writes the difference of a row and the one above, pixel by pixel: filter type Up.
+/// Writes the differences between a row and the one above, pixel by pixel: filter type Up.
 template <int channels, class Channel>
 void filter_row(const Channel* row, const Channel* above, std::uint8_t* target, std::size_t width) {
   constexpr std::size_t kBytes = sizeof(Channel);
@@ -87,18 +88,18 @@ void filter_row(int channels, const Channel* row, const Channel* above, std::uin
   kByChannels[channels - 1](row, above, target, width);
 }
 
-/// Takes rows that are filtered.
+/// Compresses filtered rows.
 class Compressor {
 public:
   virtual ~Compressor() = default;
-  /// Returns the place for so many bytes more.
+  /// Returns the place for `count` more bytes.
   virtual std::uint8_t* next(std::size_t count) = 0;
-  /// Takes the bytes that are in that place.
+  /// Takes the bytes at that place.
   virtual void take(std::FILE* file) = 0;
   virtual void finish(std::FILE* file) = 0;
 };
 
-/// Keeps all rows, and compresses them in the end.
+/// Keeps all rows, and compresses them at the end.
 class WholeCompressor : public Compressor {
 public:
   explicit WholeCompressor(std::size_t count)
@@ -189,7 +190,7 @@ public:
 private:
   void put(const std::uint8_t* rgba, int count) override { filter(rgba, count, above8_); }
   void put(const std::uint16_t* rgba, int count) override { filter(rgba, count, above16_); }
-  /// `last` is the row before, which is left to be this one's last.
+  /// Filters rows. `last` is the row before them, and becomes their last row.
   template <class Channel> void filter(const Channel* rgba, int count, std::vector<Channel>& last) {
     const Channel* above = last.data();
     for (int row = 0; row < count; ++row, rgba += 4 * width()) {
@@ -208,7 +209,7 @@ private:
 
   std::size_t row_bytes_;
   std::unique_ptr<Compressor> compressor_;
-  std::vector<std::uint8_t> above8_; ///< empty: rows have 16 bits
+  std::vector<std::uint8_t> above8_; ///< empty if rows have 16 bits
   std::vector<std::uint16_t> above16_;
 };
 

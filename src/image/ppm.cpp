@@ -1,4 +1,4 @@
-// Binary PPM (P6), and out PGM (P5), too, as netpbm's manual defines them.
+// Reads binary PPM (P6), and writes PGM (P5), too, as netpbm's manual defines them.
 #include "image/format_table.hpp"
 #include "image/formats.hpp"
 #include "image/limits.hpp"
@@ -18,7 +18,7 @@ int read_byte(std::FILE* file) {
   return c;
 }
 
-/// Skips white space and comments before a number and the one white space character after it.
+/// Reads a number, after white space and comments, and the one white space character behind it.
 std::int64_t read_number(std::FILE* file) {
   int c = read_byte(file);
   while (std::isspace(c) || c == '#') {

@@ -12,10 +12,10 @@ namespace celltrace::image {
 
 namespace {
 
-/// Rows that are converted at a time.
+/// Number of rows that are converted at a time.
 constexpr int kBatch = 16;
 
-/// Makes encoded colours their luminance.
+/// Replaces encoded colours by their luminance.
 template <class Channel>
 void make_grey(const Channel* rgba, std::size_t pixels, Channel* out, const FileGamma& gamma) {
   constexpr double kMost = std::numeric_limits<Channel>::max();

@@ -1,5 +1,5 @@
-// The common part of the writers of row_writer.hpp: counting and converting rows, and refusing what a file
-// does not hold.
+// Common parts of the writers of row_writer.hpp: counting and converting rows, and refusing rows that a file
+// cannot hold.
 #pragma once
 
 #include "image/encoding.hpp"
@@ -21,9 +21,9 @@ protected:
   std::size_t width() const { return static_cast<std::size_t>(format_.width); }
   std::FILE* file() const { return file_; }
   const RowFormat& format() const { return format_; }
-  /// Throws InputError if there would be more rows than the picture has.
+  /// Counts rows. Throws InputError if there would be more than the picture has.
   void count(int rows);
-  /// Writes what follows the rows.
+  /// Writes the part of the file behind the rows.
   virtual void end() {}
 
 private:
@@ -32,7 +32,7 @@ private:
   std::int64_t rows_ = 0;
 };
 
-/// A file of 8 or 16 bits a channel.
+/// A writer of files with 8 or 16 bits a channel.
 class EncodedRows : public CountedRows {
 public:
   void write(const std::uint8_t* rgba, int count) final;
@@ -45,9 +45,9 @@ protected:
 
   bool has_alpha() const { return format().channels % 2 == 0; }
   bool is_grey() const { return format().channels < 3; }
-  /// Writes rows of as many bits as the file has; grey ones have three equal colours.
+  /// Writes rows with as many bits as the file has; grey rows have three equal colours.
   virtual void put(const std::uint8_t* rgba, int count) = 0;
-  /// Is called only if RowFormat::bits is 16.
+  /// Writes rows of 16 bits; called only if RowFormat::bits is 16.
   virtual void put(const std::uint16_t*, int) {}
 
 private:
@@ -57,7 +57,7 @@ private:
   Encoding encoding_;
 };
 
-/// A file of colours as numbers.
+/// A writer of files with colours as floats.
 class NumberRows : public CountedRows {
 public:
   void write(const std::uint8_t* rgba, int count) final;
@@ -67,7 +67,7 @@ public:
 protected:
   using CountedRows::CountedRows;
 
-  /// Writes rows that are linear.
+  /// Writes linear rows.
   virtual void put(const float* rgba, int count, const FirstHitRows& hits) = 0;
 
 private:

@@ -20,7 +20,7 @@ constexpr std::uint64_t kMostInMemory = 64u << 20;
   throw InputError("cannot be written: " + std::generic_category().message(errno));
 }
 
-/// Returns where a regular file stands, -1 where going back is not possible.
+/// Returns the position of a regular file, -1 if the stream cannot seek back.
 std::int64_t origin_of(std::FILE* file) {
   const int descriptor = fileno(file);
   struct stat status;

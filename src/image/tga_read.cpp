@@ -1,5 +1,5 @@
-// Truevision's TGA in: true colour and grey of 8 bits a channel, plain or of run lengths. A TGA has no magic
-// number; one of version 2 is known by its footer.
+// Reads Truevision's TGA: true colour and grey of 8 bits a channel, plain or run-length encoded. A TGA has no
+// magic number; version 2 is recognised by its footer.
 #include "image/formats.hpp"
 #include "image/limits.hpp"
 
@@ -16,7 +16,7 @@ struct TgaHeader {
   bool is_grey, has_runs, from_the_top, from_the_right;
   std::size_t pixel_bytes;
   int width, height;
-  long first; ///< where pixels begin
+  long first; ///< offset of the pixels
 };
 
 TgaHeader header_of(const std::uint8_t (&h)[kTgaHeader]) {
@@ -32,12 +32,12 @@ TgaHeader header_of(const std::uint8_t (&h)[kTgaHeader]) {
           bytes,   h[12] + 256 * h[13], h[14] + 256 * h[15], static_cast<long>(kTgaHeader) + h[0]};
 }
 
-/// The pixels of a file, one after the other.
+/// Reads the pixels of a file, one after the other.
 class TgaPixels {
 public:
   TgaPixels(std::FILE* file, const TgaHeader& header) : file_(file), header_(header) {}
 
-  /// Returns the next one, valid until the next call.
+  /// Returns the next pixel, valid until the next call.
   const std::uint8_t* next() {
     if (header_.has_runs && left_-- == 0) begin_packet();
     if (!header_.has_runs || !is_run_) read(pixel_, header_.pixel_bytes);
@@ -60,7 +60,7 @@ private:
   const TgaHeader& header_;
   std::uint8_t pixel_[4] = {};
   bool is_run_ = false;
-  int left_ = 0; ///< pixels of a packet
+  int left_ = 0; ///< remaining pixels of a packet
 };
 
 } // namespace
@@ -79,7 +79,7 @@ Image read_tga(std::FILE* file, std::uintmax_t file_bytes) {
   if (std::fread(bytes, 1, kTgaHeader, file) != kTgaHeader) throw InputError("is truncated");
   const TgaHeader header = header_of(bytes);
   check_size(header.width, header.height);
-  // A packet of 128 pixels has 2 bytes at least.
+  // A packet of at most 128 pixels has at least 2 bytes.
   const auto pixels = static_cast<std::uintmax_t>(header.width) * static_cast<std::uintmax_t>(header.height);
   if ((header.has_runs ? pixels / 64 : pixels * header.pixel_bytes) > file_bytes)
     throw InputError("is too short for the size it declares");

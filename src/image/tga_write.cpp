@@ -1,5 +1,5 @@
-// Truevision's TGA out, after its "File Format Specification, Version 2.0" (1991): rows from the top, as
-// POV-Ray writes them, with the extension area, which says what alpha means and how colours are encoded.
+// Writes Truevision's TGA, after its "File Format Specification, Version 2.0" (1991): rows from the top, as
+// POV-Ray writes them, with the extension area, which defines alpha and the encoding of colours.
 #include "image/format_table.hpp"
 #include "image/formats.hpp"
 #include "image/rows.hpp"
@@ -62,7 +62,8 @@ private:
   bool are_equal(std::size_t x, std::size_t other) const {
     return std::memcmp(&row_[x * bytes_], &row_[other * bytes_], bytes_) == 0;
   }
-  /// Writes packets: a count less 1 and as many pixels; or the same with the highest bit set, and one pixel.
+  /// Writes packets: a count less 1 and as many pixels; or a count less 1 with the highest bit set, and one
+  /// pixel.
   void write_runs() {
     constexpr std::size_t kMost = 128;
     packets_.clear();
@@ -72,7 +73,7 @@ private:
       while (end < most && are_equal(end, x))
         ++end;
       const bool is_run = end - x > 1;
-      if (!is_run) // until two pixels are equal
+      if (!is_run) // ends before two equal pixels
         while (end < most && (end + 1 >= width() || !are_equal(end, end + 1)))
           ++end;
       packets_.push_back(static_cast<std::uint8_t>(end - x - 1 + (is_run ? 128 : 0)));
@@ -91,7 +92,7 @@ private:
     put_little_endian(extension.data(), kExtensionBytes, 2);
     const std::string software = "celltrace";
     std::copy(software.begin(), software.end(), extension.begin() + 426);
-    // A ratio of two whole numbers; sRGB is about 2.2.
+    // Gamma is a ratio of two whole numbers; sRGB is about 2.2.
     put_little_endian(&extension[478],
                       static_cast<std::uint64_t>(std::lround(1000 * format().gamma.power.value_or(2.2))), 2);
     put_little_endian(&extension[480], 1000, 2);
@@ -108,7 +109,7 @@ private:
     written_ += count;
   }
 
-  std::size_t bytes_; ///< a pixel
+  std::size_t bytes_; ///< bytes of a pixel
   std::vector<std::uint8_t> row_, packets_;
   std::uint64_t written_ = 0; ///< bytes
 };

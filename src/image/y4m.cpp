@@ -13,11 +13,11 @@ void check(bool written) {
   if (!written) throw InputError("cannot be written: " + std::generic_category().message(errno));
 }
 
-/// Weights of red, green and blue in units of 2^-16, and what is added.
+/// Weights of red, green and blue in units of 2^-16, and an offset.
 struct Component {
   std::int32_t red, green, blue, offset;
 };
-/// BT.601 with luma 16..235 and chroma 16..240. White is 235 and greys have chroma 128 exactly, as the
+/// BT.601 with luma 16..235 and chroma 16..240. White is 235 and greys have chroma 128 exactly, because the
 /// weights of luma sum up to 219 / 255 and those of chroma to 0.
 constexpr Component kLuma = {16829, 33039, 6416, 16}, kCb = {-9714, -19070, 28784, 128},
                     kCr = {28784, -24103, -4681, 128};

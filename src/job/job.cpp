@@ -16,7 +16,7 @@ namespace celltrace {
 
 namespace {
 
-/// Shares of a job that reads a scene.
+/// Shares of the phases in a job that reads a scene.
 constexpr double kReadingShare = 0.2, kBuildingShare = 0.2;
 constexpr std::size_t kMostFindings = 1000;
 
@@ -26,12 +26,12 @@ class RenderJob::Impl : public std::enable_shared_from_this<Impl> {
 public:
   Impl(JobScene scene, JobOptions options) : given_(std::move(scene)), options_(std::move(options)) {}
   ~Impl() {
-    // A function of the options has dropped the job: this is that thread.
+    // A function of the options has dropped the job: it runs on this very thread.
     if (thread_.joinable()) thread_.detach();
   }
 
   void start() {
-    // Whoever drops it without having run it has cancelled the job.
+    // If the executor drops the work without having run it, the job is cancelled.
     auto work = std::make_shared<Work>(shared_from_this());
     if (options_.executor)
       options_.executor([work = std::move(work)] { work->job->run(); });
@@ -44,7 +44,7 @@ public:
     if (claim()) end_unbegun();
   }
 
-  /// Until nothing of the options is called any more, unless this is called by one of them.
+  /// Waits until no function of the options is called any more, unless one of them calls this.
   void wait_for_silence() {
     {
       std::unique_lock lock(mutex_);
@@ -91,7 +91,7 @@ private:
 
   bool is_over() const { return progress_.phase == JobPhase::over; }
 
-  /// Makes this thread the one that works. False if there is one, or was.
+  /// Makes this thread the worker. Returns false if there is or was one.
   bool claim() {
     const std::lock_guard lock(mutex_);
     if (std::exchange(is_claimed_, true)) return false;
@@ -139,7 +139,7 @@ private:
     RenderResult result = renderer.render(
         *scene, [&](double fraction) { return !is_built || tell(JobPhase::rendering, fraction, built, 1); });
     if (!is_built) throw Cancelled();
-    // Those who wait need not wait until the renderer has given its memory back.
+    // Publish first: waiting threads need not wait until the renderer has released its memory.
     publish(std::move(result));
   }
 
@@ -172,7 +172,7 @@ private:
     if (findings_.size() < kMostFindings) findings_.push_back(finding);
   }
 
-  /// How far a phase is that takes the part [begin, end] of the job. False: it is to be cancelled.
+  /// Reports the progress of a phase that takes the part [begin, end] of the job. Returns false to cancel.
   bool tell(JobPhase phase, double fraction, double begin, double end) {
     if (is_cancelled_in(phase)) return false;
     JobProgress now;
@@ -186,12 +186,12 @@ private:
   }
   bool is_cancelled_in(JobPhase phase) {
     if (!cancelled_.load(std::memory_order_relaxed)) return false;
-    // That it has no picture is certain, and those who wait need not wait until all memory is given back.
+    // There will be no picture for certain; waiting threads need not wait until all memory is released.
     if (phase != JobPhase::rendering) publish(std::make_exception_ptr(Cancelled()));
     return true;
   }
 
-  // The first one counts.
+  // Sets the result; the first one counts.
   void publish(RenderResult result) {
     const std::lock_guard lock(mutex_);
     if (is_over()) return;
@@ -206,7 +206,7 @@ private:
     failure_ = std::move(failure);
     changed_.notify_all();
   }
-  /// At the end of what is called of the options.
+  /// Calls `finished`, the last of the options' functions, and lets wait_for_silence() return.
   void fall_silent() noexcept {
     if (options_.finished) {
       RenderJob job(shared_from_this(), false);
@@ -218,10 +218,10 @@ private:
     changed_.notify_all();
   }
 
-  JobScene given_; ///< the worker's
+  JobScene given_; ///< used by the worker only
   const JobOptions options_;
   std::atomic<bool> cancelled_ = false;
-  mutable std::mutex mutex_; ///< of what follows
+  mutable std::mutex mutex_; ///< for the members below
   mutable std::condition_variable changed_;
   bool is_claimed_ = false, is_silent_ = false;
   std::thread::id worker_;

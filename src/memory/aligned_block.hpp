@@ -1,4 +1,4 @@
-// Memory that DMA reads and writes.
+// Blocks of memory for DMA.
 #pragma once
 
 #include <cstddef>
@@ -6,21 +6,21 @@
 
 namespace celltrace {
 
-/// Huge pages, where the system has them, are for what rays go through in no order. For pictures they are not
-/// worth it: the host of a virtual machine may have to provide them first, which takes ten times as long as
-/// to fill normal ones.
+/// The pages of a block. Huge pages, if the system has them, are for data that rays access in random order.
+/// Pictures gain nothing from them: the host of a virtual machine may have to provide them first, which takes
+/// ten times as long as to fill normal ones.
 enum class Pages { normal, huge };
 
-/// Starts on a 128-byte boundary.
+/// A block that starts on a 128-byte boundary.
 class AlignedBlock {
 public:
   AlignedBlock() = default;
-  /// Zero at first; on huge pages if it is large. Throws std::bad_alloc.
+  /// Makes a zeroed block; on huge pages if it is large. Throws std::bad_alloc.
   explicit AlignedBlock(std::size_t bytes);
-  /// With anything in it.
+  /// Returns a block with indeterminate contents.
   static AlignedBlock uninitialised(std::size_t bytes, Pages pages = Pages::huge);
 
-  /// Has `bytes` at least; what was in it is lost if it was smaller.
+  /// Grows to at least `bytes` bytes; the contents are lost if the block was smaller.
   void reserve(std::size_t bytes);
 
   std::byte* data() const noexcept { return bytes_.get(); }

@@ -1,4 +1,4 @@
-// Pictures and lists of vectors as NumPy's arrays.
+// Converts pictures and lists of vectors to NumPy's arrays.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -11,7 +11,7 @@
 
 namespace celltrace {
 
-/// An array of that shape, which takes the values over without copying.
+/// Returns an array of that shape, which takes over the values without copying.
 template <class Value>
 pybind11::array_t<Value> array_of_shape(std::vector<Value>&& values, std::vector<pybind11::ssize_t> shape) {
   auto owned = std::make_unique<std::vector<Value>>(std::move(values));
@@ -26,7 +26,7 @@ pybind11::array_t<Channel> picture_array(std::vector<Channel>&& channels, int wi
   return array_of_shape(std::move(channels), {height, width, 4});
 }
 
-/// Throws ValueError unless the array has as many dimensions as `shape`, and their sizes; -1: any.
+/// Throws ValueError unless the array has as many dimensions as `shape`, and their sizes; -1: any size.
 inline void check_shape(const pybind11::array& array, const std::vector<int>& shape,
                         const std::string& name) {
   bool fits = array.ndim() == static_cast<pybind11::ssize_t>(shape.size());

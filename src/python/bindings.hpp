@@ -1,4 +1,4 @@
-// The parts of the module, each of which adds its names.
+// The parts of the module; each function adds its names.
 #pragma once
 
 #include <pybind11/pybind11.h>

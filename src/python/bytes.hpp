@@ -1,5 +1,5 @@
-// Values of scenes as bytes, for pickles: all members, and what is shared once. For the same version of the
-// library on the same kind of machine.
+// Serialises values of scenes for pickles: all members, and shared objects once. The bytes are for the same
+// version of the library on the same kind of machine.
 #pragma once
 
 #include "python/members.hpp"
@@ -24,17 +24,17 @@
 
 namespace celltrace {
 
-/// Whether a value is its bytes. Such with padding have members that are visited.
+/// True if a value is serialised as its bytes. Types with padding are visited by member.
 template <class T>
 inline constexpr bool kIsBytes =
     std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Vec3f> ||
     std::is_same_v<T, Vec2f> || std::is_same_v<T, Mesh::Triangle> || std::is_same_v<T, Mesh::Coordinates>;
 
-/// Hands all members of a value to an archive, in their order.
+/// Passes all members of a value to an archive, in their order.
 template <class Archive, class T> void visit_members(Archive& archive, T& value) {
   std::apply([&](auto&... member) { (archive(member), ...); }, tie_members(value));
 }
-/// Leaves out the colours that are placed already: they are found by address, which is another one elsewhere.
+/// Leaves out PythonScene::placed_colours, which are found by address and so differ between processes.
 template <class Archive> void visit_members(Archive& archive, PythonScene& scene) {
   archive(static_cast<Scene&>(scene));
 }
@@ -53,7 +53,7 @@ public:
     if constexpr (kIsBytes<T>)
       put(&value, sizeof value);
     else
-      visit_members(*this, const_cast<T&>(value)); // which only reads it
+      visit_members(*this, const_cast<T&>(value)); // the archive only reads it
   }
   template <class T, std::size_t N> void operator()(const T (&values)[N]) {
     for (const T& value : values)
@@ -79,7 +79,7 @@ public:
     (*this)(static_cast<std::uint8_t>(value.index()));
     std::visit(*this, value);
   }
-  /// A number for each object that is shared, 0 for none; what it is follows the first time.
+  /// Writes a number for each shared object, 0 for none, followed by the object the first time.
   template <class T> void operator()(const std::shared_ptr<const T>& shared) {
     const auto [place, is_new] = numbers_.try_emplace(shared.get(), numbers_.size() + 1);
     (*this)(shared ? place->second : std::uint64_t{0});
@@ -99,7 +99,7 @@ private:
   std::unordered_map<const void*, std::uint64_t> numbers_;
 };
 
-/// Throws InputError for what no ByteWriter has written.
+/// Reads values. Throws InputError for bytes that no ByteWriter has written.
 class ByteReader {
 public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -157,7 +157,7 @@ public:
     } else if (number == read_.size() + 1) {
       constexpr int kDeepest = 1000;
       if (++depth_ > kDeepest) fail();
-      read_.emplace_back(typeid(T), nullptr); // numbers are in the order of beginnings
+      read_.emplace_back(typeid(T), nullptr); // numbers follow the order in which objects begin
       auto made = std::make_shared<T>();
       (*this)(*made);
       read_[number - 1].second = made;
@@ -178,7 +178,7 @@ private:
     if (count) std::memcpy(data, rest_.data(), count);
     rest_.remove_prefix(count);
   }
-  /// Reads a count of things that have at least so many bytes each.
+  /// Reads a count of things that have at least `bytes` bytes each.
   std::size_t count_of(std::size_t bytes) {
     std::uint64_t count = 0;
     (*this)(count);

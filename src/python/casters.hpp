@@ -1,5 +1,5 @@
-// How values of the library look in Python: vectors as tuples, enumerators as strings, what is shared and
-// never changed as objects without setters.
+// Conversions of the library's values to Python: vectors as tuples, enumerators as strings, shared immutable
+// values as objects without setters.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -19,8 +19,8 @@
 
 namespace celltrace {
 
-/// The strings of an enumeration: a specialisation has `values`, an array of pairs. Its enumerators are shown
-/// by the first string that they have.
+/// The strings of an enumeration: a specialisation has `values`, an array of pairs. An enumerator is shown
+/// by the first string that it has.
 template <class E> struct EnumStrings;
 
 template <class E> using EnumString = std::pair<const char*, E>;
@@ -42,14 +42,14 @@ template <> struct EnumStrings<Balance> {
   static constexpr EnumString<Balance> values[] = {
       {"gde", Balance::gde},     {"diffusion", Balance::diffusion},
       {"fixed", Balance::fixed}, {"scatter", Balance::scatter},
-      {"tiles", Balance::tiles}, {"static", Balance::fixed}}; // as the program has it
+      {"tiles", Balance::tiles}, {"static", Balance::fixed}}; // name in the command-line program
 };
 template <> struct EnumStrings<Accelerator> {
   static constexpr EnumString<Accelerator> values[] = {
       {"automatic", Accelerator::automatic},
       {"grid", Accelerator::grid},
       {"bvh", Accelerator::bvh},
-      {"auto", Accelerator::automatic}}; // as the program has it
+      {"auto", Accelerator::automatic}}; // name in the command-line program
 };
 template <> struct EnumStrings<Model> {
   static constexpr EnumString<Model> values[] = {{"shared", Model::shared},
@@ -123,7 +123,7 @@ template <class E> struct type_caster<E, std::enable_if_t<(sizeof(celltrace::Enu
   }
 };
 
-/// From a sequence or array of numbers, or from one number, which stands in all places as in POV-Ray's
+/// Converts a sequence or array of numbers, or one number, which stands for all coordinates as in POV-Ray's
 /// language.
 template <glm::length_t N, class T, glm::qualifier Q> struct type_caster<glm::vec<N, T, Q>> {
   using Vector = glm::vec<N, T, Q>;
@@ -158,12 +158,12 @@ private:
   }
 };
 
-/// What a Scene shares and never changes: Python's classes have no setters either.
+/// Converts values that a Scene shares and never changes: their Python classes have no setters either.
 template <class T> struct type_caster<std::shared_ptr<const T>> {
   PYBIND11_TYPE_CASTER(std::shared_ptr<const T>, make_caster<T>::name);
 
   bool load(handle source, bool convert) {
-    if (source.is_none()) return false; // an std::optional's affair
+    if (source.is_none()) return false; // left to std::optional's caster
     make_caster<std::shared_ptr<T>> caster;
     if (!caster.load(source, convert)) return false;
     value = cast_op<std::shared_ptr<T>>(caster);
@@ -174,7 +174,7 @@ template <class T> struct type_caster<std::shared_ptr<const T>> {
   }
 };
 
-/// Meshes in objects: those without colours, as these would not be seen.
+/// Converts meshes in objects, which must be without colours: these would not be seen.
 template <> struct type_caster<std::shared_ptr<const celltrace::Mesh>> {
   PYBIND11_TYPE_CASTER(std::shared_ptr<const celltrace::Mesh>, const_name("Mesh"));
 

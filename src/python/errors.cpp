@@ -13,7 +13,7 @@ namespace py = pybind11;
 
 namespace {
 
-// Live as long as the process does.
+// Exception types, which live as long as the process.
 struct ErrorTypes {
   PyObject *error, *input, *scene, *spe, *cancelled;
 };
@@ -33,7 +33,7 @@ void raise(PyObject* type, const Error& error) {
   PyErr_SetObject(type, raised.ptr());
 }
 
-/// With the place of what ended it.
+/// Raises a scene error, with the place of the error that ended reading.
 void raise(const SceneError& error) {
   const py::object raised = py::reinterpret_borrow<py::object>(types.scene)(error.what());
   const std::vector<Finding>& findings = error.findings();
@@ -43,7 +43,7 @@ void raise(const SceneError& error) {
   });
   if (first != findings.end()) {
     raised.attr("file") = first->file;
-    if (first->line != 0) { // else of the file as a whole
+    if (first->line != 0) { // else the error is about the file as a whole
       raised.attr("line") = first->line;
       raised.attr("column") = first->column;
     }

@@ -12,7 +12,7 @@ namespace {
 
 using Points = std::vector<Vec3>;
 
-/// Evenly over the unit sphere, by the golden angle.
+/// Returns directions that cover the unit sphere evenly, by the golden angle.
 Points directions(int count) {
   Points made;
   for (int i = 0; i < count; ++i) {
@@ -23,7 +23,7 @@ Points directions(int count) {
   return made;
 }
 
-/// Adds points of one shape in its own space.
+/// Collects points of one shape in its own space.
 class ShapePoints {
 public:
   ShapePoints(Points& to, const Points& directions) : to_(to), directions_(directions) {}
@@ -45,7 +45,7 @@ public:
     for (const double side : {-1.0, 1.0})
       add_circle(side * torus.minor_radius * axis, axis, torus.major_radius);
   }
-  /// Only ellipsoids along the axes end for sure.
+  /// Adds points of ellipsoids along the axes, the only quadrics that are bounded for sure.
   void operator()(const Quadric& quadric) {
     const Vec3 square = quadric.square;
     if (quadric.mixed != Vec3(0) || !(square.x > 0 && square.y > 0 && square.z > 0)) return;
@@ -110,7 +110,7 @@ double volume_around(const Points& points) {
   return points.empty() ? std::numeric_limits<double>::infinity() : size.x * size.y * size.z;
 }
 
-/// An intersection is in the smallest of its parts, a difference in its first one.
+/// Adds points of a CSG: an intersection lies in the smallest of its parts, a difference in its first one.
 void ShapePoints::operator()(const std::shared_ptr<const Csg>& csg) {
   Points smallest;
   for (const Object& part : csg->parts) {

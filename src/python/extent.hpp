@@ -1,4 +1,4 @@
-// Where a scene's objects are, for cameras that are to see all of them.
+// The extent of a scene's objects, for cameras that are to see all of them.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -7,8 +7,8 @@
 
 namespace celltrace {
 
-/// Points on or around the surfaces of all objects that are seen and end somewhere: planes and what is inside
-/// out do not. Round shapes have points a few percent of their size from each other's tangents.
+/// Returns points on or around the surfaces of all visible bounded objects; planes and inverse objects
+/// are not bounded. The points of round shapes deviate a few percent of the size from the tangents.
 std::vector<Vec3> points_around(const Scene& scene);
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// Structures of the library as Python sees them: fields with names, which keyword arguments set.
+// Structures of the library as Python classes: fields with names, which keyword arguments set.
 #pragma once
 
 #include "python/bytes.hpp"
@@ -16,7 +16,7 @@ namespace celltrace {
 
 namespace py = pybind11;
 
-/// A default as inspect.signature() can read it: the value, or `...` where it has no literal.
+/// Returns a default as inspect.signature() can read it: the value, or `...` if it has no literal.
 inline std::string literal(const py::object& value) {
   for (const py::handle type : {py::handle(reinterpret_cast<PyObject*>(&PyBool_Type)),
                                 py::handle(reinterpret_cast<PyObject*>(&PyLong_Type)),
@@ -28,19 +28,20 @@ inline std::string literal(const py::object& value) {
   return value.is_none() ? "None" : "...";
 }
 
-/// " (did you mean 'width'?)" where one of the names is similar to `wrong`.
+/// Returns " (did you mean 'width'?)" if one of the names is similar to `wrong`.
 inline std::string suggestion(const std::string& wrong, const std::vector<std::string>& names) {
   const py::list near = py::module_::import("difflib").attr("get_close_matches")(wrong, names, 1);
   return near.empty() ? "" : " (did you mean '" + near[0].cast<std::string>() + "'?)";
 }
 
-/// A docstring that begins with what inspect.signature() and help() show, as CPython writes those of its own.
+/// Returns a docstring that begins with the signature for inspect.signature() and help(), as CPython's own
+/// do.
 inline std::string signed_doc(const std::string& name, const std::string& parameters,
                               const std::string& doc) {
   return name + "(" + parameters + ")\n--\n\n" + doc;
 }
 
-/// That of a class's constructor: inspect.signature() reads it in place of the class's.
+/// Returns the docstring of a class's constructor, which inspect.signature() reads in place of the class's.
 inline std::string signed_init(const std::string& parameters) {
   return signed_doc("__init__", parameters.empty() ? "self" : "self, " + parameters, "");
 }
@@ -64,7 +65,7 @@ template <class Value> std::string wanted(const char* doc) {
     return doc;
 }
 
-/// Converts a value that is given under a name. Throws TypeError that says what it has to be.
+/// Converts a value that is given under a name. Throws TypeError, which says what type it has to be.
 template <class Value> Value value_of(py::handle given, const std::string& name, const char* doc = "") {
   const auto wrong = [&] {
     std::string what = wanted<Value>(doc);
@@ -77,15 +78,15 @@ template <class Value> Value value_of(py::handle given, const std::string& name,
     return given.cast<Value>();
   } catch (const py::cast_error&) {
     throw wrong();
-  } catch (const py::reference_cast_error&) { // of None
+  } catch (const py::reference_cast_error&) { // thrown for None
     throw wrong();
   }
 }
 
-/// The fields of a T by name, in an order.
+/// The fields of a T by name, in order.
 template <class T> class Fields {
 public:
-  /// `access` gives a reference to the field of a T: a pointer to a member, or a function.
+  /// Adds a field. `access` returns a reference to the field of a T: a pointer to a member, or a function.
   template <class Access> Fields& add(const char* name, Access access, const char* doc) {
     using Value = std::decay_t<decltype(std::invoke(access, std::declval<T&>()))>;
     fields_.push_back({name, doc,
@@ -99,7 +100,7 @@ public:
     return *this;
   }
 
-  /// Sets a field; false if there is none of this name.
+  /// Sets a field. Returns false if there is none of this name.
   bool set(T& made, const std::string& name, py::handle value) const {
     for (const Field& field : fields_)
       if (field.name == name) {
@@ -108,7 +109,7 @@ public:
       }
     return false;
   }
-  /// By position and by name. Throws TypeError for what there is not, in the name of `what`.
+  /// Sets fields by position and by name. Throws TypeError, in the name of `what`, for unknown ones.
   void set_all(T& made, const py::args& args, const py::kwargs& kwargs, const std::string& what) const {
     if (args.size() > fields_.size())
       throw py::type_error(what + " takes at most " + std::to_string(fields_.size()) + " arguments");
@@ -129,7 +130,7 @@ public:
       all.push_back(field.name);
     return all;
   }
-  /// Each field's name and value, as Python's objects.
+  /// Calls `visit` with each field's name and value, as Python objects.
   template <class Visit> void for_each(const T& made, const Visit& visit) const {
     for (const Field& field : fields_)
       visit(field.name, field.get(made));
@@ -138,7 +139,7 @@ public:
     for (const Field& field : fields_)
       visit(field.name.c_str(), field.doc, field.get);
   }
-  /// "name=default, ...", the defaults being those of `usual`.
+  /// Returns "name=default, ...", with the defaults of `usual`.
   std::string signature(const T& usual = T()) const {
     std::string text;
     for_each(usual, [&](const std::string& name, const py::object& value) {
@@ -146,14 +147,14 @@ public:
     });
     return text;
   }
-  /// Same names without values.
+  /// Returns the names of the signature without values.
   std::string signature_of_changes() const {
     std::string text;
     for (const Field& field : fields_)
       text += (text.empty() ? "" : ", ") + field.name + "=...";
     return text;
   }
-  /// A line of each field and what it means.
+  /// Returns a line for each field with its meaning.
   std::string listing() const {
     std::string text;
     for (const Field& field : fields_)
@@ -171,7 +172,7 @@ private:
   std::vector<Field> fields_;
 };
 
-/// Values of a class can be pickled; copies of what does not change are the same object.
+/// Makes values of a class picklable; copies of immutable values are the same object.
 template <class T, class Class> void bind_pickle(Class& made) {
   made.def(py::pickle([](const T& self) { return py::bytes(to_bytes(self)); },
                       [](const py::bytes& state) { return from_bytes<T>(std::string_view(state)); }));
@@ -179,8 +180,8 @@ template <class T, class Class> void bind_pickle(Class& made) {
   made.def("__deepcopy__", [](const py::object& self, const py::object&) { return self; });
 }
 
-/// A class of values: made by keywords, compared and printed by fields, never changed: replace() makes
-/// another one.
+/// Binds a class of immutable values, made by keywords, compared and printed by fields; replace() makes
+/// changed copies.
 template <class T>
 py::class_<T, std::shared_ptr<T>> bind_values(py::module_& module, const char* name, const char* doc,
                                               const Fields<T>& fields) {

@@ -1,4 +1,4 @@
-// Places, shapes but for meshes, and objects.
+// Binds places, shapes except meshes, and objects.
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
 #include "python/misfit.hpp"
@@ -121,7 +121,7 @@ void bind_geometry(py::module_& module) {
   bind_values<Polygon>(module, "Polygon",
                        "Flat, of closed loops of points in one plane; a loop in another one is a hole.",
                        Fields<Polygon>().add("loops", &Polygon::loops, "lists of points"));
-  // Declared before it is described: objects and CSG have each other.
+  // Declared before it is described, because objects and CSG refer to each other.
   auto csg = Fields<Csg>().add("operation", &Csg::operation, "union, merge, intersection or difference");
   bind_values<Object>(
       module, "Object", "A shape, placed. Materials and interiors are indices of the scene's.",

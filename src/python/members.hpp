@@ -1,5 +1,5 @@
-// How many members the structures have that scenes are made of, and all of them as a tuple. Where one gets
-// another member the compiler complains about its number here.
+// The numbers of members of the structures that scenes are made of, and their members as tuples. When a
+// structure gets another member, the compiler complains about its number here.
 #pragma once
 
 #include "celltrace/cache.hpp"
@@ -11,7 +11,7 @@
 
 namespace celltrace {
 
-/// 0: has none that are looked at.
+/// Number of members; 0: none that matter.
 template <class T> inline constexpr int kMembers = -1;
 
 template <> inline constexpr int kMembers<Turbulence> = 4;
@@ -92,7 +92,7 @@ template <> inline constexpr int kMembers<Antialiasing> = 5;
 template <> inline constexpr int kMembers<CacheConfig> = 6;
 template <> inline constexpr int kMembers<Finding> = 7;
 
-/// References to all members of a value.
+/// Returns references to all members of a value.
 template <class T> auto tie_members(T& value) {
   constexpr int kCount = kMembers<std::remove_const_t<T>>;
   static_assert(kCount >= 0 && kCount <= 22, "a structure that is not in the list above");

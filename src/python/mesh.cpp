@@ -17,7 +17,8 @@ namespace {
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
-/// Whole numbers from 0 to below the number of rows of `of`, in rows of three. Throws ValueError.
+/// Returns rows of three whole numbers from 0 to below `count`, the number of rows of `of`. Throws
+/// ValueError.
 Indices index_rows(const py::object& given, std::size_t count, const std::string& name,
                    const std::string& of) {
   const auto array = py::array::ensure(given);
@@ -36,7 +37,7 @@ Indices index_rows(const py::object& given, std::size_t count, const std::string
   return indices;
 }
 
-/// An array of numbers. Throws ValueError for what is none.
+/// Returns an array of numbers. Throws ValueError if `given` cannot become one.
 Floats floats_of(const py::object& given, const std::string& name) {
   Floats floats = py::isinstance<py::str>(given) ? Floats() : Floats::ensure(given);
   if (!floats || py::isinstance<py::str>(given))
@@ -69,7 +70,7 @@ bool is_finite(const Vec2f& v) {
   return std::isfinite(v.x) && std::isfinite(v.y);
 }
 
-/// Rows that are not finite become 0, and the corners with them are left out; or it throws ValueError.
+/// Replaces rows that are not finite, and leaves out their corners; or throws ValueError.
 class Holes {
 public:
   explicit Holes(bool are_allowed) : are_allowed_(are_allowed) {}
@@ -85,7 +86,7 @@ public:
       is_hole[i] = true;
     }
     if (is_hole.empty()) return is_hole;
-    // Any that is there, as what is nowhere in use counts for where a mesh is, too.
+    // Stand in with an existing row, because unused rows count for a mesh's bounds, too.
     const auto first = std::find(is_hole.begin(), is_hole.end(), false);
     const Row stand_in = first == is_hole.end() ? Row(0) : rows[first - is_hole.begin()];
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -97,7 +98,7 @@ private:
   bool are_allowed_;
 };
 
-/// Leaves out the triangles with a corner in `holes`.
+/// Removes the triangles with a corner in `holes`.
 void remove(Mesh& mesh, Index (Mesh::Triangle::*corners)[3], const std::vector<bool>& holes) {
   if (holes.empty()) return;
   std::erase_if(mesh.triangles, [&](const Mesh::Triangle& triangle) {
@@ -106,7 +107,7 @@ void remove(Mesh& mesh, Index (Mesh::Triangle::*corners)[3], const std::vector<b
   });
 }
 
-/// Surface coordinates at the corners of triangles, of those of vertices.
+/// Sets surface coordinates at the corners of triangles from those of the vertices.
 void set_coordinates(Mesh& mesh, const std::vector<Vec2f>& of_vertices) {
   mesh.coordinates.clear();
   mesh.coordinates.reserve(mesh.triangles.size());
@@ -117,7 +118,7 @@ void set_coordinates(Mesh& mesh, const std::vector<Vec2f>& of_vertices) {
   }
 }
 
-/// Where in a map of colours values are, as surface coordinates.
+/// Returns the places of values in a colour map, as surface coordinates.
 std::vector<Vec2f> map_places(const Floats& values, const std::optional<std::pair<double, double>>& range) {
   const float* first = values.data();
   const std::size_t count = static_cast<std::size_t>(values.size());
@@ -133,7 +134,7 @@ std::vector<Vec2f> map_places(const Floats& values, const std::optional<std::pai
   places.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     double part = high > low ? std::clamp((double{first[i]} - low) / (high - low), 0.0, 1.0) : 0.5;
-    if (!std::isfinite(first[i])) part = first[i]; // for those who look for holes
+    if (!std::isfinite(first[i])) part = first[i]; // kept for Holes
     places.emplace_back(static_cast<float>(kFirstOfMap + (kLastOfMap - kFirstOfMap) * part), 0.0f);
   }
   return places;
@@ -146,7 +147,7 @@ std::vector<Vec3> colour_rows(const py::array_t<double>& rows) {
   return colours;
 }
 
-/// Keywords that colour a mesh.
+/// The keywords that colour a mesh.
 struct Colouring {
   std::optional<Floats> colours, values;
   py::object colour_map;
@@ -242,7 +243,7 @@ py::array rows_of(const py::object& mesh, const T* first, std::size_t count, std
   return rows;
 }
 
-/// A pigment of one colour, which lets light through as another one does.
+/// Returns a pigment of one colour, with the transparency of another one.
 Pigment pigment_of(const Vec3& colour, const Pigment& like) {
   return {colour, like.filter, like.transmit};
 }

@@ -1,4 +1,4 @@
-// Meshes as Python has them: with colours, which become materials where a scene gets such a mesh.
+// Meshes in Python: they may have colours, which become materials when a mesh is added to a scene.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,9 +8,9 @@
 
 namespace celltrace {
 
-/// One of the two lists has entries.
+/// The colours of a mesh. Only one of the two lists has entries.
 struct MeshColours {
-  /// Linear colours; the mesh's own indices of materials are those of this list.
+  /// Linear colours; the mesh's own material indices refer to this list.
   std::vector<Vec3> palette;
   /// Linear colours, blended over the mesh's surface coordinate u from kFirstOfMap to kLastOfMap.
   std::vector<Vec3> map;
@@ -23,13 +23,13 @@ struct PythonMesh {
   std::shared_ptr<const MeshColours> colours = nullptr;
 };
 
-/// What an object has in place of a mesh with colours: they are in its materials.
+/// The parts of an object that replace a mesh with colours, which are in the materials.
 struct ColouredObject {
   std::shared_ptr<const Mesh> mesh;
   Index material;
 };
-/// Adds materials with the finish of `material` to the scene. Throws ValueError if that is more than a finish
-/// and one pigment.
+/// Adds materials with the finish of `material` to the scene. Throws ValueError if `material` has more than a
+/// finish and one pigment.
 ColouredObject add_colours(Scene& scene, const PythonMesh& mesh, const Material& material);
 
 } // namespace celltrace

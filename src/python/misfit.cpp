@@ -7,7 +7,7 @@ namespace celltrace {
 
 namespace {
 
-/// Names of "a, b=(1, 2), *, c=None", without self and the star.
+/// Returns the names in "a, b=(1, 2), *, c=None", without self and the star.
 std::vector<std::string> names_of(const std::string& parameters) {
   std::vector<std::string> names;
   int depth = 0;
@@ -32,7 +32,7 @@ std::string type_of(py::handle value) {
   return py::type::handle_of(value).attr("__name__").cast<std::string>();
 }
 
-/// Returns the parameters that are given by place; others are given by name only.
+/// Returns the positional parameters; others can be given by name only.
 std::string placed(const std::string& parameters) {
   const std::size_t star = parameters.find(", *, ");
   std::string text = star == parameters.npos ? parameters : parameters.substr(0, star) + ", ...";

@@ -10,7 +10,7 @@
 
 namespace celltrace {
 
-/// A first argument of any type, which fits only where pybind11 has tried everything else.
+/// A first argument of any type, which is accepted only after pybind11 has tried everything else.
 struct LastResort {
   py::object given;
 };
@@ -22,8 +22,8 @@ namespace pybind11::detail {
 template <> struct type_caster<celltrace::LastResort> {
   PYBIND11_TYPE_CASTER(celltrace::LastResort, const_name("object"));
 
-  /// In its first round pybind11 converts nothing; what it then finds would come before what can be
-  /// converted.
+  /// Refuses in pybind11's first round, which converts nothing: a match there would win over overloads that
+  /// need conversions.
   bool load(handle source, bool convert) {
     value.given = reinterpret_borrow<object>(source);
     return convert;
@@ -34,10 +34,10 @@ template <> struct type_caster<celltrace::LastResort> {
 
 namespace celltrace {
 
-/// A function's last overload, which throws TypeError for every call that gets there.
+/// The last overload of a function, which throws TypeError for every call that reaches it.
 class Misfit {
 public:
-  /// `parameters` as in signed_doc().
+  /// Makes the overload; `parameters` as in signed_doc().
   Misfit(std::string name, std::string parameters)
       : name_(std::move(name)), parameters_(std::move(parameters)) {}
 
@@ -47,7 +47,7 @@ private:
   std::string name_, parameters_;
 };
 
-/// Default of the first argument, where there is none.
+/// Returns the default of the first argument, which means that there is none.
 inline py::object no_argument() {
   return py::ellipsis();
 }
@@ -66,7 +66,7 @@ template <class Class> void add_method_misfit(Class& bound, const char* name, Mi
                                    const py::kwargs& kwargs) { misfit.refuse(first, args, kwargs); },
       py::arg("first") = no_argument());
 }
-/// Adds the last overload of the constructor of a class whose values are a T each.
+/// Adds the last overload of the constructor of a class whose values are of type T.
 template <class T, class Class> void add_init_misfit(Class& bound, Misfit misfit) {
   bound.def(py::init([misfit = std::move(misfit)](const LastResort& first, const py::args& args,
                                                   const py::kwargs& kwargs) -> std::shared_ptr<T> {

@@ -1,11 +1,11 @@
-// The Python module celltrace._celltrace, all of whose names the package celltrace has.
+// The Python module celltrace._celltrace, whose names the package celltrace exports.
 #include "python/bindings.hpp"
 
 #include "celltrace/version.hpp"
 
 PYBIND11_MODULE(_celltrace, module) {
   pybind11::options options;
-  options.disable_function_signatures(); // docstrings have those that inspect.signature() can read
+  options.disable_function_signatures(); // docstrings have signatures that inspect.signature() can read
   module.doc() = "Ray-traces POV-Ray scenes.";
   module.attr("__version__") = celltrace::version();
   celltrace::bind_errors(module);
@@ -16,7 +16,7 @@ PYBIND11_MODULE(_celltrace, module) {
   celltrace::bind_rendering(module);
   celltrace::bind_pictures(module);
 
-  // Users know them as those of the package.
+  // Users know the names as those of the package.
   pybind11::list names;
   for (const auto& [name, value] : module.attr("__dict__").cast<pybind11::dict>()) {
     if (name.cast<std::string>().front() == '_') continue;

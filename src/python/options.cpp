@@ -2,7 +2,7 @@
 
 namespace pybind11::detail {
 
-/// (left, top, right, bottom)
+/// Converts (left, top, right, bottom).
 template <> struct type_caster<celltrace::PictureRegion> {
   PYBIND11_TYPE_CASTER(celltrace::PictureRegion, const_name("tuple"));
 
@@ -26,7 +26,7 @@ namespace {
 
 using Declared = std::map<std::string, std::variant<double, std::string>>;
 
-/// Texts of a scene's as Python's users expect them: warnings as warnings, whatever else there is nowhere.
+/// Issues warnings of a scene as Python's warnings; drops other texts.
 void warn(std::string_view text) {
   if (text.find(": warning: ") == text.npos) return;
   while (!text.empty() && text.back() == '\n')
@@ -90,7 +90,7 @@ const Fields<ParseOptions>& parse_fields() {
   return fields;
 }
 
-/// Keywords of reading that have no field: their defaults, and what they mean.
+/// Keywords of reading that have no field: their names, defaults and meanings.
 struct OtherKeyword {
   const char *name, *usual, *doc;
 };
@@ -101,12 +101,12 @@ constexpr OtherKeyword kMessage = {
     "message", "None", "a function that hears #debug, warnings and the like; None: warnings are Python's"};
 constexpr OtherKeyword kOtherKeywords[] = {kDeclares, kLimits, kMessage};
 
-/// The value of a keyword, which is taken out; an empty handle if it is not there.
+/// Removes a keyword and returns its value; an empty handle if it is not there.
 py::object take(py::kwargs& kwargs, const char* name) {
   return kwargs.contains(name) ? kwargs.attr("pop")(name) : py::object();
 }
 
-/// The limit of this name. Throws ValueError if there is none.
+/// Returns the limit of this name. Throws ValueError if there is none.
 std::uint64_t ParseLimits::*limit_named(const std::string& name) {
   const auto& known = parse_limits();
   const auto limit = std::find_if(known.begin(), known.end(),

@@ -13,14 +13,14 @@ namespace celltrace {
 /// Takes the options of reading out of `kwargs`. Functions among them may be called without the interpreter's
 /// lock.
 ParseOptions take_parse_options(py::kwargs& kwargs);
-/// Throws TypeError if there are any, for what has a Scene already.
+/// Throws TypeError if there are options of reading, for calls that have a Scene already.
 void refuse_parse_options(const py::kwargs& kwargs);
-/// Sets those of rendering; TypeError for others.
+/// Sets options of rendering. Throws TypeError for others.
 void set_render_options(RenderOptions& options, const py::kwargs& kwargs);
-/// Sets those that a machine may change between frames; TypeError for others.
+/// Sets options that a machine may change between frames. Throws TypeError for others.
 void set_picture_options(RenderOptions& options, const py::kwargs& kwargs);
 
-// For docstrings: "name=default, ...", and a line on each.
+// For docstrings: "name=default, ...", and a line for each option.
 std::string parse_signature();
 std::string parse_listing();
 std::string render_signature();

@@ -1,4 +1,4 @@
-// Arrays as celltrace.Picture, which notebooks show.
+// Converts arrays to celltrace.Picture, which notebooks show.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -7,7 +7,7 @@
 
 namespace celltrace {
 
-/// `gamma`: of colours as numbers, as ColourImage has it.
+/// Returns the pixels as a picture. `gamma` is for colours as floats, as in ColourImage.
 pybind11::object as_picture(const pybind11::array& pixels, std::optional<double> gamma);
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// Pictures in files and in memory, and compared.
+// Binds pictures in files and in memory, and their comparison.
 #include "python/arrays.hpp"
 #include "python/bindings.hpp"
 #include "python/misfit.hpp"
@@ -21,7 +21,7 @@ py::object as_picture(const py::array& pixels, std::optional<double> gamma) {
 
 namespace {
 
-/// A picture of an array of (height, width, 3 or 4) channels; without the fourth it is opaque.
+/// Returns a picture from an array of (height, width, 3 or 4) channels; opaque without the fourth.
 template <class Picture, class Channel> Picture image_of(const py::array& given, Channel opaque) {
   const bool has_alpha = given.ndim() == 3 && given.shape(2) == 4;
   const int channels = has_alpha ? 4 : 3;
@@ -52,7 +52,7 @@ template <class Channel> bool holds(const py::array& array) {
   return array.dtype().is(py::dtype::of<Channel>());
 }
 
-/// Of a Picture its own gamma, of other arrays that of linear colours.
+/// Returns colours with a Picture's own gamma; other arrays are linear.
 ColourImage colours_of(const py::array& array) {
   auto colours = image_of<ColourImage>(array, 1.0f);
   colours.gamma = py::getattr(array, "gamma", py::float_(1.0)).cast<std::optional<double>>();
@@ -71,7 +71,7 @@ AnyImage any_image_of(const py::object& given) {
                        py::str(array.dtype()).cast<std::string>());
 }
 
-/// What to_image() makes of colours, for the formats that do not hold numbers.
+/// Returns colours as to_image() converts them, for formats that do not hold floats.
 AnyImage fitting(AnyImage image, ImageFormat format) {
   const auto* colours = std::get_if<ColourImage>(&image);
   return colours && !holds_numbers(format) ? AnyImage(to_image(*colours)) : std::move(image);
@@ -81,7 +81,7 @@ ImageFormat format_of(const std::string& name) {
   return image_format_of("picture." + name);
 }
 
-/// What of an OpenEXR file keywords ask for.
+/// The parts of an OpenEXR file that keywords select.
 struct ExrChoice {
   std::optional<FirstHits> first_hits;
   ExrOptions options;

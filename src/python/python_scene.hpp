@@ -1,4 +1,4 @@
-// Scenes as Python has them: meshes may have colours.
+// Scenes in Python, whose meshes may have colours.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,19 +8,19 @@
 
 namespace celltrace {
 
-/// A mesh with colours whose materials are in a scene already.
+/// A mesh with colours whose materials are already in a scene.
 struct PlacedColours {
-  std::shared_ptr<const Mesh> of; ///< the mesh as it was given
-  Material material;              ///< that they were made of
+  std::shared_ptr<const Mesh> of; ///< the mesh as the user passed it
+  Material material;              ///< the material that its colours were combined with
   std::shared_ptr<const Mesh> mesh;
-  Index index; ///< of the material that an object has with it
+  Index index; ///< material index for objects with this mesh
 };
 
 struct PythonScene : Scene {
   PythonScene() = default;
   PythonScene(Scene scene) : Scene(std::move(scene)) {}
 
-  std::vector<PlacedColours> placed_colours; ///< instances share them
+  std::vector<PlacedColours> placed_colours; ///< shared by instances
 };
 
 } // namespace celltrace

@@ -1,4 +1,4 @@
-// Reading scenes with Python's lock released.
+// Reads scenes with Python's lock released.
 #pragma once
 
 #include "python/watch.hpp"
@@ -15,7 +15,8 @@ struct SceneSource {
   bool is_file = false;
 };
 
-/// With the interpreter's lock, which it releases. `watch` hears of it; where that ends it, throws Cancelled.
+/// Reads a scene. Called with the interpreter's lock, which it releases. `watch` gets the progress; if it
+/// ends the job, Cancelled is thrown.
 Scene read_scene(const SceneSource& source, ParseOptions options, Watch& watch);
 
 } // namespace celltrace

@@ -35,7 +35,7 @@ PythonScene read(const SceneSource& source, const py::object& progress, py::kwar
   }
 }
 
-/// An index of what there is, or the index of what is added.
+/// Returns an existing index that is passed, or the index of a value that is added.
 template <class T> Index index_of(PythonScene& scene, const py::object& given, const char* name) {
   if (py::isinstance<T>(given)) return scene.add(given.cast<const T&>());
   if (py::isinstance<py::int_>(given)) return given.cast<Index>();
@@ -46,7 +46,7 @@ template <class T> Index index_of(PythonScene& scene, const py::object& given, c
 Index add_object(PythonScene& scene, const py::object& shape, const py::object& material,
                  const py::object& interior, const py::kwargs& kwargs);
 
-/// With the materials that an earlier object has, if that has the same mesh and material.
+/// Adds an object. If an earlier object has the same mesh and material, uses its materials.
 Index add_coloured(PythonScene& scene, const PythonMesh& mesh, const py::object& material,
                    const py::object& interior, const py::kwargs& kwargs) {
   const bool is_index = py::isinstance<py::int_>(material);
@@ -78,7 +78,7 @@ Index add_object(PythonScene& scene, const py::object& shape, const py::object& 
   return static_cast<Index>(scene.objects.size() - 1);
 }
 
-/// A list as a tuple of copies, which is set as a whole.
+/// Binds a list as a tuple of copies, which can be set as a whole.
 template <class T>
 void bind_list(py::class_<PythonScene, std::shared_ptr<PythonScene>>& scene, const char* name,
                std::vector<T> Scene::*list, const char* doc) {
@@ -91,7 +91,7 @@ void bind_list(py::class_<PythonScene, std::shared_ptr<PythonScene>>& scene, con
       doc);
 }
 
-/// A member that can be set.
+/// Binds a member that can be set.
 template <class T>
 void bind_member(py::class_<PythonScene, std::shared_ptr<PythonScene>>& scene, const char* name,
                  T Scene::*member, const char* doc) {
@@ -103,7 +103,7 @@ void bind_member(py::class_<PythonScene, std::shared_ptr<PythonScene>>& scene, c
       doc);
 }
 
-/// Points around all that ends, as an array.
+/// Returns points around all bounded objects, as an array.
 py::array_t<double> points_of(const PythonScene& scene) {
   const std::vector<Vec3> points = points_around(scene);
   py::array_t<double> rows({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});

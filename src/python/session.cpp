@@ -11,10 +11,10 @@ namespace celltrace {
 
 namespace {
 
-// Shares of a job's progress.
+// Shares of the phases in a job's progress.
 constexpr double kReading = 0.1, kBuilding = 0.2;
 
-/// Where pixels go, of an array of (height, width, 3 or 4) bytes.
+/// Returns a framebuffer in an array of (height, width, 3 or 4) bytes.
 Framebuffer framebuffer_of(const py::array& array, const RenderOptions& options) {
   const bool has_alpha = array.ndim() == 3 && array.shape(2) == 4;
   check_shape(array, {options.height, options.width, has_alpha ? 4 : 3}, "into");
@@ -44,7 +44,7 @@ py::object arrays_of(FirstHits hits) {
   return arrays;
 }
 
-/// A Session that Python's threads may share: what changes it while it renders is refused.
+/// A Session that Python's threads may share: changes while it renders are refused.
 class GuardedSession {
 public:
   GuardedSession(const PythonScene& scene, RenderOptions options) {
@@ -56,7 +56,7 @@ public:
   }
   GuardedSession(const GuardedSession&) = delete;
 
-  /// Throws Error while another thread, or a frame's own progress function, is not through with it.
+  /// Returns the session. Throws Error while another thread, or a frame's own progress function, uses it.
   Session& idle() {
     if (watch_) throw Error("the session is rendering");
     return *session_;
@@ -104,7 +104,7 @@ private:
   }
 
   std::optional<Session> session_;
-  Watch* watch_ = nullptr; ///< of the frame that is being rendered
+  Watch* watch_ = nullptr; ///< watches the frame that is being rendered
   py::object statistics_ = py::none(), first_hits_ = py::none();
 };
 
@@ -116,7 +116,7 @@ std::filesystem::path path_of(const py::object& scene) {
   return path;
 }
 
-/// One frame of a scene, or of a scene's file.
+/// Renders one frame of a scene, or of a scene's file.
 py::object render_once(const py::object& scene, const py::object& progress, py::kwargs kwargs) {
   Watch watch(progress);
   std::shared_ptr<const Scene> read;
@@ -128,7 +128,7 @@ py::object render_once(const py::object& scene, const py::object& progress, py::
   set_render_options(options, kwargs);
   try {
     if (is_scene) {
-      // A copy: the lock is released, and other threads may change it.
+      // A copy, because other threads may change the scene while the lock is released.
       read = std::make_shared<Scene>(scene.cast<const PythonScene&>());
     } else {
       done = kReading;

@@ -1,4 +1,4 @@
-// Cameras, lights, and what surfaces and insides look like.
+// Binds cameras, lights, and the materials and interiors of objects.
 #include "python/bindings.hpp"
 #include "python/misfit.hpp"
 #include "python/python_scene.hpp"
@@ -17,8 +17,8 @@ namespace celltrace {
 
 namespace {
 
-/// The material of a sphere of which `text` is written, in a scene like Scene(). The text is a file of its
-/// own, for the places in messages to be those in it.
+/// Returns the material of a sphere with `text`, in a scene like Scene(). The text is a file of its
+/// own, so that the places in messages refer to it.
 Material material_from_pov(const std::string& text) {
   constexpr std::string_view kName = "<material>";
   ParseOptions options;
@@ -38,7 +38,7 @@ Camera look_at(const Vec3& from, const Vec3& to, double angle, std::optional<dou
   return camera;
 }
 
-/// A field of Material::finish.
+/// Returns access to a field of Material::finish.
 template <class T> auto of_finish(T Finish::*member) {
   return [member](Material& material) -> T& { return material.finish.*member; };
 }

@@ -1,4 +1,4 @@
-// Who hears of a job's progress in Python, and may break it off.
+// Reports a job's progress to Python, which may cancel the job.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,23 +8,23 @@
 
 namespace celltrace {
 
-/// Calls a Python function with the finished fraction of a job, and looks for signals, every few
-/// milliseconds. What they raise (KeyboardInterrupt) or `False` as the function's result ends the job. Made
-/// and destroyed with the interpreter's lock; called without it, by the thread that works.
+/// Calls a Python function with the finished fraction of a job, and checks for signals, every few
+/// milliseconds. If these raise an exception (KeyboardInterrupt) or the function returns `False`, the job
+/// ends. Constructed and destroyed with the interpreter's lock; called without it, by the thread that works.
 class Watch {
 public:
-  /// None: only signals are looked for.
+  /// Makes a watch. None: only checks for signals.
   explicit Watch(pybind11::object function) : function_(std::move(function)) {}
 
-  /// From now on fractions are of the part of the job from `begin` to `end`.
+  /// Scales later fractions to the part of the job from `begin` to `end`.
   void set_part(double begin, double end) {
     begin_ = begin;
     end_ = end;
   }
-  /// False: the job has to end.
+  /// Returns false if the job has to end.
   bool operator()(double fraction);
-  /// With the interpreter's lock: raises what ended the job, or celltrace.Cancelled if it ended for want of
-  /// it.
+  /// Raises the exception that ended the job, or celltrace.Cancelled if the function ended an incomplete one.
+  /// Called with the interpreter's lock.
   void check(bool is_complete) const;
   bool has_ended() const { return ended_; }
 

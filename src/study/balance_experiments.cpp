@@ -1,4 +1,4 @@
-// How well the SPEs share a frame, and how much faster more of them are.
+// Measures how evenly the SPEs share a frame, and how much faster more SPEs are.
 #include "study/experiment.hpp"
 
 #include <algorithm>
@@ -7,8 +7,8 @@ namespace celltrace::study {
 
 namespace {
 
-/// POV-Ray's own size: 19,200 pixels for each of 16 SPEs. Not smaller for a quick study: it is what the
-/// claims are about.
+/// POV-Ray's own picture size: 19,200 pixels for each of 16 SPEs. A quick study has the same, because the
+/// claims are about it.
 constexpr int kPictureWidth = 640;
 constexpr int kPictureHeight = 480;
 

@@ -1,4 +1,4 @@
-// What the software cache is worth, and how its shape matters.
+// The benefit of the software cache, and the effect of its shape.
 #include "celltrace/cache/replay.hpp"
 #include "study/experiment.hpp"
 
@@ -9,7 +9,7 @@ namespace celltrace::study {
 
 namespace {
 
-/// Part of the SPEs' time that they stand still at channels, in percent.
+/// Returns the share of the SPEs' time in which they stall at channels, in percent.
 double waiting(const RenderStatistics& statistics) {
   double stalled = 0, total = 0;
   for (const RenderStatistics::Spe& spe : statistics.spes) {
@@ -49,7 +49,8 @@ Table study_cache_cost(Laboratory& laboratory) {
   for (const StudyScene& scene : laboratory.scenes)
     for (const auto& [word, accelerator] : accelerators)
       for (const bool enabled : {false, true}) {
-        // The rays of a packet stay together on long ways only if there are enough of them, in a hurry too.
+        // The rays of a packet stay together over long distances only if there are enough of them, in a quick
+        // study, too.
         const int width = scene.name != "cage" ? 256 : laboratory.quick ? 1280 : 640;
         Job job{&scene.scene, laboratory.options(width, 8), 2};
         job.options.accelerator = accelerator;

@@ -1,4 +1,4 @@
-// How far cycles of counted operations are from those of machine code.
+// Compares the cycles of counted operations with those of machine code.
 #include "study/experiment.hpp"
 
 #include <algorithm>
@@ -8,10 +8,10 @@ namespace celltrace::study {
 
 namespace {
 
-/// The study's ways to render that differ most in what SPUs do.
+/// The study's ways to render whose work on the SPUs differs most.
 struct Setting {
   const char* name;
-  int width; ///< of a study that is not quick
+  int width; ///< width if the study is not quick
   unsigned spes;
   Accelerator accelerator;
   bool cached;

@@ -15,7 +15,7 @@ using image::Svg;
 
 constexpr double kWidth = 900, kHeight = 520;
 constexpr double kLeft = 80, kRight = 190, kTop = 50, kBottom = 60; ///< margins
-/// Told apart by people who see few colours (Okabe and Ito).
+/// Colours that people with colour blindness can tell apart (Okabe and Ito).
 constexpr const char* kColours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                     "#E69F00", "#56B4E9", "#000000", "#999933"};
 
@@ -23,7 +23,7 @@ const char* colour(std::size_t series) {
   return kColours[series % std::size(kColours)];
 }
 
-/// From values to places on one axis.
+/// Maps values to positions on one axis.
 class Axis {
 public:
   Axis(double low, double high, double from, double to, bool logarithmic)
@@ -62,7 +62,7 @@ public:
   }
 
 private:
-  /// 1, 2 or 5 times a power of ten, at least `value`.
+  /// Returns 1, 2 or 5 times a power of ten, at least `value`.
   static double nice(double value) {
     const double power = std::pow(10.0, std::floor(std::log10(value)));
     for (const double step : {1.0, 2.0, 5.0})
@@ -149,7 +149,7 @@ std::string draw(const std::string& title, const Chart& chart) {
     x = {0, 1};
     y = {0, 1};
   }
-  // Bars stand on 1 where heights are factors.
+  // Bars stand on 1 if heights are factors.
   const double floor =
       chart.kind == Chart::Kind::bars && chart.logarithmic_y ? std::min(y.low * 0.8, 1.0) : y.low;
   const Axis vertical(floor, y.high, kHeight - kBottom, kTop, chart.logarithmic_y);

@@ -7,7 +7,7 @@
 
 namespace celltrace::study {
 
-/// A picture of 900x520 with title, axes, marks and a legend.
+/// Returns a picture of 900x520 with title, axes, marks and a legend.
 std::string draw(const std::string& title, const Chart& chart);
 
 } // namespace celltrace::study

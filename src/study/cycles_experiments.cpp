@@ -1,4 +1,4 @@
-// Where the time of an SPE goes, and what the first frame pays for.
+// The time of an SPE by its use, and the extra cost of the first frame.
 #include "study/experiment.hpp"
 
 #include <algorithm>

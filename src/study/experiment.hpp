@@ -1,4 +1,4 @@
-// What the experiments of a study share.
+// Common parts of the experiments of a study.
 #pragma once
 
 #include "study/runs.hpp"
@@ -11,7 +11,7 @@
 
 namespace celltrace::study {
 
-/// What an experiment works on, and where it leaves its claims.
+/// The scenes and the machine that an experiment works with, and the place for its claims.
 struct Laboratory {
   const std::vector<StudyScene>& scenes;
   const Runner& runner;
@@ -19,14 +19,14 @@ struct Laboratory {
   std::map<std::string, Claim>& claims;
 
   const StudyScene& scene(const std::string& name) const;
-  /// Options for pictures of the study's size: `full` pixels wide, or half of that if it is to be quick, and
-  /// three quarters as high.
+  /// Returns options for pictures of the study's size: `full` pixels wide, or half of that if it is to be
+  /// quick, and three quarters as high.
   RenderOptions options(int full, unsigned spes) const;
-  /// The options of `celltrace render` for frames in lockstep of this size on so many SPEs.
+  /// Returns the options of `celltrace render` for frames in lockstep of this size on as many SPEs.
   std::string command_options(const RenderOptions& options) const;
 };
 
-// Each makes one table.
+// The experiments: each makes one table.
 Table study_reprocessing(Laboratory& laboratory);
 Table study_models(Laboratory& laboratory);
 Table study_cache_cost(Laboratory& laboratory);
@@ -39,7 +39,8 @@ Table study_warmth(Laboratory& laboratory);
 Table study_cycles(Laboratory& laboratory);
 Table study_calibration(Laboratory& laboratory);
 
-/// Of several scenes' values, the best (or, for what has to hold everywhere, the worst) as the claim.
+/// A value of one of several scenes: the best one (or, if it has to hold everywhere, the worst) becomes the
+/// claim.
 struct ClaimValue {
   std::string scene, parameters;
   double value;
@@ -50,13 +51,13 @@ Claim make_claim(const std::vector<ClaimValue>& values, Holds holds, double bar,
 /// Throws Error if outcomes of one scene show different pictures.
 void demand_same_picture(const std::string& scene, const std::vector<const Outcome*>& outcomes);
 
-/// Of all kinds of data.
+/// Returns the reads of all kinds of data.
 RenderStatistics::Cache all_reads(const RenderStatistics& statistics);
 
 double megacycles(std::uint64_t cycles);
-/// 1.234 -> "1.23".
+/// Returns 1.234 as "1.23".
 std::string number(double value, int decimals);
-/// "a, b and c"; "none" for none.
+/// Returns "a, b and c"; "none" for none.
 std::string listed(const std::vector<std::string>& names);
 
 } // namespace celltrace::study

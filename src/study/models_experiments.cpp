@@ -1,4 +1,4 @@
-// How SPEs share the work of a ray: pipelines, joined and split, offload, and rays that stay where they are.
+// Ways in which SPEs share the work of a ray: pipelines, joined and split, offload, and rays that stay put.
 #include "study/experiment.hpp"
 
 #include <algorithm>
@@ -89,7 +89,7 @@ Table study_models(Laboratory& laboratory) {
     Model model;
     Accelerator accelerator;
   };
-  // Pipelines and offload are the predecessors', on their grid.
+  // Pipelines and offload are the models of earlier work, which used the grid.
   const std::vector<Way> ways = {{Model::pipeline_split, Accelerator::grid},
                                  {Model::pipeline, Accelerator::grid},
                                  {Model::offload, Accelerator::grid},

@@ -1,4 +1,4 @@
-// A study as text, JSON, CSV files and pictures.
+// Writes a study as text, JSON, CSV files and pictures.
 #include "celltrace/error.hpp"
 #include "image/file.hpp"
 #include "study/chart.hpp"
@@ -120,7 +120,7 @@ nlohmann::ordered_json to_json(const Table& table) {
   return json;
 }
 
-/// RFC 4180.
+/// Writes a field as in RFC 4180.
 void write_csv_field(std::ostream& out, const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) {
     out << text;
@@ -152,7 +152,7 @@ std::string to_csv(const Table& table) {
 void write_file(const fs::path& path, const std::string& content) {
   try {
     image::OutputFile file(path);
-    std::fwrite(content.data(), 1, content.size(), file.get()); // commit() knows if it failed
+    std::fwrite(content.data(), 1, content.size(), file.get()); // commit() reports failures
     file.commit();
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());

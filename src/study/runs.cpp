@@ -12,7 +12,7 @@ namespace celltrace::study {
 
 namespace {
 
-/// FNV-1a.
+/// Returns a hash of the picture (FNV-1a).
 std::uint64_t digest(const Image& image) {
   std::uint64_t hash = 14695981039346656037u;
   for (const std::uint8_t byte : image.rgba)
@@ -52,7 +52,7 @@ void Runner::each(std::size_t count, const std::function<void(std::size_t)>& wor
       try {
         work(i);
       } catch (...) {
-        next = count; // nobody begins another
+        next = count; // no thread begins another job
         throw;
       }
       const std::lock_guard lock(mutex);

@@ -1,5 +1,5 @@
-// Frames of a study: rendered on the emulated or the simulated Cell in lockstep, several at a time, each
-// always the same.
+// Frames of a study: rendered on the emulated or the simulated Cell in lockstep, several at a time, with the
+// same results in every run.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -18,7 +18,7 @@ struct Job {
   int frames = 1;
 };
 
-/// The statistics of a job's frames, and what its last picture holds, as a number.
+/// The statistics of a job's frames, and a hash of its last picture.
 struct Outcome {
   std::vector<RenderStatistics> frames;
   std::uint64_t picture = 0;
@@ -30,13 +30,14 @@ struct Outcome {
 /// Runs jobs on the threads of the host. Thread safety: one thread at a time.
 class Runner {
 public:
-  /// `backend` is where jobs run. 0 threads: as many as the host has. `heard` is told of every job that is
-  /// done, by any thread but one at a time.
+  /// Makes a runner of jobs on `backend`. 0 threads: as many as the host has. `heard` is called for every
+  /// finished job, by any thread but one at a time.
   Runner(Backend backend, unsigned threads, std::function<void()> heard)
       : backend_(backend), threads_(threads), heard_(std::move(heard)) {}
 
   Backend backend() const { return backend_; }
-  /// In lockstep. In the order of the jobs. The first error of any is thrown.
+  /// Runs the jobs in lockstep. Returns the outcomes in the order of the jobs. Throws the first error of any
+  /// job.
   std::vector<Outcome> run(const std::vector<Job>& jobs) const { return run(jobs, backend_); }
   std::vector<Outcome> run(const std::vector<Job>& jobs, Backend backend) const;
   /// Calls `work(0)` to `work(count - 1)`.
@@ -48,10 +49,10 @@ private:
   std::function<void()> heard_;
 };
 
-/// Whether this build's programs can run on cell_sim.
+/// Returns whether this build's programs can run on cell_sim.
 bool has_machine_code();
 
-/// Seconds that a native machine of one SPE takes to trace a frame: the median of `frames`.
+/// Returns the seconds that a native machine of one SPE takes to trace a frame: the median of `frames`.
 double native_seconds(const Scene& scene, RenderOptions options, int frames);
 
 } // namespace celltrace::study

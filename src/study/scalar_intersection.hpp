@@ -1,4 +1,4 @@
-// One ray against one object in plain floats, as a compiler takes it: what the packets are held against.
+// Intersection of one ray with one object in scalar code, for comparison with packets.
 // Kernel dialect.
 #pragma once
 
@@ -23,8 +23,8 @@ inline void cross(const float (&a)[3], const float (&b)[3], float (&out)[3]) {
 
 } // namespace detail
 
-/// True if the ray hits the sphere around geometry[0..2] with radius geometry[3]; the distances of both
-/// crossings. `root` is of the machine.
+/// Returns true if the ray hits the sphere around geometry[0..2] with radius geometry[3], and the distances
+/// of both crossings. `root` is the machine's square root.
 template <class Root>
 inline bool hits_sphere(const ScalarRay& ray, const float* geometry, float (&distance)[2], Root root) {
   const float to_centre[3] = {geometry[0] - ray.origin[0], geometry[1] - ray.origin[1],
@@ -40,7 +40,7 @@ inline bool hits_sphere(const ScalarRay& ray, const float* geometry, float (&dis
   return true;
 }
 
-/// True if the ray hits the triangle of geometry[0..8] (Moeller and Trumbore 1997).
+/// Returns true if the ray hits the triangle of geometry[0..8] (Moeller and Trumbore 1997).
 inline bool hits_triangle(const ScalarRay& ray, const float* geometry, float& distance) {
   const float edge1[3] = {geometry[3] - geometry[0], geometry[4] - geometry[1], geometry[5] - geometry[2]};
   const float edge2[3] = {geometry[6] - geometry[0], geometry[7] - geometry[1], geometry[8] - geometry[2]};

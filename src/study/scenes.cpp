@@ -8,7 +8,7 @@ namespace celltrace::study {
 
 namespace {
 
-/// Uniform numbers, the same with every standard library.
+/// Uniform random numbers that are the same with every standard library.
 class Random {
 public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -56,7 +56,7 @@ Scene empty(const Camera& camera) {
   return scene;
 }
 
-/// A floor of two triangles.
+/// Adds a floor of two triangles.
 void add_floor(Scene& scene, double y, double size, Index material) {
   auto mesh = std::make_shared<Mesh>();
   for (const auto& [x, z] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
@@ -76,7 +76,7 @@ Scene few() {
   return scene;
 }
 
-/// A chain that wanders through a ball, with smaller atoms around each of its own.
+/// Makes a chain that wanders through a ball, with smaller atoms around each of its own.
 Scene molecule() {
   Scene scene = empty(look(Vec3(0, 0, -26), Vec3(0, 0, 0), 0.8));
   const Index grey = paint(scene, Vec3(0.5)), white = paint(scene, Vec3(0.9)),
@@ -94,7 +94,7 @@ Scene molecule() {
   return scene;
 }
 
-/// Mirrors in one corner, and nothing anywhere else.
+/// Makes mirrors in one corner of an otherwise empty space.
 Scene corner() {
   Scene scene = empty(look(Vec3(0, 0, -20), Vec3(0, 0, 0), 0.9));
   Random random(11);
@@ -106,7 +106,7 @@ Scene corner() {
   return scene;
 }
 
-/// Beads on the edges of a long box that has nothing in it: rays walk far through a grid before they meet
+/// Makes beads on the edges of a long empty box: rays traverse many voxels of a grid before they hit
 /// something, if they do.
 Scene cage() {
   Scene scene = empty(look(Vec3(0, 0, -60), Vec3(0, 0, 0), 0.44));
@@ -126,7 +126,7 @@ Scene cage() {
   return scene;
 }
 
-/// A sphere with nine on it, and nine on each of those (Haines, "A proposal for standard graphics
+/// Adds a sphere with nine on it, and nine on each of those (Haines, "A proposal for standard graphics
 /// environments", 1987).
 void add_flake(Scene& scene, const Vec3& centre, const Vec3& up, double radius, int levels, Index material) {
   add_sphere(scene, centre, radius, material);
@@ -151,7 +151,7 @@ Scene flake() {
   return scene;
 }
 
-/// Hills of n x n squares, two triangles each.
+/// Makes hills of n x n squares, two triangles each.
 Scene hills(int n) {
   Scene scene = empty(look(Vec3(0, 7, -13), Vec3(0, -1, 0), 1.0));
   auto mesh = std::make_shared<Mesh>();

@@ -10,12 +10,12 @@ namespace celltrace::study {
 
 struct StudyScene {
   std::string name;
-  std::string what; ///< a line of words
+  std::string what; ///< one line of description
   Scene scene;
 };
 
-/// `few`, `molecule`, `corner`, `cage`, `flake`, `terrain` and `mountains`, in this order. The same on every
-/// machine.
+/// Returns `few`, `molecule`, `corner`, `cage`, `flake`, `terrain` and `mountains`, in this order. The same
+/// on every machine.
 std::vector<StudyScene> make_scenes();
 
 } // namespace celltrace::study

@@ -1,4 +1,4 @@
-// Intersection of packets in SIMD lanes against one ray after the other.
+// Compares intersection of packets in SIMD lanes with intersection of one ray after the other.
 #include "celltrace/emulator.hpp"
 #include "celltrace/error.hpp"
 #include "kernel/primitives/list.hpp"
@@ -15,12 +15,12 @@ namespace {
 using namespace kernel;
 using S = EmulatedSpu::simd;
 
-// Counted in the SPU's code of scalar_intersection.hpp (spu-elf-g++ 9.3, -O2); what it waits for is
+// Work counted in the SPU's code of scalar_intersection.hpp (spu-elf-g++ 9.3, -O2); its waits are
 // estimated.
 constexpr ScalarWork kScalarSphere = {19, 21, 14, 15, 1, 0, 88, 6};
 constexpr ScalarWork kScalarTriangle = {43, 43, 17, 18, 4, 0, 147, 26};
 
-/// A packet of rays along z, half of which meet the object.
+/// Makes a packet of rays along z, half of which hit the object.
 RayPacket make_packet() {
   RayPacket rays{};
   for (std::uint32_t lane = 0; lane < kSimdLanes; ++lane) {
@@ -44,7 +44,7 @@ ObjectRecord make_object(ObjectKind kind) {
 
 struct Measured {
   double cycles_a_ray = 0;
-  std::uint32_t hits = 0; ///< of a packet
+  std::uint32_t hits = 0; ///< hits of a packet
 };
 
 constexpr int kPackets = 1000;

@@ -1,5 +1,5 @@
-// The thesis's experiments again: on the emulated Cell in lockstep, whose virtual cycles are the same on
-// every machine, with seconds of the host beside them.
+// Repeats the thesis's experiments on the emulated Cell in lockstep, whose virtual cycles are the same on
+// every machine; seconds of the host are given beside them.
 #pragma once
 
 #include "celltrace/spe/backend.hpp"
@@ -15,22 +15,22 @@ namespace celltrace::study {
 
 struct StudyOptions {
   bool quick = false;   ///< smaller pictures and fewer scenes; the tables are the same
-  unsigned threads = 0; ///< of the host; 0: as many as it has
-  std::string only;     ///< id of the one table that is wanted; "": all
-  /// Whose cycles: of cell_emu, counted operations, or of cell_sim, machine code. What machine code
-  /// cannot show (`shapes`, `simd`) is of cell_emu all the same.
+  unsigned threads = 0; ///< threads of the host; 0: as many as it has
+  std::string only;     ///< id of the only table to make; "": all
+  /// Backend whose cycles are shown: cell_emu counts operations, cell_sim executes machine code. Tables that
+  /// machine code cannot show (`shapes`, `simd`) use cell_emu in any case.
   Backend backend = Backend::cell_emu;
 };
 
-/// A ratio or a rest that the thesis claims, where it is best shown, and where it is not.
+/// A ratio or a remainder that the thesis claims, the scene that shows it best, and the scenes that miss it.
 struct Claim {
   double value = 0;
-  double thesis = 0;               ///< 0: it says nothing
-  std::string scene;               ///< that `value` is of
-  std::string parameters;          ///< of the render command, to reproduce it
-  double bar = 0;                  ///< what is to be reached
-  bool at_most = false;            ///< the bar is a ceiling
-  std::vector<std::string> missed; ///< scenes on which the bar is not reached
+  double thesis = 0;               ///< value in the thesis; 0: none
+  std::string scene;               ///< scene of `value`
+  std::string parameters;          ///< options of the render command that reproduce it
+  double bar = 0;                  ///< value to reach
+  bool at_most = false;            ///< true: the bar is an upper limit
+  std::vector<std::string> missed; ///< scenes that miss the bar
 
   bool reached() const { return at_most ? value <= bar : value >= bar; }
 };
@@ -42,17 +42,17 @@ struct Study {
   std::map<std::string, Claim> claims;
 };
 
-/// The ids of all tables, in their order.
+/// Returns the ids of all tables, in their order.
 std::vector<std::string> table_ids();
 
-/// `progress` hears the number of jobs that are done, and the name of the table being made, from any thread
-/// but one at a time. Throws InputError for an unknown id or another backend, or
-/// cell_sim in a build without the SPU's machine code, and Error if two ways to render a scene give
-/// different pictures.
+/// Runs the study. `progress` is called with the name of the present table and the number of finished jobs,
+/// by any thread but one at a time. Throws InputError for an unknown id or another backend, or for cell_sim
+/// in a build without the SPU's machine code, and Error if two ways to render a scene give different
+/// pictures.
 Study run_study(const StudyOptions& options,
                 const std::function<void(const std::string& table, int jobs)>& progress);
 
-/// As people read it.
+/// Returns the study as text for people.
 std::string to_text(const Study& study);
 
 /// Writes study.txt, study.json, and a CSV file and an SVG picture for every table. Makes the folder; throws

@@ -7,7 +7,7 @@ namespace celltrace::viewer {
 
 namespace {
 
-/// The words for Camera::Kind.
+/// Names of Camera::Kind in POV-Ray's language.
 constexpr std::array kKinds = {"perspective", "orthographic", "spherical",  "ultra_wide_angle",
                                "omnimax",     "panoramic",    "cylinder 1", "cylinder 2",
                                "cylinder 3",  "cylinder 4",   "fisheye"};
@@ -15,7 +15,7 @@ constexpr std::array kKinds = {"perspective", "orthographic", "spherical",  "ult
 /// Returns the shortest digits that are read as this number.
 std::string text_of(double number) {
   char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, number + 0.0).ptr}; // no -0
+  return {digits, std::to_chars(digits, digits + sizeof digits, number + 0.0).ptr}; // avoids -0
 }
 
 std::string text_of(const Vec3& v) {

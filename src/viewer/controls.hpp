@@ -1,4 +1,4 @@
-// Which key does what.
+// The keys of the viewer and their actions.
 #pragma once
 
 #include <cstdint>
@@ -36,16 +36,16 @@ enum class Action : std::uint8_t {
 
 struct Control {
   Action action;
-  SDL_Keycode keys[2]; ///< the second one may be 0
-  const char* name;    ///< of the keys, for people
+  SDL_Keycode keys[2]; ///< the second key may be 0
+  const char* name;    ///< name of the keys, for people
   const char* help;
 };
 
-/// All, in the order in which help shows them.
+/// Returns all controls, in the order in which help shows them.
 const std::vector<Control>& controls();
-/// Null for keys that do nothing.
+/// Returns the control of a key; null for keys without one.
 const Control* control_of(SDL_Keycode key);
-/// Those that go on as long as their key is down.
+/// Returns true for actions that go on as long as their key is down.
 constexpr bool is_movement(Action action) {
   return action <= Action::sink || action == Action::zoom_in || action == Action::zoom_out;
 }

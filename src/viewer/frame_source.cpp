@@ -12,11 +12,11 @@ namespace celltrace::viewer {
 
 namespace {
 
-/// A picture that takes longer is shown while it grows,
+/// Seconds from which on a picture is shown while it grows.
 constexpr double kSlow = 0.2;
-/// so often.
+/// Time between two such updates.
 constexpr std::chrono::milliseconds kGrowth(60);
-/// Whoever looks around has the first picture cancelled only if it is late.
+/// Age from which a new input cancels the first picture; a younger one is finished.
 constexpr std::chrono::milliseconds kLate(40);
 
 int scaled(int size, int scale) {
@@ -27,7 +27,7 @@ double pixels_of(const RenderOptions& options) {
   return static_cast<double>(options.width) * options.height;
 }
 
-/// By the nearest pixel.
+/// Resizes a picture by the nearest pixel.
 Image resized(const Image& from, int width, int height) {
   Image to(width, height);
   for (int y = 0; y < height; ++y)
@@ -131,7 +131,7 @@ Picked FrameSource::look_at(const Place& place) {
   picked.is_middle = place.is_middle;
   picked.number = number_;
   try {
-    constexpr int kFine = 4096; // pixels a side, that places are counted in
+    constexpr int kFine = 4096; // picture size for camera_ray(), in which places are measured
     const auto ray = camera_ray(camera_, kFine, kFine, place.x * kFine, place.y * kFine);
     if (!ray) return picked;
     const RayHit hit = session_->ray_queries().closest_hit(*ray);
@@ -202,7 +202,7 @@ bool FrameSource::render(const Wanted& wanted, int scale, bool is_first, bool an
     done = fraction;
     return goes_on(wanted, is_first, start);
   });
-  // Building a BVH is not part of what the next frame takes.
+  // Building a BVH does not count for the estimate of the next frame.
   const RenderStatistics& statistics = result.statistics;
   const std::chrono::duration<double> elapsed = Clock::now() - start;
   const double seconds = elapsed.count() - statistics.build_seconds - statistics.prepare_seconds;
@@ -224,7 +224,7 @@ bool FrameSource::render(const Wanted& wanted, int scale, bool is_first, bool an
   return goes_on(wanted, false, start);
 }
 
-/// Whether what is under way is still worth while.
+/// Returns whether the present picture is still worth finishing.
 bool FrameSource::goes_on(const Wanted& wanted, bool is_first, Clock::time_point start) {
   const std::lock_guard lock(mutex_);
   if (quits_) return false;

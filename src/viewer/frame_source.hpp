@@ -1,4 +1,4 @@
-// Renders in a thread of its own what a window wants to show: coarsely first, then finely.
+// Renders pictures for a window in a thread of its own: coarsely first, then finely.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -21,61 +21,63 @@ class Session;
 
 namespace celltrace::viewer {
 
-/// What is to be seen.
+/// The picture that the window wants.
 struct Wanted {
-  std::shared_ptr<const Scene> scene; ///< null: nothing yet
+  std::shared_ptr<const Scene> scene; ///< null: none yet
   Camera camera;
-  /// Machine, size and antialiasing, which only pictures at rest have.
+  /// Machine, size and antialiasing; only pictures at rest are antialiased.
   RenderOptions options;
   bool work_map = false;
-  /// Grows whenever options change but for size, antialiasing and work_map: another machine is needed.
+  /// Number that grows when options other than size, antialiasing and work_map change, which need another
+  /// machine.
   std::uint64_t machine = 0;
-  std::uint64_t number = 0; ///< of the input that asked for it; grows with each
+  std::uint64_t number = 0; ///< number of the input that asked for it; grows with each input
 };
 
-/// What there is to be seen.
+/// A picture to show.
 struct Frame {
-  Image image; ///< smaller than the window by `scale`
+  Image image; ///< smaller than the window by the factor `scale`
   int scale = 1;
-  bool is_complete = true; ///< false: it goes on growing
-  bool is_final = false;   ///< nothing better comes until something else is wanted
+  bool is_complete = true; ///< false: the picture is still growing
+  bool is_final = false;   ///< true: nothing better comes until something else is wanted
   bool is_antialiased = false;
   std::uint64_t number = 0;    ///< Wanted::number
-  RenderStatistics statistics; ///< of the last complete frame
+  RenderStatistics statistics; ///< statistics of the last complete frame
   std::vector<WorkRecord> work;
-  std::string error; ///< what went wrong instead; the image is empty then
+  std::string error; ///< message of an error; the image is empty then
 };
 
-/// What a point of the picture shows.
+/// The object at a point of the picture.
 struct Picked {
-  std::shared_ptr<const Scene> scene; ///< that was asked
-  bool is_middle = false;             ///< ask_middle() asked
+  std::shared_ptr<const Scene> scene; ///< the scene that was queried
+  bool is_middle = false;             ///< true for answers to ask_middle()
   std::uint64_t number = 0;           ///< Wanted::number of the picture
-  std::optional<Index> object;        ///< its index in Scene::objects; nothing where there is none
-  Vec3 point{0, 0, 0};                ///< on it
-  double distance = 0;                ///< from where the camera's ray starts
-  std::string error;                  ///< what went wrong instead
+  std::optional<Index> object;        ///< index in Scene::objects; nothing if there is no object
+  Vec3 point{0, 0, 0};                ///< point on the object
+  double distance = 0;                ///< distance from the origin of the camera's ray
+  std::string error;                  ///< message of an error
 };
 
-/// Thread safety: for one thread, which is not the one that renders.
+/// Renders for a window. Thread safety: for one thread, which is not the one that renders.
 class FrameSource {
 public:
-  /// `notify` is called by the rendering thread whenever take() has something.
+  /// Starts the thread, which calls `notify` whenever take() has something.
   explicit FrameSource(std::function<void()> notify);
-  /// Breaks off what is under way.
+  /// Cancels the picture under way.
   ~FrameSource();
   FrameSource(const FrameSource&) = delete;
   FrameSource& operator=(const FrameSource&) = delete;
 
-  /// Does not wait. What is under way for something else is broken off, unless it is about to be done.
+  /// Requests a picture, without waiting. A picture under way for something else is cancelled, unless it is
+  /// nearly done.
   void want(const Wanted& wanted);
-  /// The newest that has come since the last call.
+  /// Returns the newest frame since the last call.
   std::optional<Frame> take();
 
-  /// Asks what the last picture shows `x` of its width from the left and `y` of its height from above. Does
-  /// not wait: the answer comes when nothing is rendered.
+  /// Asks for the object in the last picture at `x` of its width from the left and `y` of its height from the
+  /// top. Does not wait: the answer comes when nothing is rendered.
   void pick(double x, double y);
-  /// Asks the same about the middle of the picture.
+  /// Asks for the object in the middle of the picture.
   void ask_middle();
   std::optional<Picked> take_picked();
 
@@ -91,14 +93,14 @@ private:
   Picked look_at(const Place& place);
   void show(const Wanted& wanted);
   void take_machine(const Wanted& wanted);
-  /// False: broken off, or there is nothing better to come.
+  /// Renders a picture. Returns false if it was cancelled, or if nothing better is to come.
   bool render(const Wanted& wanted, int scale, bool is_first, bool antialiased);
   bool goes_on(const Wanted& wanted, bool is_first, Clock::time_point start);
   void grow(const PictureBlock& block);
   void publish(Frame frame);
 
   const std::function<void()> notify_;
-  std::mutex mutex_; ///< of the next seven
+  std::mutex mutex_; ///< for the next seven members
   std::condition_variable changed_;
   Wanted wanted_;
   std::optional<Frame> frame_;
@@ -106,18 +108,18 @@ private:
   std::optional<Picked> picked_;
   bool quits_ = false;
 
-  // The rendering thread's own.
+  // The members below belong to the rendering thread.
   std::unique_ptr<Session> session_;
   std::uint64_t machine_ = 0;
   std::shared_ptr<const Scene> scene_;
-  Camera camera_; ///< of the last picture
+  Camera camera_; ///< camera of the last picture
   std::uint64_t number_ = 0;
   Pace pace_;
-  /// A picture that grows while it is rendered; none if that is quick.
+  /// The picture that grows while it is rendered; none if that is quick.
   std::optional<Frame> growing_;
   Clock::time_point grown_;
-  RenderStatistics statistics_; ///< of the last complete frame
-  Image last_;                  ///< its picture
+  RenderStatistics statistics_; ///< statistics of the last complete frame
+  Image last_;                  ///< picture of that frame
   std::thread thread_;
 };
 

@@ -24,7 +24,7 @@ double share(double part, double whole) {
   return whole > 0 ? part / whole : 0;
 }
 
-/// Far from each other on the colour wheel, whatever their number.
+/// Returns a colour; the colours of any number of SPEs are far apart on the colour wheel.
 Overlay::Colour colour_of(unsigned spe) {
   const double hue = std::fmod(spe * 0.618033988749895, 1.0) * 6;
   const auto channel = [hue](double shift) {

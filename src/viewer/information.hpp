@@ -1,4 +1,4 @@
-// What a window says about the frame that it shows.
+// The information that a window shows about its frame.
 #pragma once
 
 #include "viewer/frame_source.hpp"
@@ -9,24 +9,24 @@
 
 namespace celltrace::viewer {
 
-/// What is not in the frame itself.
+/// Facts that are not in the frame itself.
 struct Situation {
   std::string scene;
   std::string mode, view;
   double frames_per_second = 0;
-  bool is_still = false; ///< nothing has been asked for since the frame is as good as it gets
+  bool is_still = false; ///< true: no input since the frame became final
   bool is_paused = false;
 };
 
-/// Lines about a frame and how it was made.
+/// Returns lines about a frame and how it was made.
 std::vector<std::string> information_on(const Frame& frame, const Situation& situation);
-/// How busy the SPEs were, the busiest one being 1.
+/// Returns the load of the SPEs, with 1 for the busiest one.
 std::vector<Overlay::Bar> load_of(const Frame& frame);
-/// Where which SPE has been at work.
+/// Returns the regions that each SPE has worked on.
 std::vector<Overlay::Patch> strips_of(const Frame& frame);
-/// What took how long, from blue to red, by the logarithm.
+/// Returns the cost of the regions, from blue to red on a logarithmic scale.
 std::vector<Overlay::Patch> costs_of(const Frame& frame);
-/// The keys and what they do.
+/// Returns the keys and their actions.
 std::vector<std::pair<std::string, std::string>> help_table();
 
 } // namespace celltrace::viewer

@@ -1,4 +1,4 @@
-// Keys that a program presses by itself.
+// A script of key presses and mouse movements.
 #pragma once
 
 #include <optional>
@@ -14,14 +14,14 @@ public:
   enum class Kind { key, size, drag, look, wheel, click };
   struct Step {
     Kind kind = Kind::key;
-    SDL_KeyboardEvent key{}; ///< of a key
-    int x = 0, y = 0;        ///< pixels; of a wheel y steps
+    SDL_KeyboardEvent key{}; ///< for Kind::key
+    int x = 0, y = 0;        ///< pixels; for a wheel, y is in steps
   };
 
-  /// Throws InputError for what is neither the name of a key nor one of the others.
+  /// Parses the words. Throws InputError for a word that is neither a key's name nor another step.
   explicit KeyScript(const std::vector<std::string>& words);
 
-  /// Nothing when there are no more.
+  /// Returns the next step; nothing at the end.
   std::optional<Step> next();
 
 private:

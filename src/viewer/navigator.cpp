@@ -10,10 +10,10 @@ namespace celltrace::viewer {
 
 namespace {
 
-/// A step is this part of the scene's diagonal.
+/// Length of a step, as a share of the scene's diagonal.
 constexpr double kStep = 0.02;
 constexpr double kDegreesPerStep = 5;
-/// How near a camera that goes around a point may look from straight above or below, in degrees.
+/// Smallest angle, in degrees, between the view of a camera that orbits a point and straight up or down.
 constexpr double kNearestPole = 2;
 
 Vec3 unit(const Vec3& v) {
@@ -24,7 +24,7 @@ struct View {
   const char* name;
   Vec3 direction, up;
 };
-/// Besides the scene's own.
+/// Views besides the scene's own.
 const View kViews[] = {{"front", {0, 0, 1}, {0, 1, 0}},  {"right", {-1, 0, 0}, {0, 1, 0}},
                        {"back", {0, 0, -1}, {0, 1, 0}},  {"left", {1, 0, 0}, {0, 1, 0}},
                        {"above", {0, -1, 0}, {0, 0, 1}}, {"corner", {1, -0.7, 1}, {0, 1, 0}}};
@@ -49,7 +49,8 @@ Vec3 Navigator::up() const {
   return unit(camera_.up);
 }
 
-/// Where the camera's axis is nearest to the middle of the scene, in front of the camera.
+/// Returns the point on the camera's axis, in front of the camera, that is nearest to the middle of the
+/// scene.
 Vec3 Navigator::point_looked_at() const {
   const Vec3 axis = unit(camera_.direction);
   const double along = glm::dot(0.5 * (low_ + high_) - camera_.location, axis);
@@ -62,8 +63,8 @@ void Navigator::forget_pivot() {
   step_ = kStep * std::min(size_, 2 * glm::length(pivot_ - camera_.location));
 }
 
-/// The point in the middle is another one, but steps stay what they are until somebody says how far it is:
-/// going back leads back.
+/// Notes that the point in the middle has changed. Steps keep their length until set_pivot() is called, so
+/// that going back leads back.
 void Navigator::keep_looking() {
   knows_pivot_ = false;
   pivot_ = point_looked_at();
@@ -89,7 +90,7 @@ void Navigator::rotate(const Vec3& axis, double degrees, const Vec3& around) {
 }
 
 void Navigator::orbit(double right, double up) {
-  // Around the vertical, then up or down, but not over a pole.
+  // Rotate around the vertical, then up or down, but not over a pole.
   rotate({0, 1, 0}, -right, pivot_);
   const Vec3 away = unit(camera_.location - pivot_);
   const double elevation = std::asin(std::clamp(away.y, -1.0, 1.0)) * 180 / std::numbers::pi;
@@ -158,7 +159,7 @@ Camera Navigator::camera_towards(const Vec3& direction, const Vec3& up) const {
   camera.right = right * aspect;
   camera.up = glm::cross(ahead, right);
   camera.direction = ahead;
-  // All of a sphere around the scene is to be seen.
+  // A sphere around the scene is to be seen completely.
   const double radius = std::max(0.5 * glm::length(high_ - low_), step_);
   camera.location = 0.5 * (low_ + high_) - ahead * (2.2 * radius);
   return camera;

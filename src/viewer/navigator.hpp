@@ -1,4 +1,4 @@
-// The camera of a viewer: how keys and the mouse move it.
+// Moves the camera of a viewer by keys and the mouse.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,13 +8,13 @@
 
 namespace celltrace::viewer {
 
-/// A camera and where it came from. Steps are in parts of the scene's size, or of the distance of what is in
-/// the middle if that is nearer, so that they suit any scene.
+/// A camera and its starting point. Steps are fractions of the scene's size, or of the distance to the object
+/// in the middle if that is nearer, so that they suit any scene.
 class Navigator {
 public:
   enum class Mode {
     planar, ///< keys move the camera in the plane that it stands on
-    radial  ///< they move it on a sphere around the point that it looks at
+    radial  ///< keys move the camera on a sphere around the point that it looks at
   };
 
   /// `low` and `high`: corners of a box around the scene.
@@ -24,28 +24,29 @@ public:
   Mode mode() const { return mode_; }
   void set_mode(Mode mode);
 
-  /// To the right, and forward: planar, so many steps in the plane; radial, so many steps to the right and up
+  /// Moves by steps: in planar mode to the right and forward in the plane; in radial mode to the right and up
   /// around the point.
   void go(double right, double forward);
-  /// So many steps up; radial: away from the point.
+  /// Moves up by steps; in radial mode away from the point.
   void rise(double steps);
-  /// Turns in its place, to the right and up by degrees.
+  /// Turns the camera in place, to the right and up by degrees.
   void turn(double right, double up);
-  /// Goes to the right and up around the point that it looks at, by degrees, whatever the mode.
+  /// Orbits to the right and up around the point that the camera looks at, by degrees, in any mode.
   void orbit(double right, double up);
-  /// To the right, and forward in the plane, in steps, whatever the mode.
+  /// Moves to the right and forward in the plane, by steps, in any mode.
   void walk(double right, double forward);
-  /// Whether the point that it goes around is one that it was told.
+  /// Returns whether the point to orbit was set by set_pivot().
   bool knows_pivot() const { return knows_pivot_; }
-  /// The point that it goes around is so far ahead in the middle of the picture.
+  /// Sets the point to orbit, in the middle of the picture at this distance.
   void set_pivot(double distance);
-  /// Above 1 things become larger: by a narrower view, and where a camera has none, or radial, from nearer.
+  /// Zooms; a factor above 1 enlarges: by a narrower angle, or by moving closer if the camera has none or in
+  /// radial mode.
   void zoom(double factor);
-  /// To one of the views, which begin with the scene's own camera; all movement is forgotten.
+  /// Goes to one of the views, of which the first is the scene's own camera; all movement is forgotten.
   void look_from(std::size_t view);
   std::size_t view() const { return view_; }
   const std::vector<std::string>& views() const { return names_; }
-  /// To the view as it was.
+  /// Goes back to the start of the present view.
   void reset() { look_from(view_); }
 
 private:
@@ -58,7 +59,7 @@ private:
 
   Camera camera_, own_;
   Vec3 low_, high_;
-  double size_; ///< of the scene
+  double size_; ///< size of the scene
   double step_ = 1;
   Mode mode_ = Mode::planar;
   Vec3 pivot_{0, 0, 0};

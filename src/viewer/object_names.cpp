@@ -10,7 +10,7 @@ std::uint32_t ObjectNames::number_of(std::string_view text) {
 }
 
 void ObjectNames::add(Index object, const ObjectOrigin& origin) {
-  if (object != entries_.size()) return; // then it has no name here
+  if (object != entries_.size()) return; // objects out of order get no name
   entries_.push_back({origin.kind.data(), number_of(origin.name), number_of(origin.file), origin.line,
                       number_of(origin.placed_file), origin.placed_line});
 }

@@ -1,4 +1,4 @@
-// What the objects of a scene are called, and where they stand in its files.
+// Names of a scene's objects, and their places in its files.
 #pragma once
 
 #include "celltrace/pov.hpp"
@@ -11,15 +11,15 @@
 
 namespace celltrace::viewer {
 
-/// Some 30 bytes an object, as scenes may have millions.
+/// The names and places, in some 30 bytes an object, because scenes may have millions.
 class ObjectNames {
 public:
   struct Place {
-    std::string_view file; ///< without its folders
+    std::string_view file; ///< without folders
     std::uint32_t line;
   };
 
-  /// Objects come in the order of their indices.
+  /// Adds an object; objects must come in the order of their indices.
   void add(Index object, const ObjectOrigin& origin);
 
   bool knows(Index object) const { return object < entries_.size(); }
@@ -27,7 +27,7 @@ public:
   const std::string& name(Index object) const { return texts_[entries_[object].name]; } ///< empty: none
   Place written(Index object) const;
   Place placed(Index object) const;
-  /// Returns "sphere 'Ball' at a.inc:3, placed at s.pov:12"; an object that is not known is a number.
+  /// Returns "sphere 'Ball' at a.inc:3, placed at s.pov:12"; for an unknown object its number.
   std::string describe(Index object) const;
 
 private:

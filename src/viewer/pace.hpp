@@ -1,11 +1,11 @@
-// How coarse a picture has to be to come in time.
+// Chooses how coarse a picture has to be to be ready in time.
 #pragma once
 
 #include <algorithm>
 
 namespace celltrace::viewer {
 
-/// Learns from frames what a pixel takes.
+/// Learns the time of a pixel from frames.
 class Pace {
 public:
   /// Seconds in which the first picture after an input should come.
@@ -14,14 +14,14 @@ public:
 
   void learn(double seconds, double pixels) {
     if (pixels < 1 || seconds <= 0) return;
-    // What has become slower counts at once.
+    // An increase counts at once, a decrease gradually.
     const double each = seconds / pixels;
     pixel_ = pixel_ == 0 || each > pixel_ ? each : 0.5 * (pixel_ + each);
   }
   void forget() { pixel_ = 0; }
-  /// Seconds that a picture of a window of so many pixels is expected to take.
+  /// Returns the expected seconds of a picture for a window of `pixels` pixels.
   double expected(double pixels, int scale) const { return pixel_ * pixels / (double{1} * scale * scale); }
-  /// A power of two. As long as nothing is known, rather a coarse one.
+  /// Returns the scale of the first picture, a power of two; a coarse one as long as nothing is known.
   int first_scale(double pixels) const {
     int scale = 1;
     if (pixel_ == 0) return pixels > 40000 ? 8 : 1;
@@ -29,7 +29,7 @@ public:
       scale *= 2;
     return scale;
   }
-  /// After one that is complete: all of it at once where that is quick.
+  /// Returns the scale after a complete picture: full size at once if that is quick.
   int next_scale(double pixels, int scale) const {
     constexpr double kQuick = 0.25;
     if (expected(pixels, 1) <= kQuick) return 1;

@@ -21,7 +21,8 @@ SceneLoader::~SceneLoader() {
 }
 
 SceneLoader::Watched SceneLoader::state_of(const std::filesystem::path& path) {
-  std::error_code none; // a file that is gone for a moment, while an editor saves it, is another state
+  // A file that vanishes for a moment, while an editor saves it, counts as another state.
+  std::error_code none;
   Watched watched{path, std::filesystem::last_write_time(path, none), 0};
   watched.size = std::filesystem::file_size(path, none);
   return watched;

@@ -16,27 +16,27 @@
 
 namespace celltrace::viewer {
 
-/// What has come of reading it.
+/// The result of reading.
 struct Loaded {
   std::shared_ptr<const Scene> scene; ///< null: it could not be read
-  ObjectNames names;                  ///< of its objects
-  std::string error;                  ///< then
+  ObjectNames names;                  ///< names of its objects
+  std::string error;                  ///< set if there is no scene
   std::string warnings;
 };
 
-/// Thread safety: for one thread.
+/// Loads and watches a scene. Thread safety: for one thread.
 class SceneLoader {
 public:
-  /// Begins to read. `notify` is called by the reading thread whenever take() has something. `options` are
-  /// those of parse_file(), but for its functions.
+  /// Begins to read. The reading thread calls `notify` whenever take() has something. `options` are
+  /// those of parse_file(), except its functions.
   SceneLoader(std::filesystem::path scene, ParseOptions options, std::function<void()> notify);
-  /// Breaks off what is under way.
+  /// Cancels reading.
   ~SceneLoader();
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
 
-  /// Looks whether a file of the scene was written since it was read; if so reads it again. Cheap: call it
-  /// several times a second.
+  /// Checks whether a file of the scene was written since it was read, and reads it again then. Cheap: call
+  /// it several times a second.
   void look();
   std::optional<Loaded> take();
 
@@ -55,7 +55,7 @@ private:
   const std::filesystem::path scene_;
   ParseOptions options_;
   const std::function<void()> notify_;
-  std::mutex mutex_; ///< of the next three
+  std::mutex mutex_; ///< for the next three members
   std::optional<Loaded> loaded_;
   std::vector<Watched> files_;
   bool is_reading_ = false;

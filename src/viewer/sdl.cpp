@@ -10,7 +10,7 @@ namespace celltrace::viewer {
 
 namespace {
 
-/// By the names that their binary interfaces have, which packages without headers bring along.
+/// Names of the libraries' binary interfaces, which packages without headers install, too.
 #ifdef __APPLE__
 constexpr char kSdl[] = "libSDL2-2.0.0.dylib", kSdlTtf[] = "libSDL2_ttf-2.0.0.dylib";
 #else

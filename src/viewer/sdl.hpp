@@ -1,5 +1,5 @@
-// SDL2 and SDL2_ttf, loaded when a window is opened: with them come some sixty other libraries, for which
-// every command that opens none would wait several times as long as it takes to start.
+// SDL2 and SDL2_ttf, loaded when a window is opened: they load some sixty other libraries, which would make
+// commands that open no window take several times as long to start.
 #pragma once
 
 #include <SDL.h>
@@ -7,7 +7,7 @@
 
 namespace celltrace::viewer {
 
-/// The functions that the viewer calls. SDL_BlitSurface and SDL_BlitScaled are macros for SDL_Upper...
+/// Lists the functions that the viewer calls. SDL_BlitSurface and SDL_BlitScaled are macros for SDL_Upper...
 #define CELLTRACE_SDL_FUNCTIONS(function)                                                                    \
   function(SDL_CreateRGBSurfaceWithFormat);                                                                  \
   function(SDL_CreateRGBSurfaceWithFormatFrom);                                                              \
@@ -55,7 +55,8 @@ struct Sdl {
 #undef CELLTRACE_POINTER_TO
 };
 
-/// The first call loads the libraries, for good; it throws Error where they are not there. Thread-safe.
+/// Returns the functions. The first call loads the libraries, for good. Throws Error if they are missing.
+/// Thread-safe.
 const Sdl& sdl();
 
 } // namespace celltrace::viewer

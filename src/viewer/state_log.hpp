@@ -1,4 +1,4 @@
-// What a window shows, as lines of JSON for other programs.
+// Writes the state of a window as lines of JSON, for other programs.
 #pragma once
 
 #include "viewer/information.hpp"
@@ -21,21 +21,21 @@ struct State {
   bool antialiasing = false, is_final = false;
   int width = 0, height = 0; ///< of the window
   double latency = 0;        ///< seconds
-  double seconds = 0;        ///< since the start
+  double seconds = 0;        ///< seconds since the start
   std::optional<Camera> camera;
   std::optional<Picked> picked;
-  const ObjectNames* names = nullptr; ///< of the objects that may have been picked
+  const ObjectNames* names = nullptr; ///< names of the objects that may have been picked
   std::string hint;
   std::size_t help_pages = 0;
 };
 
 class StateLog {
 public:
-  /// Empty: writes nothing. Throws InputError if the file cannot be written.
+  /// Opens the file; an empty path writes nothing. Throws InputError if the file cannot be written.
   explicit StateLog(const std::filesystem::path& file);
 
   bool is_open() const { return out_.is_open(); }
-  /// A line; docs/viewer.md describes the keys.
+  /// Writes a line; docs/viewer.md describes the keys.
   void write(const State& state);
 
 private:

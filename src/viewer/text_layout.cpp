@@ -8,13 +8,13 @@ namespace celltrace::viewer {
 
 namespace {
 
-/// Letters of a text in UTF-8.
+/// Returns the number of letters of a text in UTF-8.
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-/// Bytes of the first `count` letters.
+/// Returns the number of bytes of the first `count` letters.
 std::size_t bytes_of(const std::string& text, std::size_t count) {
   std::size_t at = 0;
   for (; at < text.size(); ++at)
@@ -25,7 +25,7 @@ std::size_t bytes_of(const std::string& text, std::size_t count) {
 void wrap_line(const std::string& text, std::size_t columns, std::size_t indent,
                std::vector<std::string>& lines) {
   const std::size_t first = lines.size();
-  // What stands at the beginning of a line, as in a list of places, stays there.
+  // Blanks at the beginning of a line, as in a list of places, are kept.
   std::string line(
       std::min(text.find_first_not_of(' ') == text.npos ? 0 : text.find_first_not_of(' '), columns / 2), ' ');
   bool is_empty = true;
@@ -50,8 +50,8 @@ void wrap_line(const std::string& text, std::size_t columns, std::size_t indent,
   if (!is_empty || lines.size() == first) lines.push_back(line);
 }
 
-constexpr int kGap = 3;        ///< between two columns
-constexpr int kNarrowest = 24; ///< of a second column
+constexpr int kGap = 3;        ///< letters between two columns
+constexpr int kNarrowest = 24; ///< width of a second column
 
 } // namespace
 
@@ -69,7 +69,7 @@ std::vector<std::vector<std::string>> pages_of(const std::vector<std::pair<std::
   for (const auto& row : table)
     first = std::max(first, letters(row.first));
   const int second = columns - static_cast<int>(first) - kGap;
-  std::vector<std::vector<std::string>> groups; // lines that stay on one page
+  std::vector<std::vector<std::string>> groups; // lines of a group stay on one page
   for (const auto& [what, about] : table) {
     if (second < kNarrowest) {
       groups.push_back(wrapped(what + ": " + about, columns, 2));
@@ -94,7 +94,7 @@ std::vector<std::vector<std::string>> pages_of(const std::vector<std::pair<std::
   std::vector<std::vector<std::string>> pages(1);
   for (const auto& group : groups) {
     if (!pages.back().empty() && pages.back().size() + group.size() > most - 1) pages.emplace_back();
-    for (const std::string& line : group) { // of which there may be more than a page has
+    for (const std::string& line : group) { // a group may have more lines than a page
       if (pages.back().size() == most - 1) pages.emplace_back();
       pages.back().push_back(line);
     }

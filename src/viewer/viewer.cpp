@@ -33,16 +33,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Steps a second of a key that is held down, after the one that it makes at once: a fifth of the distance.
+/// Steps a second while a key is held down, after the step that it makes at once: a fifth of the distance.
 constexpr double kStepsPerSecond = 5;
 constexpr std::chrono::milliseconds kHold(200);
 constexpr double kDegreesPerPixel = 0.2;
 constexpr double kZoomPerStep = 1.1;
-/// Pixels that the mouse may go while its button is down without turning the camera.
+/// Pixels that the mouse may move with its button down without turning the camera.
 constexpr int kClick = 2;
 constexpr std::chrono::milliseconds kBetweenLooks(250);
 constexpr std::chrono::seconds kMessage(3), kLongMessage(10), kHint(5);
-/// How long nothing is asked for before a picture is still.
+/// Time without input after which a picture is still.
 constexpr std::chrono::milliseconds kStill(500);
 
 double seconds_since(Clock::time_point then) {
@@ -70,7 +70,7 @@ public:
     redraw();
   }
 
-  /// Returns whether there was ever a scene.
+  /// Runs until the user quits. Returns whether there was ever a scene.
   bool run() {
     while (!quits_) {
       SDL_Event event;
@@ -214,7 +214,8 @@ private:
     if (is_radial) ask_middle();
   }
 
-  /// What the picture shows in its middle is what the camera goes around, as soon as that is known.
+  /// Asks for the object in the middle of the picture, which becomes the point to orbit when the answer
+  /// comes.
   void ask_middle() {
     if (navigator_ && !navigator_->knows_pivot()) source_.ask_middle();
   }
@@ -244,7 +245,7 @@ private:
     }
   }
 
-  /// Keys that are held down, as soon as what the last movement asked for has been seen.
+  /// Repeats the actions of keys that are held down, as soon as the last movement has been shown.
   void move_on() {
     if (held_.empty() || shown_number_ < number_) return;
     const Clock::time_point now = Clock::now();
@@ -272,7 +273,7 @@ private:
     want();
   }
 
-  /// Asks what is seen there, in pixels of the window.
+  /// Asks for the object at a point, in pixels of the window.
   void pick(int x, int y) {
     is_picking_ = true;
     source_.pick((x + 0.5) / window_.width(), (y + 0.5) / window_.height());
@@ -284,7 +285,7 @@ private:
     want();
   }
 
-  /// As if the user had done it.
+  /// Plays a step as if the user had done it.
   void play(const KeyScript::Step& step) {
     switch (step.kind) {
     case KeyScript::Kind::key:
@@ -304,7 +305,7 @@ private:
     }
   }
 
-  // --- what is wanted ---
+  // --- requests ---
 
   void resize() {
     const int width = window_.width(), height = window_.height();
@@ -318,7 +319,8 @@ private:
     ++machine_;
     want();
   }
-  /// Frames that were rendered without noting who did what say nothing about it.
+  /// Requests a frame with work records, if strips or costs are shown: frames without them have no such
+  /// information.
   void want_work() {
     if (shows_strips_ || shows_costs_) return want();
     is_dirty_ = true;
@@ -338,13 +340,13 @@ private:
     wanted.work_map = shows_strips_ || shows_costs_;
     wanted.machine = machine_;
     wanted.number = ++number_;
-    is_final_ = false; // also of what is written before the first frame of it
+    is_final_ = false; // also for log lines before its first frame
     wanted.camera = navigator_ ? fitted(navigator_->camera()) : fitted(scene_->camera);
     asked_ = Clock::now();
     source_.want(wanted);
   }
 
-  /// A camera for a window of other proportions: what is seen of a picture's height stays.
+  /// Returns a camera for a window of other proportions, which sees the same height.
   Camera fitted(const Camera& camera) const {
     const double proportion = (static_cast<double>(render_.width) / render_.height) /
                               (static_cast<double>(options_.render.width) / options_.render.height);
@@ -354,7 +356,7 @@ private:
     return fitting;
   }
 
-  // --- what comes ---
+  // --- answers ---
 
   void take_scene() {
     std::optional<Loaded> loaded = loader_.take();
@@ -373,7 +375,7 @@ private:
     if (scene_->lights.empty())
       say("this scene has no light source: it is black but for what glows by itself", false, kLongMessage);
     if (!is_first) {
-      // Whoever edits a scene wants to see the same part of it again, unless the camera is what was edited.
+      // After an edit the same part of the scene is shown again, unless the scene's camera was edited.
       has_new_camera_ = !same(scene_->camera, scene_camera_);
     }
     scene_camera_ = scene_->camera;
@@ -432,7 +434,7 @@ private:
     loader_.look();
   }
 
-  // --- what is seen ---
+  // --- display ---
 
   void say(const std::string& text, bool is_error, std::chrono::seconds long_ = kMessage) {
     if (is_error) {
@@ -443,7 +445,7 @@ private:
     }
     is_dirty_ = true;
   }
-  /// For some seconds at the top right.
+  /// Shows a hint for some seconds at the top right.
   void hint(const std::string& text) {
     hint_ = text;
     hint_ends_ = Clock::now() + kHint;
@@ -517,7 +519,7 @@ private:
     }
     if (help_page_ != 0) {
       const auto pages = help_pages();
-      help_page_ = std::min(help_page_, pages.size()); // the window may be larger than it was
+      help_page_ = std::min(help_page_, pages.size()); // the window may have been larger
       overlay.page = pages[help_page_ - 1];
     }
     overlay.hint = hint_;
@@ -533,7 +535,7 @@ private:
       if (const auto step = script_.next()) {
         is_final_ = false;
         play(*step);
-        // What changes nothing in the picture is over at once.
+        // A step that does not change the picture ends at once.
         is_final_ = is_final_ || shown_number_ == number_;
         is_dirty_ = true;
       }
@@ -570,11 +572,11 @@ private:
 
   const Clock::time_point start_ = Clock::now();
   const ViewOptions options_;
-  RenderOptions render_; ///< of what is wanted
+  RenderOptions render_; ///< options of the wanted picture
   std::optional<Antialiasing> antialiasing_;
   const std::vector<Backend> backends_;
   std::size_t backend_ = 0;
-  int dragged_ = 0; ///< pixels that the mouse went since a button went down
+  int dragged_ = 0; ///< pixels that the mouse has moved since a button went down
   bool is_picking_ = false;
   std::optional<Picked> picked_; ///< the last answer
   StateLog state_;
@@ -582,20 +584,20 @@ private:
   const Uint32 wake_event_;
 
   std::shared_ptr<const Scene> scene_;
-  ObjectNames names_; ///< of its objects
+  ObjectNames names_; ///< names of its objects
   Camera scene_camera_;
   bool has_new_camera_ = false;
-  std::optional<Navigator> navigator_; ///< as soon as the scene's size is known
-  Frame frame_;                        ///< that is shown
+  std::optional<Navigator> navigator_; ///< set when the scene's size is known
+  Frame frame_;                        ///< the frame that is shown
   std::uint64_t machine_ = 1, number_ = 0, shown_number_ = 0;
   bool is_final_ = false;
   Clock::time_point asked_ = start_, next_look_ = start_, message_ends_ = start_, hint_ends_ = start_;
   double latency_ = 0; ///< seconds from the last input to the first picture of what it asked for
-  std::deque<Clock::time_point> times_; ///< of the frames of the last second
+  std::deque<Clock::time_point> times_; ///< times of the frames of the last second
   std::map<Action, Clock::time_point> held_;
   bool shows_information_ = false, shows_strips_ = false, shows_costs_ = false;
-  std::size_t help_page_ = 0; ///< that is shown, from 1; 0: none
-  bool was_still_ = false;    ///< when it was drawn last
+  std::size_t help_page_ = 0; ///< page that is shown, from 1; 0: none
+  bool was_still_ = false;    ///< value at the last drawing
   bool is_full_screen_ = false, is_paused_ = false, is_dirty_ = true, quits_ = false;
   std::string error_, message_, hint_, screenshot_;
 
@@ -604,7 +606,7 @@ private:
   FrameSource source_;
 };
 
-/// SDL's events, as long as it lives.
+/// Initialises SDL's events for its lifetime.
 class Events {
 public:
   Events() {

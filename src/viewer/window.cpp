@@ -21,7 +21,7 @@ constexpr Overlay::Colour kShade = {0, 0, 0, 150};
 constexpr Overlay::Colour kError = {120, 0, 0, 210};
 constexpr Overlay::Colour kBar = {90, 200, 120, 230};
 
-/// Where systems have a typeface whose letters have one width.
+/// Places where systems have a typeface with letters of one width.
 constexpr std::array kFonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
                                "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf",
                                "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
@@ -29,7 +29,8 @@ constexpr std::array kFonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.
                                "/usr/share/fonts/liberation-mono/LiberationMono-Regular.ttf",
                                "/System/Library/Fonts/Menlo.ttc"};
 
-/// Else SDL would take a driver that shows nothing to anybody, and other libraries would complain.
+/// Returns whether there is a display. Without one SDL would take a driver that shows nothing, and other
+/// libraries would complain.
 bool has_display() {
 #if defined(__unix__) && !defined(__APPLE__)
   const auto is_set = [](const char* name) {
@@ -53,7 +54,7 @@ Window::Window(const std::string& title, int width, int height, const std::files
   if (sdl().SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
     throw Error(std::string("there is no display to open a window on: ") + sdl().SDL_GetError());
   if (std::getenv("SDL_VIDEODRIVER") == nullptr &&
-      std::string(sdl().SDL_GetCurrentVideoDriver()) == "offscreen") { // what is left if all others fail
+      std::string(sdl().SDL_GetCurrentVideoDriver()) == "offscreen") { // its last choice
     sdl().SDL_QuitSubSystem(SDL_INIT_VIDEO);
     throw Error("there is no display to open a window on: none answers");
   }
@@ -129,7 +130,7 @@ Image Window::without_text(const Image& picture, std::vector<Overlay::Patch> pat
   return image;
 }
 
-/// Returns false while the window is being resized.
+/// Draws picture and overlay. Returns false while the window is being resized.
 bool Window::compose(const Image& picture, const Overlay& overlay) {
   const SDL_Surface* const own = sdl().SDL_GetWindowSurface(window_);
   if (own == nullptr) return false;
@@ -138,7 +139,7 @@ bool Window::compose(const Image& picture, const Overlay& overlay) {
   if (!together_) return false;
   sdl().SDL_FillRect(together_.get(), nullptr, sdl().SDL_MapRGBA(together_->format, 0, 0, 0, 255));
   if (!picture.rgba.empty()) {
-    // SDL only reads.
+    // SDL only reads the pixels.
     const Surface pixels(sdl().SDL_CreateRGBSurfaceWithFormatFrom(
         const_cast<std::uint8_t*>(picture.rgba.data()), picture.width, picture.height, 32, picture.width * 4,
         SDL_PIXELFORMAT_RGBA32));

@@ -1,7 +1,7 @@
 // A window with a picture and information over it, by SDL.
 //
-// Three surfaces, as the thesis has them: the window's own; the picture, whose memory the SPEs' pixels come
-// to; and what is written over it. They are put together in a fourth one, so that a half-drawn one is never
+// There are three surfaces, as in the thesis: the window's own; the picture, whose memory receives the SPEs'
+// pixels; and the text over it. All three are composed in a fourth one, so that a half-drawn picture is never
 // seen.
 #pragma once
 
@@ -20,13 +20,13 @@ typedef struct _TTF_Font TTF_Font; // as SDL_ttf declares it
 
 namespace celltrace::viewer {
 
-/// What is shown over a picture.
+/// The information that is shown over a picture.
 struct Overlay {
   struct Colour {
     std::uint8_t r, g, b, a;
   };
   struct Patch {
-    PictureRegion region; ///< of the picture, in its own pixels
+    PictureRegion region; ///< region in pixels of the picture
     Colour colour;
   };
   struct Bar {
@@ -40,12 +40,13 @@ struct Overlay {
   std::vector<std::string> page;  ///< in the middle
   std::string hint;               ///< at the top right
   std::string message;            ///< at the bottom, in any number of lines
-  bool is_error = false;          ///< the message is one
+  bool is_error = false;          ///< true: the message is an error
 };
 
 class Window {
 public:
-  /// Throws Error where there is no display. `font`: a TrueType file; empty: one that the system has.
+  /// Opens a window. Throws Error if there is no display. `font`: a TrueType file; empty: one of the
+  /// system's.
   Window(const std::string& title, int width, int height, const std::filesystem::path& font);
   ~Window();
   Window(const Window&) = delete;
@@ -53,18 +54,18 @@ public:
 
   int width() const;
   int height() const;
-  /// False: no font was found, and what is written over pictures is not seen.
+  /// Returns false if no font was found; text over pictures is not shown then.
   bool has_font() const { return font_ != nullptr; }
   void set_title(const std::string& title);
   void set_full_screen(bool full_screen);
   void set_size(int width, int height);
 
-  /// The picture fills the window; an empty one leaves it black.
+  /// Shows the picture in the size of the window; black if it is empty.
   void show(const Image& picture, const Overlay& overlay);
-  /// The picture in the window's size, with patches, but with nothing written over it. show() is to be called
-  /// again.
+  /// Returns the picture in the window's size, with patches, but without text. Call show() again
+  /// afterwards.
   Image without_text(const Image& picture, std::vector<Overlay::Patch> patches);
-  /// Letters beside each other, and lines below each other, that it has room for.
+  /// Return the number of letters in a row, and of rows, that the window has room for.
   int columns() const;
   int rows() const;
 
@@ -80,7 +81,7 @@ private:
   void draw_page(const std::vector<std::string>& page);
   void draw_message(const Overlay& overlay);
   void draw(const Overlay& overlay, const Image& picture);
-  /// Returns the height of what was written.
+  /// Writes text. Returns its height.
   int write(const std::string& text, int x, int y, Overlay::Colour colour);
   int line_height() const;
   int width_of(const std::string& text) const;
@@ -88,7 +89,7 @@ private:
 
   SDL_Window* window_ = nullptr;
   TTF_Font* font_ = nullptr;
-  Surface together_; ///< what is shown
+  Surface together_; ///< the composed surface
 };
 
 } // namespace celltrace::viewer

@@ -6,9 +6,10 @@ namespace celltrace::isa::execute {
 namespace {
 
 constexpr std::uint32_t kAddressMask = kLocalStoreLimit & ~3u;
-// Of a branch by a register. Both at once are reserved; disabling is done first.
+// Feature bits of branches by a register. Setting both at once is reserved; interrupts are disabled first
+// then.
 constexpr std::uint32_t kDisableInterrupts = 1u << 19, kEnableInterrupts = 1u << 18;
-/// What stopd, which has no room for a code, signals.
+/// The code of stopd, which has no room for one.
 constexpr std::uint32_t kStopWithDependenciesCode = 0x3FFF;
 
 std::uint32_t relative(const State& state, const Instruction& i) {
@@ -24,7 +25,7 @@ Quadword link(const State& state) {
   return preferred((state.pc + 4) & kAddressMask);
 }
 
-/// By a register: the feature bits count only if the branch is taken.
+/// Branches to a register; the feature bits count only if the branch is taken.
 void branch(State& state, const Instruction& i, std::uint32_t target) {
   state.next = target;
   if ((i.word & (kDisableInterrupts | kEnableInterrupts)) == 0) [[likely]]
@@ -76,7 +77,7 @@ void iret(State& state, const Instruction& i) {
   branch(state, i, state.environment->srr0() & kAddressMask);
 }
 void bisl(State& state, const Instruction& i) {
-  const std::uint32_t target = in_register(state, i); // which may be the link register
+  const std::uint32_t target = in_register(state, i); // may be the link register
   state.gpr[i.rt] = link(state);
   branch(state, i, target);
 }
@@ -98,7 +99,7 @@ void bihnz(State& state, const Instruction& i) {
   if (tested_half(state, i) != 0) branch(state, i, in_register(state, i));
 }
 
-// Hints matter to time alone.
+// Hints affect only time.
 void hbr(State&, const Instruction&) {
 }
 void hbra(State&, const Instruction&) {

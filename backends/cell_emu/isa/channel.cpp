@@ -1,4 +1,4 @@
-// Execution: channels, special registers, the floating-point status, and what only orders others.
+// Execution: channels, special registers, the floating-point status, and instructions that only order others.
 #include "backends/cell_emu/isa/execute.hpp"
 #include "backends/cell_emu/isa/parts.hpp"
 
@@ -14,7 +14,7 @@ void wrch(State& state, const Instruction& i) {
   state.environment->write_channel(i.ra, state.gpr[i.rt].word(0));
 }
 
-// No special-purpose register is defined; those that are not read as zero.
+// No special-purpose register is defined; undefined ones read as zero.
 void mfspr(State& state, const Instruction& i) {
   state.gpr[i.rt] = Quadword::zero();
 }
@@ -25,7 +25,7 @@ void fscrrd(State& state, const Instruction& i) {
   state.gpr[i.rt] = state.fpscr;
 }
 void fscrwr(State& state, const Instruction& i) {
-  // The bits that mean nothing stay zero: see floating_status.hpp.
+  // Undefined bits stay zero: see floating_status.hpp.
   Quadword defined;
   defined.set<std::uint32_t>(0, 0x00000F07);
   defined.set<std::uint32_t>(1, 0x00003F07);
@@ -35,7 +35,7 @@ void fscrwr(State& state, const Instruction& i) {
       map<std::uint32_t>(state.gpr[i.ra], defined, [](std::uint32_t x, std::uint32_t y) { return x & y; });
 }
 
-// Instructions are executed one by one and stores are seen at once, so that there is nothing to wait for.
+// Instructions are executed one by one and stores are visible at once, so there is nothing to wait for.
 void nop(State&, const Instruction&) {
 }
 void lnop(State&, const Instruction&) {

@@ -1,4 +1,4 @@
-// The table of opcodes, and instructions by it.
+// The table of opcodes, and the decoding of instructions with it.
 #include "backends/cell_emu/isa/execute.hpp"
 
 #include <array>
@@ -6,7 +6,7 @@
 namespace celltrace::isa {
 namespace {
 
-/// The last column of opcodes.def.
+/// Values of the last column of opcodes.def.
 namespace operand_set {
 using namespace operand;
 constexpr std::uint8_t none = 0, a = reads_ra, ab = reads_ra | reads_rb, r = reads_rt,
@@ -42,7 +42,7 @@ constexpr unsigned opcode_bits(Format format) {
   return 0;
 }
 
-// No opcode has more than 11 bits, so that those say which it is.
+// Bits that identify an opcode: none has more than 11.
 constexpr unsigned kPrimaryBits = 11;
 constexpr std::uint8_t kNone = 0xFF;
 static_assert(std::size(kOpcodes) < kNone);
@@ -71,7 +71,8 @@ constexpr std::uint8_t register_at(std::uint32_t word, unsigned low) {
   return static_cast<std::uint8_t>(field(word, low, 7));
 }
 
-/// Hints have the branch's offset in two pieces: the low seven bits where others have rt, and two above.
+/// Returns the branch's offset of a hint, which is in two pieces: the low seven bits at the place of rt, and
+/// two above.
 std::int32_t hinted_offset(std::uint32_t word, unsigned high_piece) {
   return signed_field(field(word, high_piece, 2) << 7 | field(word, 0, 7), 0, 9) * 4;
 }

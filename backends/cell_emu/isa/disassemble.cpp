@@ -1,4 +1,4 @@
-// Instructions in the assembler's words.
+// Disassembles instructions in the assembler's syntax.
 #include "backends/cell_emu/isa/instruction.hpp"
 
 #include <cinttypes>
@@ -21,7 +21,7 @@ Text address_text(std::uint32_t address) {
   return Text("0x") + hexadecimal(address);
 }
 
-/// sync, branches by a register and hbr: letters for the bits that others have rb in.
+/// Returns letters for the feature bits of sync, branches by a register and hbr, at the place of rb.
 Text features(std::uint32_t word, char first) {
   Text letters;
   if ((word >> 20 & 1) != 0) letters += first;
@@ -42,7 +42,7 @@ Text features(const Instruction& i, Syntax syntax) {
   }
 }
 
-/// An offset of 0 is written as a number.
+/// Returns the target of a relative branch; an offset of 0 as a number.
 Text relative(std::int32_t offset, std::uint32_t pc) {
   return offset == 0 ? "0" : address_text((pc + static_cast<std::uint32_t>(offset)) & kLocalStoreLimit);
 }
@@ -50,7 +50,7 @@ Text absolute(std::int32_t target) {
   return target == 0 ? "0" : address_text(static_cast<std::uint32_t>(target));
 }
 
-/// The branch that a hint is for; not cut to the local store.
+/// Returns the branch that a hint is for, not limited to the local store.
 Text hinted(const Instruction& i, std::uint32_t pc) {
   const std::uint32_t branch = hinted_branch(i, 0);
   const bool negative = branch > kLocalStoreLimit / 2;
@@ -114,7 +114,7 @@ Text operands(const Instruction& i, Syntax syntax, std::uint32_t pc) {
   return {};
 }
 
-/// The number that is repeated in hexadecimal if it is above 16.
+/// Returns the number that is repeated in hexadecimal if it is above 16.
 std::int32_t remarked(const Instruction& i, Syntax syntax, std::uint32_t pc) {
   switch (syntax) {
   case Syntax::rt_ra_i7:

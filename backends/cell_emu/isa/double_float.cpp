@@ -1,6 +1,6 @@
 // Execution: double precision. IEEE 754 with the rounding mode and the flags of the FPSCR for each slot, but
-// denormal operands are zeros of their sign, as are denormal results, and each NaN result is the default one.
-// The compares of the Cell with enhanced double precision are here too; flags that they may set are not
+// denormal operands are zeros of their sign, as are denormal results, and each NaN result is the default NaN.
+// The compares of the Cell with enhanced double precision are here too; the flags that they may set are not
 // modelled.
 #include "backends/cell_emu/isa/execute.hpp"
 #include "backends/cell_emu/isa/floating_status.hpp"
@@ -41,7 +41,7 @@ constexpr bool is_denormal(U64 x) {
   return (x & kExponent) == 0 && !is_zero(x);
 }
 
-/// Takes denormals as zeros.
+/// Returns the operand, with denormals as zeros.
 U64 operand(U64 x, U32& exceptions) {
   if (!is_denormal(x)) return x;
   exceptions |= double_exception::denormal;
@@ -49,8 +49,9 @@ U64 operand(U64 x, U32& exceptions) {
 }
 
 #if defined(__SSE2_MATH__)
-/// The host's floating-point environment with a rounding mode and without flags, for as long as this lives.
-/// That of SSE alone: <cfenv> changes the x87's as well, which takes several times as long as the arithmetic.
+/// The host's floating-point environment with a rounding mode and without flags, for the lifetime of this
+/// object. Changes that of SSE alone: <cfenv> changes the x87's as well, which takes several times as long as
+/// the arithmetic.
 class HostEnvironment {
 public:
   explicit HostEnvironment(Rounding rounding) : kept_(_mm_getcsr()) { _mm_setcsr(kMasked | mode(rounding)); }
@@ -76,7 +77,8 @@ private:
   unsigned kept_;
 };
 #else
-/// The host's floating-point environment with a rounding mode and without flags, for as long as this lives.
+/// The host's floating-point environment with a rounding mode and without flags, for the lifetime of this
+/// object.
 class HostEnvironment {
 public:
   explicit HostEnvironment(Rounding rounding) {
@@ -102,7 +104,8 @@ private:
 };
 #endif
 
-/// f(operands) by the host. Volatile, as compilers move arithmetic across changes of the environment.
+/// Computes f(operands) on the host. Volatile, because compilers move arithmetic across changes of the
+/// environment.
 template <class F, class... Operands>
 [[gnu::noinline]] auto by_host(Rounding rounding, U32& exceptions, F f, Operands... operands) {
   const HostEnvironment environment(rounding);
@@ -113,7 +116,7 @@ template <class F, class... Operands>
   return value;
 }
 
-/// f(operands), and zero for what is below the normal numbers. Whether it is, is decided before rounding.
+/// Returns f(operands), and zero for results below the normal numbers, which is decided before rounding.
 template <class F, class... Operands>
 auto rounded(Rounding rounding, U32& exceptions, F f, Operands... operands) {
   U32 raised = 0;
@@ -137,7 +140,7 @@ U64 bits_of(double result) {
   return std::isnan(result) ? kDefaultNan : std::bit_cast<U64>(result);
 }
 
-/// Whether the result is a NaN because an operand is one.
+/// Returns true if the result is a NaN because an operand is one.
 template <class... Operands> bool has_nan(U32& exceptions, Operands... operands) {
   if (!(is_nan(operands) || ...)) return false;
   exceptions |= double_exception::nan;
@@ -147,7 +150,7 @@ template <class... Operands> bool has_nan(U32& exceptions, Operands... operands)
 
 constexpr auto number = [](U64 bits) { return std::bit_cast<double>(bits); };
 
-/// rt = f(ra, rb) in both slots
+/// Computes rt = f(ra, rb) in both slots.
 template <class F> void operation(State& state, const Instruction& i, F f) {
   Quadword result;
   for (unsigned slot = 0; slot < 2; ++slot) {
@@ -169,7 +172,7 @@ struct Signs {
   bool minus_rt, negative;
 };
 
-/// rt = ra * rb + rt, or - rt, rounded once; the result may be negated, unless it is a NaN.
+/// Computes rt = ra * rb + rt, or - rt, rounded once; the result may be negated, unless it is a NaN.
 void multiply_add(State& state, const Instruction& i, Signs signs) {
   Quadword result;
   for (unsigned slot = 0; slot < 2; ++slot) {
@@ -217,7 +220,7 @@ U32 shortened(U64 value, Rounding rounding, U32& exceptions) {
   return std::bit_cast<U32>(rounded(rounding, exceptions, f, number(bits)));
 }
 
-/// In the order of the numbers; not for NaN.
+/// Returns an integer that is ordered as the numbers are; not for NaN.
 constexpr std::int64_t ordered(U64 x) {
   const auto rest = static_cast<std::int64_t>((x & kExponent) == 0 ? 0 : x & ~kSign);
   return (x & kSign) != 0 ? -rest : rest;
@@ -266,7 +269,7 @@ void dfnma(State& state, const Instruction& i) {
   multiply_add(state, i, {.minus_rt = false, .negative = true});
 }
 
-// The single is the left word of a slot, and IEEE's: its exponent 255 is infinity and NaN.
+// The single is the left word of a slot, in IEEE's format: its exponent 255 is infinity and NaN.
 void fesd(State& state, const Instruction& i) {
   Quadword result;
   for (unsigned slot = 0; slot < 2; ++slot) {

@@ -1,4 +1,4 @@
-// What instructions do: a function each, named as its Opcode.
+// The execution of instructions: one function each, named as its Opcode.
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"

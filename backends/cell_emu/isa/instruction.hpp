@@ -1,4 +1,4 @@
-// Instructions of the SPU: the table of all opcodes, and decoding by it. Source: SPU Instruction Set
+// Instructions of the SPU: the table of all opcodes, and decoding with it. Source: SPU Instruction Set
 // Architecture 1.2.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace celltrace::isa {
 
-/// How an instruction word is laid out. The opcode is in the high bits, in as many as the format leaves.
+/// Layouts of instruction words. The opcode is in the high bits, in as many as the format leaves.
 enum class Format : std::uint8_t {
   rr,   ///< 11 bits: rb, ra, rt of 7 bits each
   rrr,  ///< 4 bits: rt, rb, ra, rc
@@ -22,9 +22,9 @@ enum class Format : std::uint8_t {
   ri18, ///< 7 bits: immediate of 18, rt
 };
 
-/// Who executes an instruction, which decides its pipe and its latency.
+/// Units that execute instructions, which decide their pipe and latency.
 enum class Unit : std::uint8_t {
-  // even pipe
+  // Even pipe.
   fx2, ///< simple fixed point, logic, compares
   fx3, ///< word rotates and shifts
   fxb, ///< byte operations
@@ -32,7 +32,7 @@ enum class Unit : std::uint8_t {
   fp7, ///< integer multiply, conversions, interpolation
   fpd, ///< double precision
   nop,
-  // odd pipe
+  // Odd pipe.
   ls,   ///< loads and stores
   shuf, ///< shuffles, quadword rotates, estimates
   br,   ///< branches, stops
@@ -44,7 +44,7 @@ constexpr bool is_even(Unit unit) {
   return unit <= Unit::nop;
 }
 
-/// How an instruction is written in assembly, which also says what Instruction::immediate holds.
+/// The assembly syntax of an instruction, which also defines Instruction::immediate.
 enum class Syntax : std::uint8_t {
   none,
   features, ///< a letter behind the mnemonic for a feature bit: syncc
@@ -58,7 +58,7 @@ enum class Syntax : std::uint8_t {
   rt_i7_ra,        ///< $3,4($5); immediate: I7, sign-extended
   rt_ra_i10,       ///< immediate: I10, sign-extended, whatever the size of the parts
   rt_displacement, ///< $3,16($5); immediate: I10 in bytes, a multiple of 16
-  rt_ra_scale_173, ///< to integers; immediate: the binary exponent to multiply with, 173 - I8
+  rt_ra_scale_173, ///< to integers; immediate: the binary exponent to multiply by, 173 - I8
   rt_ra_scale_155, ///< from integers; immediate: the binary exponent to divide by, 155 - I8
   rt_i16,          ///< immediate: I16, sign-extended
   rt_u16,          ///< immediate: I16, not sign-extended
@@ -67,10 +67,10 @@ enum class Syntax : std::uint8_t {
   rt_relative,
   absolute, ///< immediate: the address in local store, a multiple of 4
   rt_absolute,
-  hint_register, ///< immediate: the offset in bytes of the branch that is hinted; its target is in ra
+  hint_register, ///< immediate: offset in bytes of the hinted branch; its target is in ra
   hint_relative, ///< immediate: the offset of the branch's target
   hint_absolute, ///< immediate: the address of the branch's target
-  stop,          ///< immediate: the stop code, which is not written
+  stop,          ///< immediate: the stop code, which is not printed
   rt_spr,
   spr_rt,
   rt_channel, ///< the channel's number is in ra
@@ -80,7 +80,7 @@ enum class Syntax : std::uint8_t {
 struct Instruction;
 using Execute = void (*)(State& state, const Instruction& instruction);
 
-/// What a register of an operand field is for; bits.
+/// Bits for the uses of the register fields.
 namespace operand {
 constexpr std::uint8_t reads_ra = 1, reads_rb = 2, reads_rc = 4, reads_rt = 8, writes_rt = 16;
 }
@@ -92,38 +92,39 @@ struct OpcodeInfo {
   std::uint16_t code; ///< the opcode's bits, as many as the format has
   Unit unit;
   Syntax syntax;
-  std::uint8_t operands; ///< of `operand`
+  std::uint8_t operands; ///< bits of namespace `operand`
   Execute execute;
 };
 
-/// All of them, by Opcode. Not the word that none of them is.
+/// Returns all opcodes, by Opcode, without an entry for invalid words.
 std::span<const OpcodeInfo> opcodes();
-/// The one whose code the word's high bits are, or null.
+/// Returns the opcode in the word's high bits, or null.
 const OpcodeInfo* find_opcode(std::uint32_t word);
 
-/// A register number that says: none.
+/// A register number that means none.
 constexpr std::uint8_t kNoRegister = 128;
 
 /// An instruction word, decoded.
 struct Instruction {
-  Execute execute; ///< calls Environment::invalid_instruction() for a word that is none
+  Execute execute; ///< calls Environment::invalid_instruction() for an invalid word
   std::uint32_t word;
   std::int32_t immediate; ///< see Syntax; 0 if there is none
-  /// The fields of the format, 0 if it lacks them; rt also where it means nothing.
+  /// The fields of the format, 0 if it lacks them; rt is set even if it has no meaning.
   std::uint8_t rt, ra, rb, rc;
-  std::uint8_t source[3]; ///< registers that it reads; kNoRegister
-  std::uint8_t target;    ///< register that it writes; kNoRegister
-  Opcode opcode;          ///< of a word that is none: stop
+  std::uint8_t source[3]; ///< registers that it reads, else kNoRegister
+  std::uint8_t target;    ///< register that it writes, else kNoRegister
+  Opcode opcode;          ///< stop for an invalid word
   Unit unit;
 };
 
 Instruction decode(std::uint32_t word);
 
-/// Where the branch lies that a hint (Unit::hbr) at `pc` is for.
+/// Returns the address of the branch that a hint (Unit::hbr) at `pc` is for.
 std::uint32_t hinted_branch(const Instruction& hint, std::uint32_t pc);
 
-/// In the assembler's words, tabs between mnemonic and operands, as spu-elf-objdump writes it where it knows
-/// no symbols: "ai\t$3,$4,-16", branch targets as addresses and immediates above 16 in hexadecimal behind
+/// Returns the instruction in the assembler's syntax, with a tab between mnemonic and operands, as
+/// spu-elf-objdump prints it without symbols: "ai\t$3,$4,-16", branch targets as addresses, immediates above
+/// 16 repeated in hexadecimal
 /// ("brsl\t$0,0x1a0\t# 1a0").
 std::string disassemble(std::uint32_t word, std::uint32_t address);
 

@@ -22,9 +22,10 @@ constexpr U32 low_unsigned(U32 word) {
   return word & 0xFFFF;
 }
 constexpr U32 product(S32 x, S32 y) {
-  return static_cast<U32>(x * y); // of halfwords: cannot overflow
+  return static_cast<U32>(x * y); // products of halfwords cannot overflow
 }
-/// Unlike std::popcount(), which is a look-up for each byte, a vector operation for all.
+/// Counts the ones. Unlike std::popcount(), a table look-up for each byte, compilers vectorise this for all
+/// bytes.
 constexpr U8 ones_of_byte(U8 x) {
   const U8 pairs = static_cast<U8>(x - ((x >> 1) & 0x55));
   const U8 nibbles = static_cast<U8>((pairs & 0x33) + ((pairs >> 2) & 0x33));
@@ -36,7 +37,7 @@ constexpr U32 sum_of_bytes(U32 x) {
 
 template <class Part> constexpr unsigned kBits = 8 * sizeof(Part);
 
-// Counts have one bit more than the width of a part needs, and those that are too large shift everything out.
+// Counts have one bit more than the width of a part needs; counts that are too large shift everything out.
 template <class Part> constexpr Part shift_left(Part x, U32 count) {
   count &= 2 * kBits<Part> - 1;
   return static_cast<Part>(count < kBits<Part> ? static_cast<U32>(x) << count : 0);
@@ -44,7 +45,7 @@ template <class Part> constexpr Part shift_left(Part x, U32 count) {
 template <class Part> constexpr Part rotate_left(Part x, U32 count) {
   return std::rotl(x, static_cast<int>(count & (kBits<Part> - 1)));
 }
-/// "Rotate and mask" shifts right by the negative count.
+/// Shifts right by the negative count: "rotate and mask".
 template <class Part> constexpr Part shift_right(Part x, U32 count) {
   count = (0 - count) & (2 * kBits<Part> - 1);
   return static_cast<Part>(count < kBits<Part> ? static_cast<U32>(x) >> count : 0);
@@ -60,7 +61,7 @@ constexpr auto greater = [](auto x, auto y) { return mask_of<decltype(x)>(x > y)
 
 } // namespace
 
-// Constants
+// Constants.
 
 void ilh(State& state, const Instruction& i) {
   state.gpr[i.rt] = Quadword::splat(static_cast<U32>(i.immediate) * 0x10001);
@@ -79,7 +80,7 @@ void iohl(State& state, const Instruction& i) {
   state.gpr[i.rt] = map<U32>(state.gpr[i.rt], [=](U32 x) { return x | low_half; });
 }
 
-// Integers
+// Integers.
 
 void ah(State& state, const Instruction& i) {
   of_ra_rb<U16>(state, i, [](U16 x, U16 y) { return x + y; });
@@ -106,7 +107,7 @@ void sfi(State& state, const Instruction& i) {
   of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return y - x; });
 }
 
-// Carries and borrows are the lowest bit of a word; a borrow bit of 1 means that there is none.
+// Carries and borrows are the lowest bit of a word; a borrow bit of 1 means no borrow.
 void cg(State& state, const Instruction& i) {
   of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x + y < x; });
 }
@@ -161,8 +162,8 @@ void mpya(State& state, const Instruction& i) {
 }
 
 void clz(State& state, const Instruction& i) {
-  // Of 64 bits, the lower of which end the count at 32: where POWER has no vectors, GCC 12 counts the zeros
-  // of two words that lie in one register as those of one number.
+  // Counts in 64 bits, the lower half of which ends the count at 32: without POWER's vectors, GCC 12 counts
+  // the zeros of two words that lie in one register as those of one number.
   of_ra<U32>(state, i, [](U32 x) { return std::countl_zero(std::uint64_t{x} << 32 | 0x80000000u); });
 }
 void cntb(State& state, const Instruction& i) {
@@ -187,7 +188,7 @@ void xswd(State& state, const Instruction& i) {
   of_ra<std::uint64_t>(state, i, [](std::uint64_t x) { return static_cast<S32>(x); });
 }
 
-// Logic
+// Logic.
 
 void and_(State& state, const Instruction& i) {
   of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x & y; });
@@ -244,7 +245,7 @@ void selb(State& state, const Instruction& i) {
   of_ra_rb_rc<U32>(state, i, [](U32 x, U32 y, U32 m) { return (y & m) | (x & ~m); });
 }
 
-// Shifts and rotates
+// Shifts and rotates.
 
 void shlh(State& state, const Instruction& i) {
   of_ra_rb<U16>(state, i, shift_left<U16>);
@@ -295,7 +296,7 @@ void rotmai(State& state, const Instruction& i) {
   of_ra_immediate<U32>(state, i, shift_right_algebraic<U32>);
 }
 
-// Compares
+// Compares.
 
 void ceqb(State& state, const Instruction& i) {
   of_ra_rb<U8>(state, i, equal);
@@ -352,7 +353,7 @@ void clgti(State& state, const Instruction& i) {
   of_ra_immediate<U32>(state, i, greater);
 }
 
-// Halts: of the preferred slot alone
+// Halts, which compare the preferred slot alone.
 
 namespace {
 

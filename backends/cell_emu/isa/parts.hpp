@@ -1,5 +1,5 @@
-// Operations on all bytes, halfwords, words or doublewords of registers at once. Which part comes first does
-// not matter to them, so they work in the host's order; loops of a fixed length that compilers vectorise.
+// Operations on all bytes, halfwords, words or doublewords of registers at once. The order of the parts does
+// not matter, so they work in the host's order; loops of a fixed length that compilers vectorise.
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"
@@ -44,34 +44,34 @@ inline Quadword map(const Quadword& a, const Quadword& b, const Quadword& c, F f
   return quadword<Part>(result);
 }
 
-/// rt = f(ra), part by part.
+/// Computes rt = f(ra), part by part.
 template <class Part, class F> inline void of_ra(State& state, const Instruction& i, F f) {
   state.gpr[i.rt] = map<Part>(state.gpr[i.ra], f);
 }
-/// rt = f(ra, rb)
+/// Computes rt = f(ra, rb).
 template <class Part, class F> inline void of_ra_rb(State& state, const Instruction& i, F f) {
   state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], f);
 }
-/// rt = f(ra, rb, rt)
+/// Computes rt = f(ra, rb, rt).
 template <class Part, class F> inline void of_ra_rb_rt(State& state, const Instruction& i, F f) {
   state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], state.gpr[i.rt], f);
 }
-/// rt = f(ra, rb, rc)
+/// Computes rt = f(ra, rb, rc).
 template <class Part, class F> inline void of_ra_rb_rc(State& state, const Instruction& i, F f) {
   state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], state.gpr[i.rc], f);
 }
-/// rt = f(ra, immediate), the immediate cut to the size of a part
+/// Computes rt = f(ra, immediate), with the immediate cut to the size of a part.
 template <class Part, class F> inline void of_ra_immediate(State& state, const Instruction& i, F f) {
   const auto immediate = static_cast<Part>(i.immediate);
   state.gpr[i.rt] = map<Part>(state.gpr[i.ra], [=](Part x) { return f(x, immediate); });
 }
 
-/// What compares give: ones or zeros.
+/// Returns the result of a compare: ones or zeros.
 template <class Part> constexpr Part mask_of(bool condition) {
   return static_cast<Part>(condition ? -1 : 0);
 }
 
-/// The word in the preferred slot, zeros in the others.
+/// Returns a register with the word in the preferred slot, zeros in the others.
 inline Quadword preferred(std::uint32_t word) {
   Quadword q = Quadword::zero();
   q.set<std::uint32_t>(0, word);

@@ -22,13 +22,13 @@ Quadword quadword(Wide x) {
   return isa::quadword<U64>(Quadword::kReversed ? Parts<U64>{x.low, x.high} : Parts<U64>{x.high, x.low});
 }
 
-// Shifting by 1 and then by the rest keeps counts of 0 below the width.
+// Rotates. Shifting by 1 and then by the rest keeps shifts below the width for counts of 0.
 Wide rotate(Wide x, U32 bits) {
   if ((bits & 64) != 0) x = {x.low, x.high};
   const U32 n = bits & 63;
   return {x.high << n | x.low >> 1 >> (63 - n), x.low << n | x.high >> 1 >> (63 - n)};
 }
-/// bits < 256; from 128 on nothing is left.
+/// Shifts left by bits < 256; from 128 on nothing is left.
 Wide shift_left(Wide x, U32 bits) {
   if ((bits & 64) != 0) x = {x.low, 0};
   if ((bits & 128) != 0) x = {0, 0};
@@ -42,7 +42,7 @@ Wide shift_right(Wide x, U32 bits) {
   return {x.high >> n, x.low >> n | x.high << 1 << (63 - n)};
 }
 
-/// Counts come from the preferred slot of rb or from the immediate.
+/// Return the count, from the preferred slot of rb or from the immediate.
 U32 count_rb(const State& state, const Instruction& i) {
   return state.gpr[i.rb].word(0);
 }
@@ -60,10 +60,10 @@ constexpr U32 bytes_of(U32 count) {
   return (count & 31) * 8;
 }
 
-/// The control of shufb that puts the preferred slot's part of `size` bytes at the address and keeps the
-/// rest.
+/// Generates the control of shufb that inserts the preferred slot's part of `size` bytes at the address and
+/// keeps the rest.
 void generate_control(State& state, const Instruction& i, U32 address, U32 size) {
-  // Of a doubleword the preferred slot starts at byte 0, of a smaller part it ends with byte 3.
+  // A doubleword in the preferred slot starts at byte 0, a smaller part ends with byte 3.
   constexpr U64 kDoubleword = 0x0001020304050607, kWord = kDoubleword >> 32 << 32;
   const U64 all = size == 8 ? kDoubleword : kWord << (8 * (4 - size));
   const U64 bytes = ~U64{0} << (64 - 8 * size);
@@ -79,7 +79,7 @@ U32 indexed(const State& state, const Instruction& i) {
   return state.gpr[i.ra].word(0) + state.gpr[i.rb].word(0);
 }
 
-/// Each bit of the low ones, the highest first, as a part of ones or zeros.
+/// Returns a part of ones or zeros for each of the low bits, the highest bit first.
 template <class Part> Quadword form_mask(U32 bits) {
   Parts<Part> mask;
   constexpr unsigned count = sizeof mask / sizeof(Part);
@@ -89,7 +89,7 @@ template <class Part> Quadword form_mask(U32 bits) {
   }
   return isa::quadword<Part>(mask);
 }
-/// For bytes with one vector compare: each looks for its bit in a copy of eight.
+/// Forms a mask of bytes with one vector compare: each byte tests its bit in a copy of eight bits.
 template <> [[gnu::always_inline]] inline Quadword form_mask<std::uint8_t>(U32 bits) {
   constexpr U64 kEach = 0x8040201008040201;
   const auto bit = parts<std::uint8_t>(quadword({kEach, kEach}));
@@ -101,7 +101,7 @@ template <> [[gnu::always_inline]] inline Quadword form_mask<std::uint8_t>(U32 b
   }
   return isa::quadword<std::uint8_t>(mask);
 }
-/// The lowest bits of all parts.
+/// Gathers the lowest bits of all parts.
 template <class Part> Quadword gather(const Quadword& from) {
   const auto x = parts<Part>(from);
   U32 bits = 0;
@@ -112,9 +112,9 @@ template <class Part> Quadword gather(const Quadword& from) {
   return preferred(bits);
 }
 
-/// Byte (control & 31) of a followed by b, for each byte of the control.
+/// Returns, for each byte of the control, byte (control & 31) of a followed by b.
 Quadword look_up(const Quadword& a, const Quadword& b, const Quadword& control) {
-  // On a little-endian host byte k of a followed by b is the (31 - k)th of b followed by a.
+  // On a little-endian host byte k of a followed by b is byte 31 - k of b followed by a.
   std::uint8_t table[32];
   std::memcpy(table + (Quadword::kReversed ? 16 : 0), a.bytes, 16);
   std::memcpy(table + (Quadword::kReversed ? 0 : 16), b.bytes, 16);
@@ -122,7 +122,7 @@ Quadword look_up(const Quadword& a, const Quadword& b, const Quadword& control) 
   return map<std::uint8_t>(control, [&](std::uint8_t c) { return table[(c & 31u) ^ flip]; });
 }
 
-/// What a control of 0x80 and above gives.
+/// Returns the result for a control byte of 0x80 and above.
 constexpr std::uint8_t constant_of(std::uint8_t control) {
   return static_cast<std::uint8_t>(control < 0xC0 ? 0 : control < 0xE0 ? 0xFF : 0x80);
 }
@@ -132,7 +132,8 @@ Quadword with_constants(const Quadword& found, const Quadword& control) {
 }
 
 #if defined(__x86_64__)
-/// By an instruction that most processors have: shuffles are frequent and sixteen look-ups slow.
+/// Executes shufb by an instruction that most processors have: shuffles are frequent and sixteen look-ups
+/// slow.
 [[gnu::target("ssse3")]] void shufb_by_pshufb(State& state, const Instruction& i) {
   const auto a = std::bit_cast<__m128i>(state.gpr[i.ra]), b = std::bit_cast<__m128i>(state.gpr[i.rb]);
   const auto control = std::bit_cast<__m128i>(state.gpr[i.rc]);
@@ -210,7 +211,7 @@ void rotqbii(State& state, const Instruction& i) {
 void rotqbyi(State& state, const Instruction& i) {
   shift(state, i, rotate, bytes_of(count_immediate(i)));
 }
-// "Rotate and mask" shifts right by the negative count.
+// The instructions "rotate and mask" shift right by the negative count.
 void rotqmbi(State& state, const Instruction& i) {
   shift(state, i, shift_right, bits_of(0 - count_rb(state, i)));
 }

@@ -1,6 +1,6 @@
-// Execution: single precision. Of the FPSCR's flags those of overflow, underflow and "differs from IEEE" are
+// Execution: single precision. The FPSCR's flags of overflow, underflow and "differs from IEEE" are
 // kept for sums, products and conversions from integers, and those of division by zero for the estimates;
-// what fi and the conversions to integers may set is not modelled.
+// flags that fi and the conversions to integers may set are not modelled.
 #include "backends/cell_emu/isa/single_float.hpp"
 #include "backends/cell_emu/isa/estimate.hpp"
 #include "backends/cell_emu/isa/execute.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using U32 = std::uint32_t;
 using S32 = std::int32_t;
-/// Four numbers, or results before they become singles: of the low and of the high words of both doublewords.
+/// Four numbers, or results not yet rounded: of the low and of the high words of both doublewords.
 struct Exact {
   Doubles low, high;
 };
@@ -24,7 +24,7 @@ inline Exact exact(Bits from) {
   return {from_single(from & 0xFFFFFFFF), from_single(from >> 32)};
 }
 
-/// The flags of the results in two slots.
+/// Returns the flags of the results in two slots.
 Bits flags_of(Doubles x) {
   const Bits overflow = reaches_mask(x, 0x1p129), underflow = underflow_mask(x);
   const Bits differs = reaches_mask(x, 0x1p128) | underflow;
@@ -35,13 +35,14 @@ Bits flags_of(Doubles x) {
 [[gnu::noinline]] Quadword rounded_with_flags(Quadword& fpscr, const Exact& value, Bits differing_operands) {
   constexpr std::uint64_t kBothDiffer =
       std::uint64_t{single_exception::differs} << 32 | single_exception::differs;
-  // A slot's flags are the lowest bits of the word in that slot.
+  // The flags of a slot are the lowest bits of its word.
   const Bits raised = flags_of(value.low) | flags_of(value.high) << 32 | (differing_operands & kBothDiffer);
   fpscr = std::bit_cast<Quadword>(std::bit_cast<Bits>(fpscr) | raised);
   return std::bit_cast<Quadword>(to_single(value.low) | to_single(value.high) << 32);
 }
 
-/// Flags are rare, and with them numbers that are too large: one test says whether there is any.
+/// Rounds, and raises flags. Flags and numbers that are too large are rare: one test finds whether there are
+/// any.
 inline Quadword rounded(State& state, const Exact& value, Bits differing_operands) {
   const Bits odd = differing_operands | underflow_mask(value.low) | underflow_mask(value.high) |
                    reaches_mask(value.low, 0x1p128) | reaches_mask(value.high, 0x1p128);
@@ -50,13 +51,13 @@ inline Quadword rounded(State& state, const Exact& value, Bits differing_operand
   return std::bit_cast<Quadword>(to_single_in_range(value.low) | to_single_in_range(value.high) << 32);
 }
 
-/// rt = f(ra, rb)
+/// Computes rt = f(ra, rb).
 template <class F> inline void operation(State& state, const Instruction& i, F f) {
   const Bits a = words(state.gpr[i.ra]), b = words(state.gpr[i.rb]);
   const Exact x = exact(a), y = exact(b);
   state.gpr[i.rt] = rounded(state, {f(x.low, y.low), f(x.high, y.high)}, differs_mask(a) | differs_mask(b));
 }
-/// rt = f(ra * rb, rc)
+/// Computes rt = f(ra * rb, rc).
 template <class F> inline void of_product(State& state, const Instruction& i, F f) {
   const Bits a = words(state.gpr[i.ra]), b = words(state.gpr[i.rb]), c = words(state.gpr[i.rc]);
   const Exact x = exact(a), y = exact(b), z = exact(c);
@@ -64,7 +65,7 @@ template <class F> inline void of_product(State& state, const Instruction& i, F 
                             differs_mask(a) | differs_mask(b) | differs_mask(c));
 }
 
-/// 2^exponent, of -1022 to 1023
+/// Returns 2^exponent, for -1022 to 1023.
 constexpr double power_of_two(S32 exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
@@ -78,7 +79,7 @@ template <class Integer> inline void from_integer(State& state, const Instructio
   state.gpr[i.rt] = rounded(state, {low_numbers * scale, high_numbers * scale}, Bits{});
 }
 
-/// The number that is cut to an integer.
+/// Returns the number that is then cut to an integer.
 double scaled(U32 single, double scale) {
   return from_single(Bits{single, 0})[0] * scale;
 }

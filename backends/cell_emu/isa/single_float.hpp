@@ -1,14 +1,14 @@
-// Arithmetic of the SPU's single precision. Numbers have an extended range: the exponent 255 is an ordinary
-// one, and there is neither infinity nor NaN. Denormal operands count as zero, results are truncated, those
-// too small and all zeros are +0, those too large the largest number. Source: SPU Instruction Set
-// Architecture 1.2, chapter 9.
+// Arithmetic of the SPU's single precision. Numbers have an extended range: the exponent 255 is ordinary, and
+// there is neither infinity nor NaN. Denormal operands count as zero, results are truncated; results that are
+// too small and all zeros are +0, results that are too large become the largest number. Source: SPU
+// Instruction Set Architecture 1.2, chapter 9.
 //
-// A double holds each such number exactly, each product of two, and more than a sum's 24 bits. Sums and
-// products are therefore done in doubles, rounded to nearest, and corrected towards zero by the sign of the
-// rounding error (Knuth's TwoSum); cutting that to 24 bits is the truncation of the exact result.
+// A double holds each such number exactly, each product of two, and more bits than the 24 of a sum. Sums and
+// products are therefore computed in doubles, rounded to nearest, and corrected towards zero by the sign of
+// the rounding error (Knuth's TwoSum); cutting this to 24 bits truncates the exact result.
 //
-// Two numbers are worked on at once, without branches, with the vectors of GCC and Clang: an interpreter
-// spends most of a renderer's time here, and compilers do not vectorise the same loops over numbers.
+// Two numbers are processed at once, without branches, with the vectors of GCC and Clang: an interpreter
+// spends most of a renderer's time here, and compilers do not vectorise the same loops over single numbers.
 #pragma once
 
 #include <bit>
@@ -36,33 +36,33 @@ inline Doubles doubles_of(Bits bits) {
 inline Doubles magnitude(Doubles x) {
   return doubles_of(bits_of(x) & ~kDoubleSign);
 }
-/// Ones where a comparison holds, zeros elsewhere.
+/// Returns ones in the lanes where a comparison holds, zeros in the others.
 template <class Comparison> Bits mask_of_lanes(Comparison comparison) {
   return std::bit_cast<Bits>(comparison);
 }
 
-/// The numbers that words are, exactly; denormals are zeros. The upper halves of the lanes are zero.
+/// Converts words to numbers, exactly; denormals are zeros. The upper halves of the lanes must be zero.
 inline Doubles from_single(Bits words) {
   const Bits bits = ((words & 0x7FFFFFFF) << kExtraFraction) + kExtraBias;
   const Bits sign = (words & 0x80000000) << 32;
   return doubles_of((bits & mask_of_lanes(doubles_of(bits) >= kSmallestSingle)) | sign);
 }
 
-/// Cut to 24 bits; no more than the largest single.
+/// Cuts to 24 bits numbers no greater than the largest single.
 inline Bits to_single_in_range(Doubles x) {
   const Doubles whole = magnitude(x);
   const Bits bits = (bits_of(whole) - kExtraBias) >> kExtraFraction;
   const Bits sign = (bits_of(x) & kDoubleSign) >> 32;
   return (bits | sign) & mask_of_lanes(whole >= kSmallestSingle);
 }
-/// Cut to 24 bits.
+/// Cuts to 24 bits, with larger numbers as the largest single.
 inline Bits to_single(Doubles x) {
   const Bits too_large = mask_of_lanes(magnitude(x) > kLargestSingle);
   const Bits largest = bits_of(Doubles{kLargestSingle, kLargestSingle}) | (bits_of(x) & kDoubleSign);
   return to_single_in_range(doubles_of((largest & too_large) | (bits_of(x) & ~too_large)));
 }
 
-/// x + y, rounded to the next double towards zero.
+/// Returns x + y, rounded to the next double towards zero.
 inline Doubles sum_towards_zero(Doubles x, Doubles y) {
   const Doubles sum = x + y;
   const Doubles part = sum - x;
@@ -70,24 +70,25 @@ inline Doubles sum_towards_zero(Doubles x, Doubles y) {
   return doubles_of(bits_of(sum) + mask_of_lanes(error * sum < 0.0)); // the mask is -1
 }
 
-/// Ones for results that become zero without being it.
+/// Returns ones for results that become zero but are not.
 inline Bits underflow_mask(Doubles x) {
   const Doubles whole = magnitude(x);
   return mask_of_lanes(whole > 0.0) & mask_of_lanes(whole < kSmallestSingle);
 }
-/// Ones for those of at least that magnitude.
+/// Returns ones for numbers of at least that magnitude.
 inline Bits reaches_mask(Doubles x, double bound) {
   return mask_of_lanes(magnitude(x) >= bound);
 }
 
-/// Whether IEEE takes an operand as something else, a denormal or with the exponent 255: ones in its word.
+/// Returns ones in the words of operands that IEEE interprets differently: denormals, or with the exponent
+/// 255.
 inline Bits differs_mask(Bits words) {
   using Words [[gnu::vector_size(16)]] = std::int32_t;
   const auto rest = std::bit_cast<Words>(words & 0x7FFFFFFF7FFFFFFF);
   return mask_of_lanes(rest > 0x7F7FFFFF) | (mask_of_lanes(rest > 0) & mask_of_lanes(rest < 0x00800000));
 }
 
-/// For compares: as an integer, in the order of the numbers.
+/// Returns an integer that is ordered as the numbers are, for compares.
 constexpr std::int32_t ordered(std::uint32_t word) {
   const auto rest = static_cast<std::int32_t>(word & 0x7FFFFFFF);
   const std::int32_t flushed = rest < 0x00800000 ? 0 : rest;

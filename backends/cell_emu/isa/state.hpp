@@ -1,4 +1,4 @@
-// What instructions work on: the registers and the local store of one SPU, and the world around it.
+// The state that instructions work on: the registers and the local store of one SPU, and its environment.
 #pragma once
 
 #include "celltrace/spe/quadword.hpp"
@@ -9,7 +9,7 @@ namespace celltrace::isa {
 
 constexpr std::uint32_t kLocalStoreLimit = 0x3FFFF;
 
-/// What an SPU meets outside its registers and its local store.
+/// Everything that an SPU accesses outside its registers and its local store.
 class Environment {
 public:
   virtual ~Environment() = default;
@@ -18,36 +18,36 @@ public:
   virtual void write_channel(unsigned channel, std::uint32_t value) = 0;
   virtual std::uint32_t channel_count(unsigned channel) = 0;
 
-  /// stop and stopd. Execution goes on at State::next, which the call may change.
+  /// Executes stop and stopd. Execution goes on at State::next, which the call may change.
   virtual void stop(std::uint32_t code) = 0;
-  /// The condition of heq and its like held.
+  /// Called if the condition of heq or another halt instruction holds.
   virtual void halt() = 0;
   virtual void invalid_instruction(std::uint32_t word) = 0;
 
-  /// The condition of bisled: the event status has a count.
+  /// Returns the condition of bisled: whether the event status has a count.
   virtual bool has_event() = 0;
-  /// What the D and E bits of branches set.
+  /// Sets interrupts as the D and E bits of branches demand.
   virtual void enable_interrupts(bool enabled) = 0;
   virtual std::uint32_t srr0() = 0;
 
-  /// A quadword whose watch byte is not 0 is about to be loaded or stored.
+  /// Called before a quadword whose watch byte is not 0 is loaded or stored.
   virtual void watched_load(std::uint32_t lsa) = 0;
   virtual void watched_store(std::uint32_t lsa, const Quadword& value) = 0;
 };
 
-/// Of one SPU. Thread safety: none.
+/// The state of one SPU. Thread safety: none.
 struct State {
   Quadword gpr[128] = {};
   Quadword fpscr = {};
-  std::uint32_t pc = 0;   ///< of the instruction that is executed; a multiple of 4 below 256 KB
-  std::uint32_t next = 4; ///< of the one after it; an instruction that branches changes it
-  std::uint8_t* local_store = nullptr;  ///< 256 KB
-  const std::uint8_t* watch = nullptr;  ///< a byte a quadword of local store: 16,384
+  std::uint32_t pc = 0;                ///< address of the present instruction; a multiple of 4 below 256 KB
+  std::uint32_t next = 4;              ///< address of the next instruction; branches change it
+  std::uint8_t* local_store = nullptr; ///< 256 KB
+  const std::uint8_t* watch = nullptr; ///< one byte for each quadword of local store: 16,384
   Environment* environment = nullptr;
 
   static constexpr std::uint8_t kWatchLoads = 1, kWatchStores = 2;
 
-  /// The quadword that the address lies in: its low four bits and those beyond 256 KB do not count.
+  /// Returns the quadword at an address, whose low four bits and bits beyond 256 KB are ignored.
   Quadword load(std::uint32_t address) const {
     const std::uint32_t lsa = address & (kLocalStoreLimit & ~15u);
     if ((watch[lsa >> 4] & kWatchLoads) != 0) [[unlikely]]

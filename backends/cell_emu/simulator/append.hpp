@@ -1,11 +1,11 @@
-// Tables of text.
+// Formats tables of text.
 #pragma once
 
 #include <string>
 
 namespace celltrace::cell_emu {
 
-/// As printf, at the end of `text`; up to 511 characters.
+/// Appends to `text` as printf; up to 511 characters.
 [[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...);
 
 } // namespace celltrace::cell_emu

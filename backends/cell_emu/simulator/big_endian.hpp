@@ -1,4 +1,4 @@
-// Integers as they lie in local store and in the SPU's files: most significant byte first.
+// Big-endian integers, as in local store and in the SPU's files.
 #pragma once
 
 #include <concepts>

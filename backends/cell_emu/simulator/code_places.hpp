@@ -1,5 +1,5 @@
-// What a profile or a message says of an address in a program: function, file and line, and the calls that
-// were inlined there.
+// The source place of an address in a program, for profiles and messages: function, file and line, and the
+// calls that were inlined there.
 #pragma once
 
 #include "backends/cell_emu/simulator/inlined_calls.hpp"
@@ -10,7 +10,7 @@
 
 namespace celltrace::cell_emu {
 
-/// Strings live as long as the CodePlaces they come from.
+/// A place. Strings live as long as the CodePlaces that they come from.
 struct CodePlace {
   const char* function = nullptr; ///< null: unknown
   std::uint32_t offset = 0;       ///< bytes from the function's start
@@ -23,7 +23,7 @@ class CodePlaces {
 public:
   explicit CodePlaces(const SpuElf& elf) : symbols_(elf), lines_(elf), calls_(elf) {}
 
-  /// Two binary searches.
+  /// Returns the place of an address, by two binary searches.
   CodePlace at(std::uint32_t lsa) const {
     CodePlace place;
     if (const FunctionSymbol* function = symbols_.function_at(lsa)) {

@@ -1,4 +1,5 @@
-// Reads debugging information, whatever its bytes: what is not there is an exception, never an access.
+// Reads debugging information, whatever its bytes: reading beyond the end throws, and never accesses memory
+// there.
 #pragma once
 
 #include "backends/cell_emu/simulator/big_endian.hpp"
@@ -12,10 +13,10 @@
 
 namespace celltrace::cell_emu {
 
-/// Thrown by a reader that meets the end of its bytes; never leaves the file that reads.
+/// Thrown by a reader at the end of its bytes; caught in the file that reads.
 struct MalformedDwarf {};
 
-/// Reads from the front of some bytes.
+/// Reads from the front of a range of bytes.
 class DwarfReader {
 public:
   DwarfReader() = default;
@@ -34,7 +35,7 @@ public:
     return load_big_endian<Integer>(take(sizeof(Integer)).data());
   }
 
-  /// LEB128; bits above the 64th are dropped.
+  /// Reads LEB128; bits above the 64th are dropped.
   std::uint64_t unsigned_leb() { return leb().first; }
   std::int64_t signed_leb() {
     auto [value, bits] = leb();

@@ -60,7 +60,7 @@ struct AttributeForm {
   std::uint64_t attribute, form;
 };
 
-/// What entries of one kind consist of.
+/// The attributes of entries of one kind.
 struct Abbreviation {
   std::uint64_t tag = 0;
   bool has_children = false;
@@ -68,7 +68,7 @@ struct Abbreviation {
 };
 using Abbreviations = std::map<std::uint64_t, Abbreviation>;
 
-/// Of an entry: what tells where its code is and who called it.
+/// The attributes of an entry that locate its code and its caller.
 struct Entry {
   std::uint32_t offset = 0; ///< in .debug_info
   const Abbreviation* kind = nullptr;
@@ -86,21 +86,21 @@ std::span<const std::uint8_t> from(std::span<const std::uint8_t> section, std::u
 
 } // namespace
 
-/// What the units of a program share while they are read.
+/// The state that the units of a program share while they are read.
 struct InlinedCalls::Reading {
   explicit Reading(const Sections& sections)
       : abbreviation_bytes(sections.abbrev.size()), line_bytes(sections.line.size()),
-        // Each pair of addresses is for one entry, as compilers write them.
+        // Compilers write each pair of addresses for one entry.
         pairs(sections.ranges.size() / (2 * kAddressBytes)) {}
 
   const Abbreviations& abbreviations(std::span<const std::uint8_t> section, std::uint32_t offset);
   LineFiles* line_files(std::span<const std::uint8_t> section, std::uint32_t offset);
 
   std::vector<Extent> extents;
-  // Units may share tables. Where tables overlap without being the same, somebody wants to keep us busy.
+  // Units may share tables. Tables that overlap without being the same are malicious.
   std::map<std::uint32_t, Abbreviations> known_abbreviations;
   std::map<std::uint32_t, LineFiles> known_line_files;
-  std::size_t abbreviation_bytes, line_bytes, pairs; ///< left to be read
+  std::size_t abbreviation_bytes, line_bytes, pairs; ///< bytes and pairs left to be read
 };
 
 const Abbreviations& InlinedCalls::Reading::abbreviations(std::span<const std::uint8_t> section,
@@ -118,12 +118,13 @@ const Abbreviations& InlinedCalls::Reading::abbreviations(std::span<const std::u
       for (;;) {
         const std::uint64_t attribute = reader.unsigned_leb(), form = reader.unsigned_leb();
         if (attribute == 0 && form == 0) break;
-        // Takes no bytes of an entry and says nothing here: many of them would cost time for nothing.
+        // The attribute takes no bytes of an entry and has no meaning here: many of them would only cost
+        // time.
         if (form != kFlagPresent) made.attributes.push_back({attribute, form});
       }
       place->second.try_emplace(code, std::move(made));
     }
-  } catch (const MalformedDwarf&) { // what came before is sound
+  } catch (const MalformedDwarf&) { // the entries before are sound
   }
   abbreviation_bytes -= before - reader.left();
   return place->second;
@@ -139,7 +140,7 @@ LineFiles* InlinedCalls::Reading::line_files(std::span<const std::uint8_t> secti
     if (header.tables.left() > line_bytes) throw MalformedDwarf();
     line_bytes -= header.tables.left();
     place->second = LineFiles(header.tables);
-  } catch (const MalformedDwarf&) { // calls without files
+  } catch (const MalformedDwarf&) { // these calls have no files
   }
   return &place->second;
 }
@@ -147,11 +148,11 @@ LineFiles* InlinedCalls::Reading::line_files(std::span<const std::uint8_t> secti
 /// One compilation unit: a tree of entries.
 class InlinedCalls::Unit {
 public:
-  /// @param bytes of the unit with its length, at `offset` of .debug_info
+  /// Reads a unit: `bytes` with its length, at `offset` of .debug_info.
   Unit(InlinedCalls& calls, Reading& reading, std::span<const std::uint8_t> bytes, std::uint32_t offset)
       : calls_(calls), reading_(reading), bytes_(bytes), offset_(offset) {}
 
-  /// Throws MalformedDwarf; what was read before stays.
+  /// Reads the unit. Throws MalformedDwarf; entries that were read before stay.
   void read() {
     DwarfReader reader(bytes_);
     reader.integer<std::uint32_t>(); // its length
@@ -160,7 +161,7 @@ public:
     const auto abbreviations = reader.integer<std::uint32_t>();
     if (reader.integer<std::uint8_t>() != kAddressBytes) throw MalformedDwarf();
     const Abbreviations& known = reading_.abbreviations(calls_.sections_.abbrev, abbreviations);
-    std::vector<std::uint32_t> around; // of each open entry: the scope that its children are in
+    std::vector<std::uint32_t> around; // for each open entry, the scope that its children are in
     while (!reader.done()) {
       const auto entry_offset = offset_ + static_cast<std::uint32_t>(bytes_.size() - reader.left());
       const std::uint64_t code = reader.unsigned_leb();
@@ -188,7 +189,7 @@ private:
 
   Value read_value(DwarfReader& reader, std::uint64_t form) const {
     const auto here = [&] { return offset_ + static_cast<std::uint32_t>(bytes_.size() - reader.left()); };
-    // Each indirection takes a byte.
+    // Each indirection takes a byte, which bounds the loop.
     while (form == kIndirect)
       form = reader.unsigned_leb();
     switch (form) {
@@ -216,7 +217,7 @@ private:
     }
     case kStringOffset:
       return {reader.integer<std::uint32_t>(), false, true};
-    case kReferenceAnywhere: // as wide as an address in version 2, as an offset later: both are 4 bytes
+    case kReferenceAnywhere: // as wide as an address in version 2, as an offset later: both have 4 bytes
       return {reader.integer<std::uint32_t>()};
     case kReference1:
       return {offset_ + std::uint64_t{reader.integer<std::uint8_t>()}};
@@ -288,7 +289,7 @@ private:
     }
   }
 
-  /// Returns the scope that the entry's children are in.
+  /// Takes an entry. Returns the scope that the entry's children are in.
   std::uint32_t take(const Entry& entry, std::uint32_t outer) {
     if (entry.line_program) { // the unit's own entry
       base_ = entry.low;
@@ -374,7 +375,7 @@ InlinedCalls::InlinedCalls(const Sections& sections) : sections_(sections) {
 }
 
 void InlinedCalls::read() {
-  // Offsets are 32 bits here, as in the format.
+  // Offsets have 32 bits here, as in the format.
   if (sections_.info.size() >= kNone) return;
   Reading reading(sections_);
   DwarfReader section(sections_.info);
@@ -389,7 +390,7 @@ void InlinedCalls::read() {
       } catch (const MalformedDwarf&) { // the next unit may be sound
       }
     }
-  } catch (const MalformedDwarf&) { // a length beyond the section: nothing follows that could be found
+  } catch (const MalformedDwarf&) { // after a length beyond the section nothing can be found
   }
   lay_out(std::move(reading.extents));
 }
@@ -399,7 +400,7 @@ void InlinedCalls::lay_out(std::vector<Extent> extents) {
   const auto is_outside = [&](const Extent& a, const Extent& b) {
     return std::tuple(scopes_[a.scope].depth, a.scope) < std::tuple(scopes_[b.scope].depth, b.scope);
   };
-  // Of all that have begun; those on top that have ended go when it is their turn.
+  // Holds all extents that have begun; those that have ended are removed when they come to the top.
   std::priority_queue<Extent, std::vector<Extent>, decltype(is_outside)> open(is_outside);
   const auto step_to = [&](std::uint32_t lsa, std::uint32_t scope) {
     if (!steps_.empty() && steps_.back().lsa == lsa)
@@ -424,7 +425,7 @@ void InlinedCalls::lay_out(std::vector<Extent> extents) {
 }
 
 std::string_view InlinedCalls::name_of(std::uint32_t entry) const {
-  // A body refers to its function, and that may refer to its declaration in a class.
+  // A body refers to its function, which may refer to its declaration in a class.
   for (unsigned i = 0; i < 4; ++i) {
     const auto found = std::ranges::lower_bound(functions_, entry, {}, &Function::entry);
     if (found == functions_.end() || found->entry != entry) break;

@@ -1,5 +1,5 @@
-// Which calls the compiler replaced by the body of the function that is called: the part of a program's DWARF
-// that says so.
+// The calls that the compiler replaced by the body of the called function, from a program's DWARF
+// information.
 //
 // DWARF Debugging Information Format, versions 2 to 4, sections 3.3.8, 7.5 and 2.17.
 #pragma once
@@ -15,17 +15,17 @@
 
 namespace celltrace::cell_emu {
 
-/// A call whose body stands where the call was. Strings live as long as the InlinedCalls.
+/// A call that was replaced by the function's body. Strings live as long as the InlinedCalls.
 struct InlinedCall {
   std::string_view callee;    ///< as in the source, with template arguments; empty: unknown
-  const char* file = nullptr; ///< of the call, as the compiler was told, with its folder; null: unknown
-  std::uint32_t line = 0;     ///< of the call, from 1; 0: unknown
+  const char* file = nullptr; ///< file of the call as the compiler got it, with its folder; null: unknown
+  std::uint32_t line = 0;     ///< line of the call, from 1; 0: unknown
 };
 
-/// Made from .debug_info and what it refers to. Whatever is malformed has no calls, but what else is in the
-/// sections may. Work is proportional to n log n for sections of n bytes, memory to n.
-/// Functions at address 0, where the SPU's interrupts lead, count as thrown away by the linker.
-/// Thread safety: all members are const.
+/// The calls in .debug_info and the sections that it refers to. Malformed parts have no calls, but the rest
+/// of the sections may. Time is proportional to n log n for sections of n bytes, memory to n. Functions at
+/// address 0, where the SPU's interrupts lead, count as discarded by the linker. Thread safety: all members
+/// are const.
 class InlinedCalls {
 public:
   struct Sections {
@@ -33,12 +33,12 @@ public:
   };
 
   explicit InlinedCalls(const SpuElf& elf);
-  /// The sections must outlive it.
+  /// Reads sections, which must outlive this object.
   explicit InlinedCalls(const Sections& sections);
   InlinedCalls(InlinedCalls&&) = default;
   InlinedCalls& operator=(InlinedCalls&&) = default;
 
-  /// The calls that the instruction is in the bodies of, the innermost first; at most 64.
+  /// Returns the calls whose bodies contain the instruction, the innermost first; at most 64.
   std::vector<InlinedCall> at(std::uint32_t lsa) const;
 
   bool empty() const { return steps_.empty(); }
@@ -46,10 +46,10 @@ public:
 private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-  /// A function, or a body that was put in place of a call.
+  /// A function, or a body in the place of a call.
   struct Scope {
-    std::uint32_t outer = kNone;  ///< in scopes_; kNone: it is a function
-    std::uint32_t depth = 0;      ///< bodies around it
+    std::uint32_t outer = kNone;  ///< in scopes_; kNone for a function
+    std::uint32_t depth = 0;      ///< number of bodies around it
     std::uint32_t callee = kNone; ///< offset in .debug_info of the function's entry
     std::uint32_t file = kNone;   ///< in files_
     std::uint32_t line = 0;
@@ -61,11 +61,11 @@ private:
     bool name_in_strings = false;
     std::uint32_t refers_to = kNone;
   };
-  /// Code of a scope, and of those in it.
+  /// Code of a scope, including that of the scopes in it.
   struct Extent {
     std::uint32_t begin = 0, end = 0, scope = kNone;
   };
-  /// From this address on the scope is the innermost one.
+  /// An address from which on the scope is the innermost one.
   struct Step {
     std::uint32_t lsa = 0, scope = kNone;
   };
@@ -76,12 +76,12 @@ private:
   void lay_out(std::vector<Extent> extents);
   std::string_view name_of(std::uint32_t entry) const;
 
-  std::optional<SpuElf> elf_; // whose sections they are, if that is known
+  std::optional<SpuElf> elf_; // owner of the sections, if known
   Sections sections_;
   FileNames files_;
   std::vector<Scope> scopes_;
-  std::vector<Function> functions_; // by rising entry
-  std::vector<Step> steps_;         // by rising address, no two with the same
+  std::vector<Function> functions_; // by ascending entry
+  std::vector<Step> steps_;         // by ascending address, no two with the same
 };
 
 } // namespace celltrace::cell_emu

@@ -1,19 +1,16 @@
-// When the SPU issues its instructions: in order, at most two a cycle, from the latencies of
+// The issue of the SPU's instructions: in order, at most two a cycle, with the latencies of
 // TimingParameters.
 //
-//   fetch group   Two instructions at an 8-byte boundary. They issue together where the first goes to the
-//   even pipe, the
-//                 second to the odd one, and the operands of both are there; the next group only when both
-//                 have issued.
+//   fetch group   Two instructions at an 8-byte boundary. They issue together if the first goes to the even
+//                 pipe, the second to the odd one, and the operands of both are there; the next group issues
+//                 only when both have issued.
 //   dependency    A result can be used when its unit's latency has passed.
-//   branches      Fall through unless a hint says otherwise. A wrong guess costs `branch_miss`. A hint counts
-//   for its
-//                 branch `hint_distance` instructions later; if `hint_latency` has not passed, the branch
-//                 waits for it.
+//   branches      Fall through unless a hint predicts otherwise. A wrong prediction costs `branch_miss`.
+//                 A hint counts for its branch `hint_distance` instructions later; if `hint_latency` has
+//                 not passed, the branch waits for it.
 //   double        Keeps both pipes for `double_issue_block` cycles.
 //   fetch         32 instructions at a time, when neither a load nor a store takes the local store's only
-//   port: where
-//                 they take it in every cycle, the next 32 instructions come late.
+//                 port: if they take it in every cycle, the next 32 instructions come late.
 //   DMA           Takes the port for a cycle a line, before loads and stores.
 //
 // Sources: IBM SDK 3.0 programming tutorial (pipelines, dual issue, hints); the order of the port's users
@@ -30,16 +27,16 @@
 
 namespace celltrace::cell_emu {
 
-/// Why an instruction did not issue earlier.
+/// The reason why an instruction did not issue earlier.
 enum class StallReason : std::uint8_t { dependency, branch_miss, prefetch_miss, hint_target, fp_resource };
 constexpr unsigned kStallReasons = static_cast<unsigned>(StallReason::fp_resource) + 1;
 
-/// Thread safety: none.
+/// The model of one SPU. Thread safety: none.
 class IssueModel {
 public:
   explicit IssueModel(const TimingParameters& timing);
 
-  /// The instruction at `pc`, which follows the last one that was issued.
+  /// Issues the instruction at `pc`, which follows the last one that was issued.
   void issue(const isa::Instruction& instruction, std::uint32_t pc) {
     const unsigned unit = static_cast<unsigned>(instruction.unit);
     ++units_[unit];
@@ -48,7 +45,7 @@ public:
                                  ready_[instruction.source[2]]);
     const bool nop = instruction.unit == isa::Unit::nop || instruction.unit == isa::Unit::lnop;
     if (pc == pair_ && ready <= last_ && !isa::is_even(instruction.unit)) {
-      // With the one before.
+      // Issues with the instruction before.
       dual_cycle_ += !nop && !last_is_nop_;
       single_cycle_ += static_cast<std::uint64_t>(!nop && last_is_nop_) - (!nop && !last_is_nop_);
       nop_cycle_ -= !nop && last_is_nop_;
@@ -72,24 +69,25 @@ public:
     ready_[isa::kNoRegister] = 0;
   }
 
-  /// A branch at `pc` has gone to `next`. Call it for every branch, taken or not, after its issue().
+  /// Notes that a branch at `pc` has gone to `next`. Call it for every branch, taken or not, after its
+  /// issue().
   void branched(std::uint32_t pc, std::uint32_t next, bool taken);
-  /// A hint says that the branch at `branch` goes to `target`.
+  /// Notes a hint that the branch at `branch` goes to `target`.
   void hint(std::uint32_t branch, std::uint32_t target) { hint_ = {branch, target, last_, instructions()}; }
-  /// The SPU has stood still for so many cycles by what is counted elsewhere.
+  /// Advances by cycles in which the SPU stood still, which are counted elsewhere.
   void pass(Cycle cycles) {
     last_ += cycles;
     taken_ += cycles;
   }
-  /// So many lines have gone through the local store's port since the last take().
+  /// Notes lines of DMA that have gone through the local store's port since the last take().
   void contend(std::uint64_t dma_lines);
 
-  /// What has been since the last take().
+  /// Returns the counts since the last take().
   SpuCycles take();
 
-  /// The cycle of the last issue. Rises by 0 where two instructions issue together.
+  /// Returns the cycle of the last issue. Rises by 0 if two instructions issue together.
   Cycle last() const { return last_; }
-  /// For a profile: cycles lost since the last forget_recent().
+  /// Returns cycles lost since the last forget_recent(), for a profile.
   Cycle recent(StallReason reason) const { return recent_[static_cast<unsigned>(reason)]; }
   void forget_recent() { recent_ = {}; }
 
@@ -112,22 +110,22 @@ private:
 
   const TimingParameters timing_;
   std::array<std::uint8_t, kUnits> latency_{};
-  std::array<Cycle, 129> ready_{}; ///< by register, and for none
+  std::array<Cycle, 129> ready_{}; ///< by register, the last for none
   std::array<isa::Unit, 129> producer_{};
   Cycle last_ = 0;
   Cycle blocked_ = 0;
-  std::uint32_t pair_ = kNoPair; ///< where the instruction stands that may issue with the last one
+  std::uint32_t pair_ = kNoPair; ///< address of the instruction that may issue with the last one
   bool last_is_nop_ = false;
   Cycle line_entered_ = 0;
-  std::uint64_t line_accesses_ = 0; ///< loads and stores since then
+  std::uint64_t line_accesses_ = 0; ///< loads and stores since line_entered_
   Hint hint_;
 
-  Cycle taken_ = 0; ///< up to which cycle take() has taken
+  Cycle taken_ = 0; ///< cycle up to which take() has counted
   std::array<std::uint64_t, kUnits> units_{};
   std::array<std::uint64_t, kUnits> dependency_{}; ///< stalls by the unit waited for
   std::array<Cycle, kStallReasons> stalls_{};      ///< by StallReason
-  std::array<Cycle, kStallReasons> recent_{};      ///< of these, what a profile has not seen yet
-  std::uint64_t issued_before_ = 0;                ///< instructions that take() has taken
+  std::array<Cycle, kStallReasons> recent_{};      ///< stalls that a profile has not seen yet
+  std::uint64_t issued_before_ = 0;                ///< instructions that take() has counted
   std::uint64_t single_cycle_ = 0, dual_cycle_ = 0, nop_cycle_ = 0;
   std::uint64_t contention_ = 0, branch_taken_ = 0, branch_miss_ = 0, hint_hit_ = 0;
 };

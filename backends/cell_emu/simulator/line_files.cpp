@@ -3,7 +3,7 @@
 namespace celltrace::cell_emu {
 
 std::uint32_t FileNames::add(std::string_view folder, std::string_view name) {
-  // Names of folders are stored again with every file in them: a malicious table could make that quadratic.
+  // Folder names are stored again with every file in them: a malicious table could make that quadratic.
   constexpr std::size_t kLongestPath = 4096, kMostBytes = 1 << 24;
   std::string path;
   if (!name.starts_with('/') && !folder.empty() && bytes_ < kMostBytes &&
@@ -23,7 +23,7 @@ LineHeader LineHeader::read(DwarfReader& unit) {
   DwarfReader bytes(unit.take(unit.integer<std::uint32_t>()));
   LineHeader header;
   header.instruction_bytes = bytes.integer<std::uint8_t>();
-  if (version >= 4) bytes.take(1); // operations in an instruction: one on the SPU
+  if (version >= 4) bytes.take(1); // operations per instruction: one on the SPU
   bytes.take(1);                   // whether rows are statements at first
   header.line_base = static_cast<std::int8_t>(bytes.integer<std::uint8_t>());
   header.line_range = bytes.integer<std::uint8_t>();

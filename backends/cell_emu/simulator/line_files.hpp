@@ -1,5 +1,5 @@
-// The files that a line number program knows by number: part of the header of each unit of .debug_line (DWARF
-// versions 2 to 4, section 6.2.4), and what calls that were inlined name their files by.
+// The files that a line number program refers to by number: part of the header of each unit of .debug_line
+// (DWARF versions 2 to 4, section 6.2.4). Inlined calls name their files by the same numbers.
 #pragma once
 
 #include "backends/cell_emu/simulator/dwarf_reader.hpp"
@@ -15,14 +15,15 @@
 
 namespace celltrace::cell_emu {
 
-/// Names of files with their folders, which stay where they are as long as it lives, also when it is moved.
+/// Names of files with their folders. The strings stay in place as long as it lives, also when it is moved.
 class FileNames {
 public:
   FileNames() = default;
   FileNames(FileNames&&) = default;
   FileNames& operator=(FileNames&&) = default;
 
-  /// Returns its number. Folders that would make the names much larger than the file are left out.
+  /// Adds a name and returns its number. Folders that would make the names much larger than the file are left
+  /// out.
   std::uint32_t add(std::string_view folder, std::string_view name);
   const char* operator[](std::uint32_t number) const { return names_[number].c_str(); }
 
@@ -31,14 +32,15 @@ private:
   std::size_t bytes_ = 0;
 };
 
-/// What stands in front of a line number program.
+/// The header of a line number program.
 struct LineHeader {
   std::uint8_t instruction_bytes = 4, line_range = 1, opcode_base = 1;
   int line_base = 0;
-  std::span<const std::uint8_t> operands; ///< how many each standard opcode has, from opcode 1 on
-  DwarfReader tables;                     ///< of folders and files
+  std::span<const std::uint8_t> operands; ///< number of operands of each standard opcode, from opcode 1 on
+  DwarfReader tables;                     ///< tables of folders and files
 
-  /// Of a unit behind its length; leaves the reader in front of the program. Throws MalformedDwarf.
+  /// Reads the header of a unit behind its length; leaves the reader in front of the program. Throws
+  /// MalformedDwarf.
   static LineHeader read(DwarfReader& unit);
 };
 
@@ -46,19 +48,19 @@ struct LineHeader {
 class LineFiles {
 public:
   LineFiles() = default;
-  /// Throws MalformedDwarf.
+  /// Reads the table. Throws MalformedDwarf.
   explicit LineFiles(DwarfReader tables);
 
-  /// As a program may do. Throws MalformedDwarf.
+  /// Adds a file that a program defines. Throws MalformedDwarf.
   void define(DwarfReader entry);
-  /// The number that the file, counted from 1, has in `names`, where it is put if it is not there yet; or
-  /// none.
+  /// Returns the number in `names` of a file, counted from 1, which is added if necessary; nothing if the
+  /// file is not in the table.
   std::optional<std::uint32_t> in(FileNames& names, std::uint64_t file);
 
 private:
   struct File {
     std::string_view folder, name;
-    std::optional<std::uint32_t> number; ///< once somebody has asked
+    std::optional<std::uint32_t> number; ///< set at the first request
   };
 
   void add(DwarfReader& entry, std::string_view name);

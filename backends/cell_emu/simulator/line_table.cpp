@@ -22,7 +22,7 @@ class LineTable::Unit {
 public:
   Unit(FileNames& names, std::vector<Sequence>& sequences) : names_(names), sequences_(sequences) {}
 
-  /// Throws MalformedDwarf; the sequences that ended before stay.
+  /// Reads the unit. Throws MalformedDwarf; sequences that ended before stay.
   void read(DwarfReader unit) {
     header_ = LineHeader::read(unit);
     files_ = LineFiles(header_.tables);
@@ -65,7 +65,7 @@ private:
     case kFixedAdvancePc:
       address_ += program.integer<std::uint16_t>();
       break;
-    default: // without effect on lines, or unknown
+    default: // opcodes without effect on lines, or unknown
       for (unsigned i = 0; i < header_.operands[opcode - 1u]; ++i)
         program.unsigned_leb();
     }
@@ -93,7 +93,7 @@ private:
   void add_row() {
     if (address_ > kLocalStoreBytes || (!rows_.empty() && address_ < rows_.back().lsa)) sane_ = false;
     if (!sane_) return;
-    if (!rows_.empty() && rows_.back().lsa == address_) rows_.pop_back(); // the last one counts
+    if (!rows_.empty() && rows_.back().lsa == address_) rows_.pop_back(); // the last row of an address counts
     const std::optional<std::uint32_t> file = files_.in(names_, file_);
     rows_.push_back({static_cast<std::uint32_t>(address_), file ? line_ : 0, file.value_or(0)});
   }
@@ -121,7 +121,7 @@ private:
 
   std::uint64_t address_ = 0, file_ = 1;
   std::uint32_t line_ = 1;
-  bool sane_ = true; // no row of this sequence was outside local store or before another
+  bool sane_ = true; // true if no row of this sequence was outside local store or before another
   std::vector<Row> rows_;
 };
 
@@ -142,13 +142,13 @@ LineTable::LineTable(std::span<const std::uint8_t> debug_line) {
       } catch (const MalformedDwarf&) { // the next unit may be sound
       }
     }
-  } catch (const MalformedDwarf&) { // a length beyond the section: nothing follows that could be found
+  } catch (const MalformedDwarf&) { // after a length beyond the section nothing can be found
   }
   merge(std::move(sequences));
 }
 
 void LineTable::merge(std::vector<Sequence> sequences) {
-  // Functions that the linker threw away are said to start at 0: what is really there has its turn first.
+  // Functions that the linker discarded are listed at address 0: code that is really there comes first.
   std::ranges::stable_sort(sequences, {}, [](const Sequence& sequence) {
     return std::pair(sequence.first() == 0, sequence.first());
   });

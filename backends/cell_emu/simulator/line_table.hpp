@@ -1,4 +1,4 @@
-// Which line of which source file an instruction comes from: the DWARF line number information of a program.
+// The source line of each instruction: the DWARF line number information of a program.
 //
 // DWARF Debugging Information Format, versions 2 to 4, section 6.2.
 #pragma once
@@ -14,11 +14,11 @@ namespace celltrace::cell_emu {
 
 /// A place in source text.
 struct SourceLine {
-  const char* file = nullptr; ///< as the compiler was told, with its folder; lives as long as the LineTable
+  const char* file = nullptr; ///< as the compiler got it, with its folder; lives as long as the LineTable
   std::uint32_t line = 0;     ///< from 1
 };
 
-/// Made from .debug_line. Whatever is malformed has no lines, but what else is in the section may. Work and
+/// The lines of .debug_line. Malformed parts have no lines, but the rest of the section may. Time and
 /// memory are proportional to the size of the section.
 /// Thread safety: all members are const.
 class LineTable {
@@ -28,7 +28,7 @@ public:
   LineTable(LineTable&&) = default;
   LineTable& operator=(LineTable&&) = default;
 
-  /// A null file and line 0 where nothing is known.
+  /// Returns the line of an address; a null file and line 0 if it is unknown.
   SourceLine at(std::uint32_t lsa) const;
 
   bool empty() const { return rows_.empty(); }
@@ -36,11 +36,11 @@ public:
 private:
   struct Row {
     std::uint32_t lsa = 0;
-    std::uint32_t line = 0; ///< 0: from here on nothing is known
-    std::uint32_t file = 0; ///< in files_
+    std::uint32_t line = 0; ///< 0: unknown from here on
+    std::uint32_t file = 0; ///< number in files_
   };
   struct Sequence {
-    std::vector<Row> rows; ///< by rising address; the last one ends it
+    std::vector<Row> rows; ///< by ascending address; the last one ends the sequence
     std::uint32_t first() const { return rows.front().lsa; }
     std::uint32_t end() const { return rows.back().lsa; }
   };
@@ -48,7 +48,7 @@ private:
 
   void merge(std::vector<Sequence> sequences);
 
-  std::vector<Row> rows_; // by rising address, no two with the same
+  std::vector<Row> rows_; // by ascending address, no two with the same
   FileNames files_;
 };
 

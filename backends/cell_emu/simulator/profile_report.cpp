@@ -22,20 +22,20 @@ struct Count {
   std::uint64_t Counts::*member;
 };
 constexpr Count kCounts[] = {{"hits", &Counts::hits}, {"cycles", &Counts::cycles}, {"dual", &Counts::dual}};
-/// What kept instructions, of their cycles.
+/// Causes of delays, as parts of the cycles.
 constexpr Count kReasons[] = {
     {"dependency", &Counts::dependency},       {"branch_miss", &Counts::branch_miss},
     {"prefetch_miss", &Counts::prefetch_miss}, {"hint_target", &Counts::hint_target},
     {"fp_resource", &Counts::fp_resource},     {"channel", &Counts::channel}};
 
-/// Without a symbol, words that are further apart than this belong to different pieces of code.
+/// Words further apart than this belong to different pieces of code if there is no symbol.
 constexpr std::uint32_t kLargestGap = 128;
 
 double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// A name of C++ as in its source.
+/// Returns a C++ name as in its source.
 std::string demangled(const char* name) {
   int status = 0;
   const std::unique_ptr<char, decltype(&std::free)> text(abi::__cxa_demangle(name, nullptr, nullptr, &status),
@@ -48,7 +48,7 @@ std::string file_of(const CodePlace& place) {
   return std::string(file.substr(file.find_last_of('/') + 1)) + ":" + std::to_string(place.line);
 }
 
-/// In columns, as assemblers are used to, without the disassembler's remarks.
+/// Returns an instruction in columns, as assemblers print it, without the disassembler's remarks.
 std::string instruction_text(const Counts& word, std::uint32_t lsa) {
   const std::string text = isa::disassemble(word.instruction, lsa);
   const std::size_t tab = text.find('\t');

@@ -1,7 +1,7 @@
-// A profile by function and instruction, and its words: profile_text() and profile_json() of simulator.hpp.
+// A profile by function and instruction: implements profile_text() and profile_json() of simulator.hpp.
 //
-// What IBM's spu_timing shows of straight lines, for a whole run: instruction by instruction, in which pipe
-// it issues, whether with its neighbour, and for what it waited.
+// Shows for a whole run what IBM's spu_timing shows for straight-line code: for each instruction, the pipe
+// it issues in, whether it issues with its neighbour, and the cause of its delays.
 #pragma once
 
 #include "backends/cell_emu/simulator/code_places.hpp"
@@ -13,33 +13,33 @@
 
 namespace celltrace::cell_emu {
 
-/// What a word, a function or a whole program did.
+/// The counts of a word, a function or a whole program.
 struct ProfileSum {
-  SpuProfile::Word word; ///< its sums; `instruction` means nothing
+  SpuProfile::Word word; ///< sums; `instruction` means nothing
   ProfileSum& operator+=(const SpuProfile::Word& more);
 
-  /// Cycles an instruction; 0 if none was executed.
+  /// Returns cycles per instruction; 0 if none was executed.
   double cycles_per_instruction() const;
-  /// Instructions that issued in pairs, both of each counted, of all; 0..1.
+  /// Returns the share of instructions, 0..1, that issued in pairs; both of a pair count.
   double paired() const;
 };
 
-/// One function that was entered.
+/// One function that was executed.
 struct ProfiledFunction {
-  std::string name; ///< as in the source; an address where no symbol says it
+  std::string name; ///< as in the source; an address if no symbol names it
   std::uint32_t lsa = 0;
   ProfileSum sum;
-  std::vector<std::uint32_t> words; ///< the addresses that were executed, rising
+  std::vector<std::uint32_t> words; ///< executed addresses, ascending
 };
 
 /// Thread safety: all members are const.
 class ProfileReport {
 public:
-  /// The profile's words are copied.
+  /// Makes the report; the profile's words are copied.
   ProfileReport(const SpuProfile& profile, const SpuElf& elf);
 
   const ProfileSum& total() const { return total_; }
-  /// By falling cycles.
+  /// Returns the functions by falling cycles.
   const std::vector<ProfiledFunction>& functions() const { return functions_; }
 
   std::string text(double listed) const;
@@ -49,7 +49,7 @@ private:
   const SpuProfile::Word& word_at(std::uint32_t lsa) const { return words_[lsa / 4]; }
   std::string name_of(const FunctionSymbol* function, std::uint32_t lsa) const;
   void sort_into_functions();
-  /// How often the instruction issued together with its neighbour.
+  /// Returns how often the instruction issued together with its neighbour.
   std::uint64_t pairs_of(std::uint32_t lsa) const;
   void append_table(std::string& text) const;
   void append_listing(std::string& text, const ProfiledFunction& function) const;

@@ -1,4 +1,4 @@
-// How a stand-alone program for the SPU gets its command line.
+// The command line of a stand-alone program for the SPU.
 //
 // Sources: the start-up code of newlib's libgloss/spu (crt1 for main(speid, argp, envp), crt2 for -mstdmain),
 // and libspe2's spe_context_run() and elfspe, which fill the registers that it reads.
@@ -14,31 +14,31 @@
 
 namespace celltrace::cell_emu {
 
-/// Registers 3 to 6 at a program's start.
+/// The values of registers 3 to 6 at a program's start.
 struct StartRegisters {
   isa::Quadword spe_id, argp, envp;
-  isa::Quadword local_store; ///< its own effective address
+  isa::Quadword local_store; ///< effective address of the program's own local store
 
-  /// Of a main(speid, argp, envp): 64 bits each, in the preferred slot.
+  /// Returns the registers for a main(speid, argp, envp): 64 bits each, in the preferred slot.
   static StartRegisters of(std::uint64_t spe_id, std::uint64_t argp, std::uint64_t local_store);
 };
 
-/// Its start-up code fetches argv into its local store, for a main(argc, argv).
+/// Returns whether the program's start-up code fetches argv into its local store, for a main(argc, argv).
 bool fetches_argv(const SpuElf& elf);
 
-/// An argv in main memory, in both of its forms. Immutable; not to be moved while programs run.
+/// An argv in main memory, in both of its forms. Immutable; must not be moved while programs run.
 class ProgramArguments {
 public:
   /// Throws InputError if the arguments do not fit one DMA command: 16 KB with their terminators and
   /// pointers.
   explicit ProgramArguments(const std::vector<std::string>& arguments);
 
-  /// Is there more than argv[0]?
+  /// Returns whether there is more than argv[0].
   bool has_any() const { return count_ > 1; }
-  /// The address of an argv as a PPE of 64 bits has it.
+  /// Returns the address of an argv in the format of a 64-bit PPE.
   ea_t ppe_argv() const { return reinterpret_cast<std::uintptr_t>(ppe_argv_.data()); }
-  /// What code that fetches argv is told: argc; where it belongs in local store, and where it lies and how
-  /// many bytes it takes in main memory.
+  /// Returns the registers for code that fetches argv: argc; its place in local store, and its place and size
+  /// in bytes in main memory.
   StartRegisters for_fetching(std::uint64_t local_store) const;
 
 private:
@@ -47,7 +47,7 @@ private:
   };
 
   std::uint32_t count_;
-  std::uint32_t local_bytes_; ///< of spu_argv_, a multiple of 16
+  std::uint32_t local_bytes_; ///< size of spu_argv_, a multiple of 16
   std::vector<Line> ppe_argv_, spu_argv_;
 };
 

@@ -15,7 +15,8 @@
 namespace celltrace::cell_emu {
 namespace {
 
-/// Diagnostics outlive machines and programs: the strings that they point to are kept, each once.
+/// Keeps a string for the whole process, because diagnostics outlive machines and programs. Each is kept
+/// once.
 const char* keep(std::string text) {
   static std::mutex mutex;
   static std::set<std::string> kept;
@@ -23,9 +24,9 @@ const char* keep(std::string text) {
   return kept.insert(std::move(text)).first->c_str();
 }
 
-/// The name of a C++ function without its parameters and template arguments, which would fill a page.
+/// Returns the name of a C++ function without its parameters and template arguments, which would fill a page.
 std::string without_arguments(std::string_view whole) {
-  constexpr std::size_t kLongestName = 1000; // whatever the file says
+  constexpr std::size_t kLongestName = 1000; // limit for malformed files
   std::string name;
   int depth = 0;
   for (const char c : whole) {
@@ -43,7 +44,7 @@ std::string short_name(const char* symbol) {
       abi::__cxa_demangle(symbol, nullptr, nullptr, &status), std::free);
   if (status != 0) return symbol;
   const std::string name = without_arguments(demangled.get());
-  // What is left in front is the type that a template returns.
+  // The text in front of the name is the type that a template returns.
   const std::size_t space = name.rfind(' ');
   return space == std::string::npos ? name : name.substr(space + 1);
 }
@@ -52,21 +53,21 @@ std::string_view base_name(std::string_view file) {
   return file.substr(file.find_last_of('/') + 1);
 }
 
-/// The compiler's own headers wrap its intrinsics: nobody looks for a mistake there.
+/// Returns true for the compiler's own headers, which wrap its intrinsics: the mistake is never there.
 bool is_of_compiler(std::string_view file) {
   for (const std::string_view name : {"spu_internals.h", "spu_intrinsics.h", "spu_mfcio.h"})
     if (base_name(file) == name) return true;
   return file.find("/lib/gcc/") != std::string_view::npos;
 }
 
-/// A line that is being executed, and the function that it belongs to.
+/// A line that is being executed, and its function.
 struct Frame {
   const char* file = nullptr;
   std::uint32_t line = 0;
   std::string function;
 };
 
-/// The innermost first; there is one at least.
+/// Returns the frames, the innermost first; at least one.
 std::vector<Frame> frames_at(const CodePlaces& places, std::uint32_t address) {
   const CodePlace place = places.at(address);
   std::vector<Frame> frames(1);
@@ -104,14 +105,14 @@ CallSite SimulatedProgram::site(std::uint32_t address) const {
   }
   std::string function = frame->function;
   if (function.empty() && std::next(frame) != frames.end()) function += '?';
-  // More would fill a page: the caller that is no body of another is the last one.
+  // Further callers would fill a page; the last one is the function that was really called.
   constexpr std::ptrdiff_t kMostCallers = 8;
   for (++frame; frame != frames.end(); ++frame) {
     if (frames.end() - frame > 1 && frame - frames.begin() > kMostCallers) {
       function += ", ...";
       frame = std::prev(frames.end());
     }
-    // Piece by piece: GCC 12 takes sums of literals and temporaries for overlapping copies.
+    // Appended piece by piece: GCC 12 takes sums of literals and temporaries for overlapping copies.
     function += ", inlined from ";
     if (frame->line != 0) {
       function += base_name(frame->file);

@@ -1,4 +1,4 @@
-// A program of machine code: what is loaded, and what its addresses mean.
+// A program of machine code, and the source places of its addresses.
 #pragma once
 
 #include "backends/cell_emu/simulator/code_places.hpp"
@@ -10,9 +10,9 @@
 
 namespace celltrace::cell_emu {
 
-/// How a program takes what Machine::start() was given.
+/// The way in which a program takes the argument of Machine::start().
 enum class Convention : std::uint8_t {
-  kernel,      ///< as backends/spu/main.cpp: its second argument is the address of a ControlBlock
+  kernel,      ///< as backends/spu/main.cpp: the second argument is the address of a ControlBlock
   stand_alone, ///< main(speid, argp, envp), whose second argument it is
 };
 
@@ -25,10 +25,11 @@ public:
   const SpuElf& elf() const { return elf_; }
   const CodePlaces& places() const { return places_; }
   Convention convention() const { return convention_; }
-  /// It keeps a stack as the ABI says: register 1 holds the stack pointer and the space that is left.
+  /// Returns true if it keeps a stack as the ABI demands: register 1 holds the stack pointer and the space
+  /// that is left.
   bool has_abi_stack() const { return has_abi_stack_; }
-  /// For diagnostics: the innermost line that is in none of the compiler's own headers. Its strings stay
-  /// valid for as long as the process runs.
+  /// Returns a place for diagnostics: the innermost line outside of the compiler's own headers. Its strings
+  /// stay valid for as long as the process runs.
   CallSite site(std::uint32_t address) const;
 
 private:

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t kMaxSpes = 256;
 
-/// As the main thread of a process that asked for an SPE would have it: any value but 0.
+/// Id of the first SPE: any value but 0, as for the main thread of a process that asks for an SPE.
 constexpr std::uint64_t kFirstSpeId = 0x10000000;
 
-/// When virtual time starts, for programs that ask: a day in 2007.
+/// Start of virtual time, for programs that ask: a day in 2007.
 constexpr std::chrono::seconds kFirstSecond{1167609600};
 
 } // namespace

@@ -1,4 +1,4 @@
-// What a machine keeps for SPUs that execute machine code: the programs it was given, what their kernels find
+// A machine's data for SPUs that execute machine code: the programs it was given, their kernels' data
 // in main memory, and the PPE's answers to their calls.
 #pragma once
 
@@ -16,25 +16,25 @@
 
 namespace celltrace::cell_emu {
 
-/// Thread safety: call() from any thread, all else from the PPE's.
+/// The data. Thread safety: call() from any thread, all else from the PPE's.
 class SimulatedPrograms {
 public:
-  /// Throws InputError for arguments that no program can take. The map has to outlive it.
+  /// Throws InputError for arguments that no program can take. The map has to outlive this object.
   SimulatedPrograms(const MachineConfig& config, const AddressMap& map);
   ~SimulatedPrograms();
 
-  /// The machine code of a program. Throws SpeError if it has none, InputError if that is no executable for
-  /// the SPU.
+  /// Returns the machine code of a program. Throws SpeError if it has none, InputError if that is no
+  /// executable for the SPU.
   std::shared_ptr<const SimulatedProgram> find(const SpeProgram& program);
-  /// What the program finds in its registers when SPE `spe` starts it.
+  /// Returns the registers for the program when SPE `spe` starts it.
   StartRegisters arguments(const SimulatedProgram& program, unsigned spe, ea_t argument);
-  /// As PpeCalls::handle(), at virtual time `now`. From any thread.
+  /// Calls PpeCalls::handle() at virtual time `now`. From any thread.
   bool call(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now);
 
 private:
   PpeCallsConfig calls_config(const MachineConfig& config, const AddressMap& map);
 
-  /// Of one SPE, as its kernel reads it: big-endian.
+  /// The data of one SPE as its kernel reads them: big-endian.
   struct Block;
 
   std::vector<std::shared_ptr<const SimulatedProgram>> programs_;

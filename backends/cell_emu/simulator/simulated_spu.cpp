@@ -11,8 +11,8 @@
 namespace celltrace::cell_emu {
 namespace {
 
-/// Instructions between two looks at the others: who polls its local store for what another SPE's DMA brings
-/// must let that one have its turn. A compromise: every look may change coroutines.
+/// Instructions between two turns of others: a program that polls its local store for data of another SPE's
+/// DMA must let that SPE have its turn. A compromise, because every turn may switch coroutines.
 constexpr std::uint32_t kSlice = 2048;
 
 std::uint32_t word_at(const std::uint8_t* from) {
@@ -72,7 +72,7 @@ void SimulatedSpu::abandon() {
 const isa::Instruction& SimulatedSpu::fetch(std::uint32_t pc) {
   const isa::Instruction& instruction = decoded_[pc / 4];
   const std::uint32_t word = word_at(state_of_spu_.local_store + pc);
-  // Whoever changed local store need not say so: what was decoded is held against what is there.
+  // Writers of local store need not announce changes: the decoded word is compared with the present one.
   if (instruction.word != word) [[unlikely]]
     return decode_again(pc, word);
   return instruction;
@@ -137,7 +137,7 @@ void SimulatedSpu::record_cycles() {
 
 void SimulatedSpu::hand_in_profile() {
   if (profile_ == nullptr) return;
-  // The instruction that ended the program has not come back to be recorded.
+  // The instruction that ended the program has not been recorded yet.
   if (under_way_.issued) record();
   record_cycles();
   profile_->add(words_);
@@ -157,7 +157,7 @@ void SimulatedSpu::attend() {
     update_decrementer();
     if (state_.event_count() != 0) take_interrupt();
   }
-  // Where events may interrupt, they do so between any two instructions.
+  // If events may interrupt, they do so between any two instructions.
   left_in_slice_ = interrupts_enabled_ ? 1 : kSlice;
 }
 
@@ -170,7 +170,7 @@ void SimulatedSpu::take_interrupt() {
 void SimulatedSpu::hint(const isa::Instruction& instruction, std::uint32_t pc) {
   std::uint32_t target = static_cast<std::uint32_t>(instruction.immediate);
   if (instruction.opcode == isa::Opcode::hbr) {
-    if ((instruction.word >> 20 & 1) != 0) return; // hbrp only makes room for fetching
+    if ((instruction.word >> 20 & 1) != 0) return; // hbrp only makes room for instruction fetches
     target = state_of_spu_.gpr[instruction.ra].word(0);
   } else if (instruction.opcode == isa::Opcode::hbrr) {
     target += pc;
@@ -183,7 +183,7 @@ void SimulatedSpu::look_for_early_use(const isa::Instruction& instruction) {
   if (used == nullptr) return;
   settle();
   const EarlyLoads::Load load = *used;
-  early_loads_.forget(); // said once
+  early_loads_.forget(); // reported once
   mfc_.report_early_load(load.flight, load.lsa, load.site, site_of(state_of_spu_.pc), now());
 }
 
@@ -294,7 +294,7 @@ void SimulatedSpu::check_stack() {
   if (!program_.has_abi_stack()) return;
   const isa::Quadword& pointer = state_of_spu_.gpr[1];
   const std::int32_t left = static_cast<std::int32_t>(pointer.word(1));
-  // A store to a frame that does not fit comes after this.
+  // A store to a frame that does not fit would come after this.
   if (stack_left_ >= 0 && left < 0)
     fail_at(state_of_spu_.pc, Rule::stack_overflow,
             place_of(state_of_spu_.pc) + ": " + std::to_string(-static_cast<std::int64_t>(left)) +

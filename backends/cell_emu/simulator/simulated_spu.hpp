@@ -1,5 +1,5 @@
-// The SPU that executes machine code: fetches, issues and executes instructions from its real local store, on
-// the channels and the clock that it shares with the SPU of host code.
+// The SPU that executes machine code: fetches, issues and executes instructions from its real local store,
+// with the channels and the clock that it shares with the SPU of host code.
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"
@@ -24,15 +24,15 @@ public:
   /// The key of a stand-alone program's image.
   static constexpr const char* kElfKey = "elf";
 
-  /// Answers a call for help; see PpeCalls::handle(). False: it is none.
+  /// Answers a call for help; see PpeCalls::handle(). Returns false if the code is no such call.
   using CallPpe = std::function<bool(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now)>;
 
-  /// The program must have been loaded. `profile` may be null.
+  /// Makes the SPU. The program must have been loaded. `profile` may be null.
   SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program, CallPpe call_ppe,
                SpuProfile* profile);
   ~SimulatedSpu() override { mfc_.watch_flights(nullptr); }
 
-  /// Executes the program from its entry on, until it throws: SpeExit when it ends, or as SpuCore does.
+  /// Executes the program from its entry on, until it throws: SpeExit at its end, or as SpuCore does.
   [[noreturn]] void run(const StartRegisters& registers);
   void finish();
   void abandon();
@@ -52,13 +52,13 @@ private:
   void watched_store(std::uint32_t lsa, const isa::Quadword& value) override;
 
   template <bool profiled> void run_slice();
-  // For the profile: the instruction under way; the cycles that no other has; all to who asked for it.
+  // For the profile: record the instruction under way; record the cycles that belong to no other instruction.
   void record();
   void record_cycles();
   void hand_in_profile();
   const isa::Instruction& fetch(std::uint32_t pc);
   const isa::Instruction& decode_again(std::uint32_t pc, std::uint32_t word);
-  /// Between instructions: limits, interrupts, and the others' turn.
+  /// Handles, between instructions, limits, interrupts, and the turns of others.
   void attend();
   void take_interrupt();
   void hint(const isa::Instruction& instruction, std::uint32_t pc);
@@ -66,9 +66,9 @@ private:
   void check_stack();
   void call_ppe(std::uint32_t code);
 
-  /// Brings the clock up to what has been issued.
+  /// Advances the clock to the last issued instruction.
   void settle();
-  /// Around what may let virtual time pass.
+  /// Wraps an access that may let virtual time pass.
   template <class Access> auto access(Access use);
   const CallSite& site_of(std::uint32_t pc);
   std::string place_of(std::uint32_t pc);
@@ -84,17 +84,17 @@ private:
   IssueModel model_;
   std::uint32_t left_in_slice_ = 0; ///< instructions until attend()
   std::uint64_t dma_bytes_seen_ = 0;
-  std::int32_t stack_left_ = -1; ///< as register 1 last said; less than 0: it says nothing
+  std::int32_t stack_left_ = -1; ///< bytes left by register 1; negative: unknown
   std::uint32_t lowest_stack_ = kLocalStoreBytes;
   std::unordered_map<std::uint32_t, CallSite> sites_;
-  std::vector<SpuProfile::Word> words_; ///< for the profile
+  std::vector<SpuProfile::Word> words_; ///< counts for the profile
   struct {
     std::uint32_t pc = 0;
-    bool issued = false; ///< and not recorded
-    bool paired = false; ///< issued with the one before
+    bool issued = false; ///< issued and not yet recorded
+    bool paired = false; ///< issued with the instruction before
   } under_way_;
   Cycle profiled_until_ = 0;
-  Cycle waited_ = 0; ///< at channels, by the present instruction
+  Cycle waited_ = 0; ///< time at channels of the present instruction
 };
 
 } // namespace celltrace::cell_emu

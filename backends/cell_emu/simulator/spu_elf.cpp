@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kLocalStoreBytes = 256 * 1024;
 
-// Places in the file header, a program header and a section header of a 32-bit ELF file.
+// Offsets in the file header, a program header and a section header of a 32-bit ELF file.
 constexpr std::size_t kHeaderBytes = 52, kProgramHeaderBytes = 32, kSectionHeaderBytes = 40;
 constexpr std::size_t kIdentClass = 4, kIdentData = 5, kIdentVersion = 6;
 constexpr std::size_t kType = 16, kMachine = 18, kVersion = 20, kEntry = 24, kProgramHeaders = 28,
@@ -31,7 +31,7 @@ constexpr std::uint16_t kExecutableFile = 2, kSpu = 23;
 constexpr std::uint32_t kLoad = 1, kFlagExecute = 1, kFlagWrite = 2, kFlagOverlay = 1u << 27;
 constexpr std::uint32_t kNoBits = 8;
 
-// A string table without zero bytes must not be searched to its end for every name.
+// Limit, so that a string table without zero bytes is not searched to its end for every name.
 constexpr std::size_t kLongestString = 16384;
 
 [[noreturn]] void refuse(const std::string& why) {

@@ -9,7 +9,7 @@ namespace celltrace::cell_emu {
 
 namespace {
 
-constexpr std::uint32_t kSymbolTable = 2; // the type of the section
+constexpr std::uint32_t kSymbolTable = 2; // type of the section
 constexpr std::size_t kSymbolBytes = 16;
 constexpr std::size_t kName = 0, kValue = 4, kSize = 8, kInfo = 12, kSection = 14;
 constexpr unsigned kNoType = 0, kFunction = 2, kFile = 4;
@@ -20,7 +20,7 @@ constexpr std::uint16_t kUndefined = 0, kAbsolute = 0xFFF1;
 
 struct SpuSymbols::Candidate {
   FunctionSymbol symbol;
-  bool typed = false; ///< said to be a function; else a label in code
+  bool typed = false; ///< marked as a function; else a label in code
   bool global = false;
 };
 
@@ -68,7 +68,7 @@ std::vector<SpuSymbols::Candidate> SpuSymbols::read(const ElfSection& table,
       values_.try_emplace(name, value);
     else
       values_[name] = value;
-    // Labels that are local are places inside functions written in assembly.
+    // Local labels are places inside functions written in assembly.
     const bool label = type == kNoType && binding == kGlobal && section != kAbsolute;
     if ((type == kFunction || label) && code_around(value) != nullptr)
       functions.push_back({{name.data(), value, load_big_endian<std::uint32_t>(entry + kSize)},
@@ -79,12 +79,12 @@ std::vector<SpuSymbols::Candidate> SpuSymbols::read(const ElfSection& table,
 }
 
 void SpuSymbols::keep_functions(std::vector<Candidate> candidates) {
-  // Of several names for one place the most telling one comes first.
+  // If a place has several names, the most informative one comes first.
   const auto order = [](const Candidate& c) {
     return std::make_tuple(c.symbol.lsa, !c.typed, !c.global, c.symbol.bytes == 0);
   };
   std::ranges::stable_sort(candidates, {}, order);
-  std::uint32_t sized_end = 0; // of the functions so far whose size is known
+  std::uint32_t sized_end = 0; // end of the functions so far whose size is known
   for (const Candidate& candidate : candidates) {
     const FunctionSymbol& symbol = candidate.symbol;
     if (!functions_.empty() && functions_.back().lsa == symbol.lsa) continue;

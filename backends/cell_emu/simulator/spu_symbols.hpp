@@ -1,4 +1,4 @@
-// The names that a program's symbol table has for its functions and data.
+// The names of functions and data from a program's symbol table.
 #pragma once
 
 #include "backends/cell_emu/simulator/spu_elf.hpp"
@@ -11,35 +11,35 @@
 
 namespace celltrace::cell_emu {
 
-/// A function, as its symbol says.
+/// A function, as its symbol describes it.
 struct FunctionSymbol {
   const char* name = nullptr; ///< as in the file (C++ names are mangled); lives as long as the SpuSymbols
   std::uint32_t lsa = 0;
-  std::uint32_t bytes = 0; ///< up to the next function or the end of the code where the file does not say
+  std::uint32_t bytes = 0; ///< up to the next function or the end of the code if the file has no size
 };
 
-/// Made from a program's .symtab; empty for a program that is stripped of it or whose table makes no sense.
-/// Thread safety: all members are const.
+/// The symbols of a program's .symtab; empty for a program that is stripped of it or whose table is
+/// malformed. Thread safety: all members are const.
 class SpuSymbols {
 public:
   explicit SpuSymbols(const SpuElf& elf);
 
-  /// The function that starts at the address or is the last one to start before it in the same segment, or
-  /// null. Between functions, in what the linker fills up, the address may lie behind the function's last
-  /// byte. Of functions in overlays that share an address, one is known.
+  /// Returns the function that starts at the address or is the last one to start before it in the same
+  /// segment, or null. In the linker's padding between functions, the address may lie behind the function's
+  /// last byte. If functions in overlays share an address, only one is known.
   const FunctionSymbol* function_at(std::uint32_t lsa) const;
 
-  /// The value of a symbol of any kind that is defined, such as `_end`, `__stack` or `_start`; of several
-  /// that have the name, a global one.
+  /// Returns the value of a defined symbol of any kind, such as `_end`, `__stack` or `_start`; a global one
+  /// if several have the name.
   std::optional<std::uint32_t> value_of(std::string_view name) const;
 
-  /// By rising address, no two with the same.
+  /// Returns all functions by ascending address, no two with the same.
   const std::vector<FunctionSymbol>& functions() const { return functions_; }
 
 private:
   struct Candidate;
   struct Range {
-    std::uint32_t first = 0, last = 0; ///< the last byte, too
+    std::uint32_t first = 0, last = 0; ///< the last byte is included
   };
 
   std::vector<Candidate> read(const ElfSection& table, std::span<const std::uint8_t> names);
@@ -47,8 +47,8 @@ private:
   void find_code(const SpuElf& elf);
   const Range* code_around(std::uint32_t lsa) const;
 
-  SpuElf elf_;              // for the names
-  std::vector<Range> code_; // executable memory, by rising address, disjoint
+  SpuElf elf_;              // keeps the names alive
+  std::vector<Range> code_; // executable memory, by ascending address, disjoint
   std::vector<FunctionSymbol> functions_;
   std::unordered_map<std::string_view, std::uint32_t> values_;
 };

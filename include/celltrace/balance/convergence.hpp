@@ -1,10 +1,10 @@
-// Measuring how fast load balancing converges on a system graph, whether or not theory has a formula for it.
+// Measures how fast load balancing converges on a system graph, whether or not theory has a formula for it.
 //
-// The convergence factor is what a sweep, or a step of diffusion, leaves in the long run of the deviation
-// from balance: the spectral radius of the sweep as a matrix, apart from the equal loads that it does not
-// change. It is found by Gelfand's formula, the limit of |M^k|^(1/k), with k = 2^24 by repeated squaring:
-// also where eigenvalues are complex or coincide. n^3 work, so meant for graphs of at most some hundred
-// nodes.
+// The convergence factor is the share of the deviation from balance that a sweep, or a step of diffusion,
+// leaves in the long run: the spectral radius of the sweep as a matrix, apart from the equal loads that it
+// does not change. It is computed by Gelfand's formula, the limit of |M^k|^(1/k), with k = 2^24 by repeated
+// squaring, which also works if eigenvalues are complex or coincide. Takes n^3 operations, so it is meant for
+// graphs of at most some hundred nodes.
 #pragma once
 
 #include "celltrace/balance/dimension_exchange.hpp"
@@ -38,7 +38,7 @@ public:
     }
     return square;
   }
-  /// The largest magnitude; all values are divided by it unless it is 0.
+  /// Divides all values by the largest magnitude unless that is 0. Returns the magnitude.
   double normalise() {
     double largest = 0;
     for (const double value : values_)
@@ -54,9 +54,9 @@ private:
   std::vector<double> values_;
 };
 
-/// `balance(loads)` is linear and keeps the sum.
+/// Returns the spectral radius of `balance(loads)`, which must be linear and keep the sum.
 template <class Balance> double spectral_radius(std::uint32_t nodes, Balance balance) {
-  // Below this, what is left of a deviation is rounding.
+  // Deviations below this are rounding errors.
   constexpr double kNothing = 1e-14;
   SquareMatrix power(nodes);
   for (std::uint32_t node = 0; node < nodes; ++node) {
@@ -80,19 +80,21 @@ template <class Balance> double spectral_radius(std::uint32_t nodes, Balance bal
 
 } // namespace detail
 
-/// What a sweep of GDE with `lambda` leaves of a deviation, 0..1. Errors as gde_sweep().
+/// Returns the share of a deviation, 0..1, that a sweep of GDE with `lambda` leaves. Throws as gde_sweep()
+/// does.
 inline double convergence_factor(const SystemGraph& graph, double lambda) {
   return celltrace::detail::spectral_radius(
       graph.nodes, [&](std::span<double> loads) { gde_sweep(graph, loads, lambda); });
 }
-/// The same for a step of diffusion with `alpha`. Errors as diffusion_step().
+/// Returns the share of a deviation, 0..1, that a step of diffusion with `alpha` leaves. Throws as
+/// diffusion_step() does.
 inline double diffusion_convergence_factor(const SystemGraph& graph, double alpha) {
   return celltrace::detail::spectral_radius(
       graph.nodes, [&](std::span<double> loads) { diffusion_step(graph, loads, alpha); });
 }
 
-/// The lambda of the smallest convergence factor on any graph, by search to about 1e-4: for the graphs that
-/// have no formula.
+/// Returns the lambda with the smallest convergence factor on any graph, by search to about 1e-4: for graphs
+/// without a formula.
 inline double best_exchange_parameter(const SystemGraph& graph) {
   double best = 0.5;
   double smallest = convergence_factor(graph, best);
@@ -111,7 +113,8 @@ inline double best_exchange_parameter(const SystemGraph& graph) {
   return best;
 }
 
-/// Sweeps of GDE until the imbalance is at most `tolerance`; none if `most` are not enough.
+/// Returns the number of sweeps of GDE until the imbalance is at most `tolerance`; nothing if `most` are not
+/// enough.
 inline std::optional<std::uint32_t> sweeps_to_balance(const SystemGraph& graph, std::vector<double> loads,
                                                       double lambda, double tolerance,
                                                       std::uint32_t most = 100'000) {
@@ -121,7 +124,8 @@ inline std::optional<std::uint32_t> sweeps_to_balance(const SystemGraph& graph, 
   }
   return std::nullopt;
 }
-/// Steps of diffusion until then.
+/// Returns the number of steps of diffusion until the imbalance is at most `tolerance`; nothing if `most` are
+/// not enough.
 inline std::optional<std::uint32_t> steps_to_balance(const SystemGraph& graph, std::vector<double> loads,
                                                      double alpha, double tolerance,
                                                      std::uint32_t most = 100'000) {

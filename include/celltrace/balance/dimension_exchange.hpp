@@ -5,7 +5,7 @@
 // balancing", J. Parallel and Distributed Computing 16 (1992); G. Cybenko, "Dynamic load balancing for
 // distributed memory multiprocessors", same journal 7 (1989).
 //
-// Loads are one number per node. Pure functions: they touch nothing but the loads they are given.
+// Loads are one number per node. All functions are pure: they touch nothing but the loads they are given.
 #pragma once
 
 #include "celltrace/balance/system_graph.hpp"
@@ -30,12 +30,12 @@ inline void require_parameter(double parameter, double largest) {
     throw std::invalid_argument("exchange parameter out of range");
 }
 
-/// What flows from a load `from` to a load `to`, positive or negative.
+/// Returns the load that flows from a load `from` to a load `to`, positive or negative.
 inline double flow(double from, double to, double parameter) {
   return parameter * (from - to);
 }
-/// In whole units the larger load gives what the parameter allows, rounded down: nothing oscillates by
-/// rounding.
+/// Returns the whole units that flow, rounded down for the larger load, so that rounding makes nothing
+/// oscillate.
 inline std::int64_t flow(std::int64_t from, std::int64_t to, double parameter) {
   return static_cast<std::int64_t>(parameter * static_cast<double>(from - to));
 }
@@ -66,10 +66,10 @@ template <class Load> void diffusion_step(const SystemGraph& graph, std::span<Lo
 
 } // namespace detail
 
-/// One sweep of GDE: colour by colour, the neighbours on each edge of that colour exchange the part `lambda`
-/// (0..1) of their loads, w_i = (1 - lambda) w_i + lambda w_j. The sum stays, loads >= 0 stay >= 0. Whole
-/// loads (up to 2^53) move in whole units, rounded towards moving less. Throws std::invalid_argument for a
-/// lambda out of range or another number of loads than of nodes.
+/// Does one sweep of GDE: colour by colour, the neighbours on each edge of that colour exchange the share
+/// `lambda` (0..1) of their loads, w_i = (1 - lambda) w_i + lambda w_j. The sum stays, loads >= 0 stay >= 0.
+/// Whole loads (up to 2^53) move in whole units, rounded towards moving less. Throws std::invalid_argument if
+/// lambda is out of range or the number of loads is not the number of nodes.
 inline void gde_sweep(const SystemGraph& graph, std::span<double> loads, double lambda) {
   celltrace::detail::gde_sweep(graph, loads, lambda);
 }
@@ -77,20 +77,20 @@ inline void gde_sweep(const SystemGraph& graph, std::span<std::int64_t> loads, d
   celltrace::detail::gde_sweep(graph, loads, lambda);
 }
 
-/// One step of first-order diffusion: all neighbours at once, w_i += alpha * sum over neighbours (w_j - w_i),
-/// with alpha in 0 .. 1/degree. Otherwise as gde_sweep().
+/// Does one step of first-order diffusion: all neighbours at once, w_i += alpha * sum over neighbours (w_j -
+/// w_i), with alpha in 0 .. 1/degree. Otherwise as gde_sweep().
 inline void diffusion_step(const SystemGraph& graph, std::span<double> loads, double alpha) {
   celltrace::detail::diffusion_step(graph, loads, alpha);
 }
 inline void diffusion_step(const SystemGraph& graph, std::span<std::int64_t> loads, double alpha) {
   celltrace::detail::diffusion_step(graph, loads, alpha);
 }
-/// The usual alpha, 1 / (degree + 1), with which diffusion converges on every connected graph.
+/// Returns the usual alpha, 1 / (degree + 1), with which diffusion converges on every connected graph.
 inline double diffusion_parameter(const SystemGraph& graph) {
   return 1.0 / (graph.degree() + 1.0);
 }
 
-/// max / mean - 1: 0 is perfect balance. 0 for no loads or loads that are all 0.
+/// Returns max / mean - 1: 0 is perfect balance. 0 if there are no loads or all are 0.
 template <class Load> double imbalance(std::span<const Load> loads) {
   const double sum = std::accumulate(loads.begin(), loads.end(), 0.0);
   if (sum == 0) return 0;

@@ -1,4 +1,4 @@
-// Colouring the edges of a graph with at most degree + 1 colours: the algorithm of Misra and Gries (1992).
+// Colours the edges of a graph with at most degree + 1 colours, by the algorithm of Misra and Gries (1992).
 #pragma once
 
 #include <algorithm>
@@ -14,14 +14,14 @@ class EdgeColouring {
 public:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-  /// A simple graph of the given degree. `edges` must outlive the object.
+  /// Colours a simple graph of the given degree. `edges` must outlive the object.
   EdgeColouring(std::uint32_t nodes, std::uint32_t degree, std::span<const Pair> edges)
       : edges_(edges), colours_(degree + 1), edge_at_(std::size_t{nodes} * colours_, kNone),
         colour_(edges.size(), kNone) {
     for (std::uint32_t edge = 0; edge < edges_.size(); ++edge)
       colour_edge(edge);
   }
-  /// The colour of each edge, 0 .. degree.
+  /// Returns the colour of each edge, 0 .. degree.
   const std::vector<std::uint32_t>& colours() const { return colour_; }
 
 private:
@@ -60,8 +60,8 @@ private:
     rotate(centre, fan, free_at_tip);
   }
 
-  /// Edges of `centre`, the first without colour, such that the colour of each is free at the far end of the
-  /// one before it.
+  /// Returns edges of `centre`, the first one not yet coloured, such that the colour of each is free at the
+  /// far end of the edge before it.
   std::vector<std::uint32_t> maximal_fan(std::uint32_t centre, std::uint32_t first) {
     std::vector<std::uint32_t> fan{first};
     for (bool grown = true; grown;) {
@@ -96,7 +96,7 @@ private:
       paint(path[i], swapped[i]);
   }
 
-  /// Shifts colours towards the first edge of the fan as far as an edge whose far end has `colour` free, and
+  /// Shifts colours towards the first edge of the fan, up to an edge whose far end has `colour` free, and
   /// gives that edge this colour. The swap may have broken the fan, but never before such an edge.
   void rotate(std::uint32_t centre, const std::vector<std::uint32_t>& fan, std::uint32_t colour) {
     std::size_t last = 0;

@@ -1,16 +1,16 @@
-// The exchange parameter of generalized dimension exchange: how fast sweeps converge with it, and which one
-// is the best.
+// The exchange parameter of generalized dimension exchange: the speed of convergence that it gives, and its
+// best value.
 //
 // Sources: C.-Z. Xu and F. C. M. Lau, "Analysis of the generalized dimension exchange method for dynamic load
 // balancing", J. Parallel and Distributed Computing 16 (1992), and "The generalized dimension exchange method
 // for load balancing in k-ary n-cubes and variants", same journal 24 (1995).
 //
-// The convergence factor is what a sweep leaves in the long run of the deviation from balance, 0..1. In the
-// eigenvectors of a chain or of an even ring, the two halves of a sweep turn into 2x2 matrices, one for each
-// frequency theta, so that the eigenvalues of a sweep are the roots of
+// The convergence factor, 0..1, is the share of the deviation from balance that a sweep leaves in the long
+// run. In the eigenvectors of a chain or of an even ring, the two halves of a sweep turn into 2x2 matrices,
+// one for each frequency theta, so that the eigenvalues of a sweep are the roots of
 //   x^2 - 2 ((1 - lambda)^2 + lambda^2 cos theta) x + (1 - 2 lambda)^2 = 0.
 // The slowest frequency decides. With the best parameter its roots coincide, and the factor is 2 lambda - 1.
-// Pure functions. They throw std::invalid_argument for graphs that have no nodes or no closed form.
+// Pure functions. They throw std::invalid_argument for graphs without nodes or without a closed form.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace celltrace {
 
 namespace detail {
 
-/// The root of larger magnitude, for one frequency.
+/// Returns the magnitude of the larger root for one frequency.
 inline double slowest_factor(double theta, double lambda) {
   const double half_sum = (1 - lambda) * (1 - lambda) + lambda * lambda * std::cos(theta);
   const double product = (1 - 2 * lambda) * (1 - 2 * lambda);
@@ -39,7 +39,8 @@ inline void require_even_ring(std::uint32_t nodes) {
   if (nodes == 0 || nodes % 2 == 1) throw std::invalid_argument("the optimal parameter needs an even ring");
 }
 
-/// What `of_side` says for the longest side. The axes of a box are balanced apart from each other.
+/// Returns `of_side` of the longest side, after checking all sides: the axes of a box are balanced
+/// independently.
 template <class OfSide> double of_longest(std::span<const std::uint32_t> sides, OfSide of_side) {
   if (sides.empty()) return 0.5;
   for (const std::uint32_t side : sides)
@@ -49,20 +50,21 @@ template <class OfSide> double of_longest(std::span<const std::uint32_t> sides, 
 
 } // namespace detail
 
-/// Chain of n >= 1 nodes; `lambda` in 0..1.
+/// Returns the convergence factor of a chain of n >= 1 nodes; `lambda` in 0..1.
 inline double chain_convergence_factor(std::uint32_t nodes, double lambda) {
   celltrace::detail::require_chain(nodes);
   if (nodes == 1) return 0;
   return nodes == 2 ? std::abs(1 - 2 * lambda)
                     : celltrace::detail::slowest_factor(2 * std::numbers::pi / nodes, lambda);
 }
-/// Ring of an even number of nodes; 2 nodes are a chain.
+/// Returns the convergence factor of a ring with an even number of nodes; 2 nodes are a chain.
 inline double ring_convergence_factor(std::uint32_t nodes, double lambda) {
   celltrace::detail::require_even_ring(nodes);
   return nodes == 2 ? std::abs(1 - 2 * lambda)
                     : celltrace::detail::slowest_factor(4 * std::numbers::pi / nodes, lambda);
 }
-/// On a mesh or torus the slowest axis decides, which is a longest one. The sides of a torus are even.
+/// Return the convergence factor of a mesh or torus: that of the slowest axis, which is a longest one. The
+/// sides of a torus must be even.
 inline double mesh_convergence_factor(std::span<const std::uint32_t> sides, double lambda) {
   double slowest = 0;
   for (const std::uint32_t side : sides)
@@ -76,30 +78,31 @@ inline double torus_convergence_factor(std::span<const std::uint32_t> sides, dou
   return slowest;
 }
 
-/// The lambda with which GDE converges fastest on a chain of n >= 1 nodes: 1 / (1 + sin(pi / n)).
+/// Returns the lambda with which GDE converges fastest on a chain of n >= 1 nodes: 1 / (1 + sin(pi / n)).
 inline double optimal_chain_parameter(std::uint32_t nodes) {
   celltrace::detail::require_chain(nodes);
   return nodes == 1 ? 0.5 : 1 / (1 + std::sin(std::numbers::pi / nodes));
 }
-/// On a ring of an even number of nodes: 1 / (1 + sin(2 pi / n)). For odd rings, and for graphs of any other
-/// kind, there is best_exchange_parameter().
+/// Returns the best lambda on a ring with an even number of nodes: 1 / (1 + sin(2 pi / n)). For odd rings and
+/// other graphs use best_exchange_parameter().
 inline double optimal_ring_parameter(std::uint32_t nodes) {
   celltrace::detail::require_even_ring(nodes);
   return nodes == 2 ? 0.5 : 1 / (1 + std::sin(2 * std::numbers::pi / nodes));
 }
-/// On a mesh or torus the longest side decides. The sides of a torus are even.
+/// Return the best lambda on a mesh or torus, which its longest side decides. The sides of a torus must be
+/// even.
 inline double optimal_mesh_parameter(std::span<const std::uint32_t> sides) {
   return celltrace::detail::of_longest(sides, optimal_chain_parameter);
 }
 inline double optimal_torus_parameter(std::span<const std::uint32_t> sides) {
   return celltrace::detail::of_longest(sides, optimal_ring_parameter);
 }
-/// On a hypercube one sweep with 1/2 balances exactly.
+/// Returns 1/2, with which one sweep balances a hypercube exactly.
 inline double optimal_hypercube_parameter() {
   return 0.5;
 }
 
-/// An exchange parameter in units of 2^-16 as StripNode takes it: 0..1 becomes 0..65535.
+/// Returns an exchange parameter in units of 2^-16 as StripNode takes it: 0..1 becomes 0..65535.
 inline std::uint32_t fixed_point_parameter(double lambda) {
   return static_cast<std::uint32_t>(std::clamp(std::lround(lambda * 65536), 0L, 65535L));
 }

@@ -1,4 +1,4 @@
-// Cutting a sequence of work into units and strips by what its parts have cost before. Host side; pure
+// Cuts a sequence of work into units and strips by the measured cost of its parts. Host side; pure
 // functions.
 #pragma once
 
@@ -14,16 +14,15 @@
 
 namespace celltrace {
 
-/// Consecutive items, and what they cost together.
+/// Consecutive items, and their cost together.
 struct CostRun {
   std::uint32_t items;
   double cost;
 };
 
-/// Cuts the items of `measured` anew, into about `wanted` (at least 1) runs of about the same cost, as far as
-/// single items allow, and of at most `longest` (at least 1) items. There are at most wanted + items /
-/// longest
-/// + 1 of them. The items of a measured run are taken to have cost the same.
+/// Cuts the items of `measured` anew, into about `wanted` (at least 1) runs of about equal cost, as far as
+/// single items allow, and of at most `longest` (at least 1) items. Returns at most wanted + items / longest
+/// + 1 runs. All items of a measured run count as equally expensive.
 inline std::vector<CostRun> equal_cost_runs(std::span<const CostRun> measured, std::uint32_t wanted,
                                             std::uint32_t longest) {
   const double total = std::accumulate(measured.begin(), measured.end(), 0.0,
@@ -49,8 +48,8 @@ inline std::vector<CostRun> equal_cost_runs(std::span<const CostRun> measured, s
   return runs;
 }
 
-/// Consecutive strips of all units, the ends of which lie where the costs before them are nearest to
-/// `loads`' sums. `loads` has a load per strip, and the sum of all costs.
+/// Cuts all units into consecutive strips whose ends lie where the sums of `costs` are nearest to the sums of
+/// `loads`. `loads` has a load per strip; all loads add up to the sum of all costs.
 inline std::vector<UnitRange> strips_of_loads(std::span<const double> costs, std::span<const double> loads) {
   std::vector<UnitRange> strips;
   const auto units = static_cast<std::uint32_t>(costs.size());
@@ -68,14 +67,14 @@ inline std::vector<UnitRange> strips_of_loads(std::span<const double> costs, std
   return strips;
 }
 
-/// Strips of about the same cost. `nodes` is at least 1.
+/// Cuts all units into strips of about equal cost. `nodes` is at least 1.
 inline std::vector<UnitRange> strips_of_equal_cost(std::span<const double> costs, std::uint32_t nodes) {
   const double total = std::accumulate(costs.begin(), costs.end(), 0.0);
   return strips_of_loads(costs, std::vector<double>(nodes, total / nodes));
 }
 
-/// The strips after a step of first-order diffusion along the chain, in which neighbours even out the part
-/// `alpha` of the difference between what their strips cost. Errors as diffusion_step().
+/// Returns the strips after a step of first-order diffusion along the chain, in which neighbours even out the
+/// share `alpha` of the difference between the costs of their strips. Throws as diffusion_step() does.
 inline std::vector<UnitRange> diffused_strips(std::span<const double> costs,
                                               std::span<const UnitRange> strips, double alpha) {
   std::vector<double> loads;

@@ -1,44 +1,44 @@
-// Balancing the work of a frame between the nodes of a chain while it is being done: the generalized
-// dimension exchange of Xu and Lau, run asynchronously and in pairs by whoever runs out of work. The state
-// machine of one node, without clock, thread or transport. Freestanding C++17 (kernel dialect).
+// Balances the work of a frame between the nodes of a chain while it is being done, by the generalized
+// dimension exchange of Xu and Lau, run asynchronously and in pairs by whichever node runs out of work. This
+// is the state machine of one node, without clock, thread or transport. Freestanding C++17 (kernel dialect).
 //
 // Work comes in numbered units, which should cost about the same. A node owns the units [first, first +
 // count) that it has not taken yet. Remaining units are ordered along the chain: every unit of node i lies
-// before every one of node j > i; the gaps between them have been taken.
+// before every one of node j > i; the units in the gaps between them have been taken.
 //
 // An exchange on the edge between two neighbours is one word from each to the other; the k-th word of one
-// pairs with the k-th word of the other. A word is the sender's remaining units. From the two words both
-// compute the same new boundary: if exactly one of them is empty it gets floor(lambda * remaining) units of
-// the other, those that lie next to it; otherwise nothing moves. The pairs order everything that matters, so
-// that no unit is lost or given twice however words are delayed.
+// pairs with the k-th word of the other. A word says how many units the sender has left. From the two words
+// both nodes compute the same new boundary: if exactly one of them is empty it gets floor(lambda * remaining)
+// units of the other, the nearest ones; otherwise nothing moves. The pairing fixes the order of everything
+// that matters, so that no unit is lost or given twice however words are delayed.
 //
-// - A node asks when it is dry: one edge at a time, edges of colour 0 (those above an even node) first, later
-//   on the edge first that did not give the last time. It rings the neighbour's doorbell, sends its word and
-//   waits for the neighbour's. It stays dry until that word has come, so what it said remains true. A word
+// - A node that is dry asks: one edge at a time, edges of colour 0 (those above an even node) first, later
+//   first on the edge that did not give the last time. It rings the neighbour's doorbell, sends its word and
+//   waits for the neighbour's. It stays dry until that word has come, so its own word remains true. A word
 //   from a neighbour that asked at the same moment is as good as an answer.
 // - A node that is asked answers at once; the exchange is complete on its side.
-// - A node that saw its neighbour go away empty-handed rings the neighbour's doorbell as soon as it has units
+// - A node whose neighbour got nothing rings the neighbour's doorbell as soon as it has units
 //   to give. A doorbell invites a dry node that was refused to ask on that edge again; at any other time it
-//   means nothing, so that late, merged and superfluous doorbells do no harm. An invited question is not
-//   rung for, or two dry nodes could keep each other busy.
-// - A dry node that was refused on every edge is idle and reports the units it has completed. Units may still
-//   come by an invitation; then it reports again. The frame is complete when every node has reported and
-//   the reports add up.
+//   means nothing, so that late, merged and superfluous doorbells do no harm. A node that asks by invitation
+//   does not ring, or two dry nodes could keep each other busy.
+// - A dry node that was refused on every edge is idle and reports the number of units it has completed. It
+//   reports again later if units come by an invitation. The frame is complete when every node has reported
+//   and the reports add up.
 //
 // A node gives away at most all but one of its units, and takes that one before it asks: frames end. In a
 // frame of u units, n nodes send at most 4 n + 8 g words for g <= u exchanges that move units, and no more
 // doorbells than words.
 //
-// Transport. Words and doorbells may come late and in any order. A word wears the parity of its place among
-// its edge's, as a neighbour is never more than one word ahead, and the epoch of its frame: a word that
-// outlived its frame is dropped, and that of a neighbour that is a frame ahead is kept until begin_frame().
-// No word may take longer than two frames. A doorbell is a bit (Cell: signal notification 2 in logical-OR
-// mode); those that have not been read merge.
+// Transport. Words and doorbells may come late and in any order. A word carries the parity of its number on
+// its edge, since a neighbour is never more than one word ahead, and the epoch of its frame: a word that
+// outlived its frame is dropped, and a word from a neighbour that is a frame ahead is kept until
+// begin_frame(). No word may take longer than two frames. A doorbell is a bit (Cell: signal notification 2 in
+// logical-OR mode); doorbells that have not been read merge.
 //
-// Where words keep their order (Cell: inbound mailbox), a doorbell is delivered before any later word of the
-// same node, and doorbells that have been delivered are handed in before each word, a node that reads nothing
-// has at most 2 words under way from each neighbour during a frame, and 1 once the frame is complete: with
-// the two questions of the next frame, or with the PPE's word that ends this one, the four entries of a
+// Suppose that words keep their order (Cell: inbound mailbox), that a doorbell is delivered before any later
+// word of the same node, and that delivered doorbells are handed in before each word. Then a node that reads
+// nothing has at most 2 words under way from each neighbour during a frame, and 1 once the frame is complete:
+// with the two questions of the next frame, or with the PPE's word that ends this one, the four entries of a
 // mailbox suffice. This holds if the PPE starts a frame only after every node has left the one before; a
 // frame that is broken off early also needs every mailbox drained before the next one starts.
 #pragma once
@@ -56,13 +56,13 @@ struct UnitRange {
 };
 
 /// The 32-bit words of the mailboxes: the word of an exchange, and the word of the PPE that ends a frame,
-/// which has kMaxUnits for `first`.
+/// whose `first` is kMaxUnits.
 ///   31 parity | 30..29 epoch | 28 sender is the upper neighbour | 27..14 remaining | 13..0 first unit
 namespace strip_word {
 
 /// Units are numbered 0 .. kMaxUnits - 1.
 constexpr uint32_t kMaxUnits = (1u << 14) - 1;
-/// Epochs are numbers modulo this.
+/// Number of epochs; frames are numbered modulo this.
 constexpr uint32_t kEpochs = 4;
 
 constexpr uint32_t make(uint32_t epoch, uint32_t parity, bool from_upper, UnitRange units) {
@@ -90,17 +90,17 @@ constexpr UnitRange units(uint32_t word) {
 
 } // namespace strip_word
 
-/// Units that a dry node gets of a neighbour that has `remaining`. `lambda`: the exchange parameter in units
-/// of 2^-16.
+/// Returns the units that a dry node gets from a neighbour that has `remaining`. `lambda`: the exchange
+/// parameter in units of 2^-16.
 constexpr uint32_t strip_gift(uint32_t remaining, uint32_t lambda) {
   return remaining * lambda >> 16;
 }
 
-/// What the owner of a StripNode has to do next.
+/// The next thing that the owner of a StripNode has to do.
 struct StripAction {
   enum class Kind : uint32_t {
     none,        ///< nothing: take a unit, or wait for a word or a doorbell
-    send_word,   ///< ring the neighbour with `doorbell` unless that is 0, and then send it `word`
+    send_word,   ///< send the neighbour `word`, after ringing it with `doorbell` unless that is 0
     ring,        ///< ring the neighbour with `doorbell`
     report_idle, ///< tell the PPE that this node is idle and has completed `units` in this frame
   };
@@ -114,7 +114,7 @@ struct StripAction {
 /// Node `id` of a chain of `count` nodes. Not thread safe; copyable.
 class StripNode {
 public:
-  /// `id` < `count`. No frame is under way.
+  /// Makes a node outside of any frame. `id` < `count`.
   StripNode(uint32_t id, uint32_t count)
       : id_(id), lambda_(0), epoch_(kNoFrame), in_frame_(0), taken_(0), completed_(0),
         reported_(kNeverReported) {
@@ -123,10 +123,10 @@ public:
     edges_[kUpper] = make_edge(id + 1 != count);
   }
 
-  /// Starts a frame with the units this node has at first. `epoch`: the frame's number modulo 4, the same for
-  /// all nodes. `lambda`: exchange parameter in parts of 2^-16, 0..65535; 0: nobody asks and no unit
-  /// moves, so that there may be any number of units. Words of this
-  /// frame that came early are handled now.
+  /// Starts a frame with the units that this node has at first. `epoch`: the frame's number modulo 4, the
+  /// same for all nodes. `lambda`: exchange parameter in units of 2^-16, 0..65535; 0: no node asks and no
+  /// unit moves, so that the number of units is not limited. Words of this frame that came early are handled
+  /// now.
   void begin_frame(uint32_t epoch, UnitRange units, uint32_t lambda) {
     epoch_ = epoch & (strip_word::kEpochs - 1);
     in_frame_ = 1;
@@ -139,7 +139,7 @@ public:
     for (Edge& edge : edges_)
       begin_frame_on(edge);
   }
-  /// Leaves the frame: nothing is sent any more, and its words are dropped from now on.
+  /// Leaves the frame: nothing is sent any more, and words of this frame are dropped from now on.
   void end_frame() {
     in_frame_ = 0;
     units_ = UnitRange{0, 0};
@@ -151,7 +151,7 @@ public:
     }
   }
 
-  /// Takes the first remaining unit. False: there is none at the moment.
+  /// Takes the first remaining unit. Returns false if there is none at the moment.
   bool take_unit(uint32_t& unit) {
     if (units_.empty()) return false;
     unit = units_.first;
@@ -160,11 +160,12 @@ public:
     ++taken_;
     return true;
   }
-  /// The unit taken last is complete. Until then the node may look for more, but is not idle.
+  /// Counts the unit that was taken last as completed. Before that the node may ask for units, but is not
+  /// idle.
   void complete_unit() { ++completed_; }
 
-  /// A word of a neighbour, strip_word::from_ppe() being false. Call next_action() until it is `none`
-  /// afterwards.
+  /// Handles a word of a neighbour, one for which strip_word::from_ppe() is false. Call next_action()
+  /// afterwards until it returns `none`.
   void on_word(uint32_t word) {
     Edge& edge = edges_[strip_word::from_upper(word) ? kUpper : kLower];
     if (!edge.exists) return;
@@ -174,7 +175,7 @@ public:
       on_word_of_frame(edge, word);
     }
   }
-  /// The bits of the doorbell register. Call next_action() until it is `none` afterwards.
+  /// Handles the bits of the doorbell register. Call next_action() afterwards until it returns `none`.
   void on_doorbell(uint32_t bits) {
     for (uint32_t side = 0; side < 2; ++side) {
       Edge& edge = edges_[side];
@@ -183,8 +184,8 @@ public:
     }
   }
 
-  /// What to do next; the node counts it as done. Answers come first, so that no neighbour waits for our
-  /// questions.
+  /// Returns the next action, which the node counts as done. Answers come first, so that no neighbour waits
+  /// for this node's questions.
   StripAction next_action() {
     for (uint32_t side = 0; side < 2; ++side) {
       if (edges_[side].has_answer) return answer(side);
@@ -197,10 +198,10 @@ public:
   }
 
   UnitRange remaining() const { return units_; }
-  /// Units completed in this frame.
+  /// Returns the number of units completed in this frame.
   uint32_t completed() const { return completed_; }
   bool in_frame() const { return in_frame_ != 0; }
-  /// A question of ours is unanswered.
+  /// Returns true if a question of this node is unanswered.
   bool waiting() const {
     return edges_[kLower].question == Question::waiting || edges_[kUpper].question == Question::waiting;
   }
@@ -211,20 +212,20 @@ private:
   static constexpr uint32_t kNoFrame = strip_word::kEpochs;
   static constexpr uint32_t kNeverReported = ~0u;
 
-  /// What became of our question on an edge since we ran dry. A node that has units has no questions: all are
-  /// open.
+  /// The state of this node's question on an edge since it ran dry. A node that has units has no questions:
+  /// all are open.
   enum class Question : uint32_t { open, waiting, refused, invited };
 
   struct Edge {
     uint32_t exists;
     Question question;
-    uint32_t neighbour_hungry; ///< it was refused, and has not been rung since
+    uint32_t neighbour_hungry; ///< the neighbour was refused, and has not been rung since
     uint32_t has_answer;
     uint32_t answer;
-    uint32_t sent;     ///< words in this frame
-    uint32_t received; ///< words in this frame, in their order
+    uint32_t sent;     ///< words sent in this frame
+    uint32_t received; ///< words received in order in this frame
     uint32_t has_early_word;
-    uint32_t early_word; ///< that comes after the next one; between frames, of the next frame
+    uint32_t early_word; ///< word after the next one; between frames, a word of the next frame
   };
 
   static Edge make_edge(bool exists) { return {exists ? 1u : 0u, Question::open, 0, 0, 0, 0, 0, 0, 0}; }
@@ -236,7 +237,7 @@ private:
   bool may_be_next(uint32_t epoch) const {
     return epoch_ == kNoFrame || epoch == ((epoch_ + 1) & (strip_word::kEpochs - 1));
   }
-  /// Our next word on the edge. We are the upper neighbour of our lower one.
+  /// Returns this node's next word on the edge. The node is the upper neighbour of its lower neighbour.
   uint32_t next_word(Edge& edge) {
     return strip_word::make(epoch_, edge.sent++, &edge == &edges_[kLower],
                             units_.empty() ? UnitRange{0, 0} : units_);
@@ -266,7 +267,7 @@ private:
       word = edge.early_word;
     }
   }
-  /// The neighbour's next word has come; ours was sent with our question, or is sent as the answer.
+  /// Handles the neighbour's next word; this node's word was sent as a question, or is sent as the answer.
   void exchange(Edge& edge, UnitRange other) {
     ++edge.received;
     if (edge.question != Question::waiting) {
@@ -276,7 +277,7 @@ private:
     const uint32_t moved = settle(edge, other);
     edge.neighbour_hungry = other.empty() && moved == 0 ? 1u : 0u;
   }
-  /// Moves the boundary as the neighbour does. Returns the number of units that changed hands.
+  /// Moves the boundary, as the neighbour does. Returns the number of units that changed hands.
   uint32_t settle(Edge& edge, UnitRange other) {
     if (units_.empty()) return receive(edge, other);
     return other.empty() ? give(edge) : 0;
@@ -333,10 +334,10 @@ private:
 
   uint32_t id_;
   uint32_t lambda_;
-  uint32_t epoch_; ///< of this frame or the last one; kNoFrame before the first
+  uint32_t epoch_; ///< epoch of this frame or the last one; kNoFrame before the first
   uint32_t in_frame_;
   UnitRange units_;
-  uint32_t first_side_; ///< whose edge is the next to ask on
+  uint32_t first_side_; ///< side of the edge to ask on next
   uint32_t taken_;
   uint32_t completed_;
   uint32_t reported_;

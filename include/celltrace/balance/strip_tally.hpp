@@ -1,4 +1,4 @@
-// The PPE's part in balancing the work of a frame (strip.hpp): it hands out strips and knows when a frame is
+// The PPE's part in balancing the work of a frame (strip.hpp): hands out strips and detects when a frame is
 // complete.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace celltrace {
 
-/// Strips of the given numbers of units, one after the other from unit 0.
+/// Returns strips of the given numbers of units, one after the other from unit 0.
 inline std::vector<UnitRange> consecutive_strips(const std::vector<std::uint32_t>& counts) {
   std::vector<UnitRange> strips;
   strips.reserve(counts.size());
@@ -23,7 +23,7 @@ inline std::vector<UnitRange> consecutive_strips(const std::vector<std::uint32_t
   return strips;
 }
 
-/// `units` units in `nodes` (at least 1) strips that differ by at most one unit.
+/// Divides `units` units into `nodes` (at least 1) strips that differ by at most one unit.
 inline std::vector<UnitRange> even_strips(std::uint32_t units, std::uint32_t nodes) {
   std::vector<std::uint32_t> counts(nodes, units / nodes);
   for (std::uint32_t node = 0; node < units % nodes; ++node)
@@ -34,26 +34,27 @@ inline std::vector<UnitRange> even_strips(std::uint32_t units, std::uint32_t nod
 /// Counts the idle reports of one frame. Not thread safe.
 class StripTally {
 public:
-  /// `units`: of the whole frame.
+  /// Starts the tally of a frame of `units` units in all.
   StripTally(std::uint32_t nodes, std::uint32_t units) : units_(units), reports_(nodes) {}
 
   std::uint32_t units() const { return units_; }
-  /// Node `node` is idle and has completed `completed` units in this frame. Its newest report counts.
+  /// Notes that node `node` is idle and has completed `completed` units in this frame; a newer report
+  /// replaces an older one.
   void report(std::uint32_t node, std::uint32_t completed) { reports_.at(node) = completed; }
-  /// Units that are known to be completed.
+  /// Returns the number of units that are known to be completed.
   std::uint32_t completed() const {
     return std::accumulate(reports_.begin(), reports_.end(), std::uint32_t{0},
                            [](std::uint32_t sum, const auto& report) { return sum + report.value_or(0); });
   }
-  /// Every node has been idle and all units are completed.
+  /// Returns true if every node has been idle and all units are completed.
   bool frame_complete() const {
     for (const auto& report : reports_) {
       if (!report) return false;
     }
     return completed() == units_;
   }
-  /// The strips for the next frame, which is likely to resemble this one: as many units for each node as it
-  /// managed. Precondition: frame_complete().
+  /// Returns strips for the next frame, which is likely to resemble this one: as many units for each node as
+  /// it completed. Precondition: frame_complete().
   std::vector<UnitRange> next_strips() const {
     std::vector<std::uint32_t> counts;
     for (const auto& report : reports_)

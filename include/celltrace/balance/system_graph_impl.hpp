@@ -13,7 +13,7 @@ namespace celltrace {
 
 namespace detail {
 
-/// Node numbers of a box: the nodes along one axis are `stride` apart.
+/// An axis of a box: neighbours along it have numbers that differ by `stride`.
 struct Axis {
   std::uint32_t side;
   std::uint32_t stride;
@@ -23,7 +23,7 @@ inline bool wraps(std::uint32_t side, bool torus) {
   return torus && side > 2;
 }
 
-/// Two colours for the edges along an axis, three if rings of odd length want one more.
+/// Adds the edges along an axis with two colours, or three for rings of odd length.
 inline void add_axis(SystemGraph& graph, Axis axis, bool torus) {
   for (std::uint32_t node = 0; node < graph.nodes; ++node) {
     const std::uint32_t position = node / axis.stride % axis.side;
@@ -113,8 +113,8 @@ inline SystemGraph hypercube_graph(std::uint32_t dimensions) {
 
 inline SystemGraph complete_graph(std::uint32_t nodes) {
   celltrace::detail::require_nodes(nodes, 4096);
-  // A round robin tournament: an odd number of players meet in round a + b; one more meets, in each round,
-  // the player who would have to meet himself.
+  // The colours are the rounds of a round-robin tournament: players a and b meet in round a + b, modulo an
+  // odd number of players; one player more meets, in each round, the player who would have to meet himself.
   const std::uint32_t rounds = nodes - 1 + nodes % 2;
   SystemGraph graph;
   graph.nodes = nodes;

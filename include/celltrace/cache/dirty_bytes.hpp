@@ -1,10 +1,10 @@
-// Which bytes of a software cache's lines have been written, and how they get back to main memory. Kernel
+// Tracks which bytes of a software cache's lines have been written, and writes them to main memory. Kernel
 // dialect.
 //
-// Flags per byte are what lets several SPEs write different bytes of one line: a line of which only a part is
+// Flags per byte allow several SPEs to write different bytes of one line: a line of which only a part is
 // dirty is merged into main memory by an atomic update (getllar, putllc), which replaces a reservation that
-// the program may have. A line that is dirty as a whole leaves by a put. Both are complete before the line
-// makes room.
+// the program may have. A line that is dirty as a whole is written by a put. Both are complete before the
+// line is replaced.
 #pragma once
 
 #include "celltrace/cache/config.hpp"
@@ -13,7 +13,7 @@
 
 namespace celltrace {
 
-/// Of a cache that is only read: nothing.
+/// Tracks nothing, for a cache that is only read.
 template <class Spu, bool write_back> class DirtyBytes {
 protected:
   static constexpr uint32_t dirt_bytes(uint32_t) { return 0; }
@@ -23,7 +23,7 @@ protected:
 
 template <class Spu> class DirtyBytes<Spu, true> {
 public:
-  /// Lines, or parts of lines, that have been written to main memory.
+  /// Returns the number of lines, or parts of lines, that have been written to main memory.
   uint32_t written_back() const { return written_back_; }
 
 protected:
@@ -35,7 +35,7 @@ protected:
     slots_ = spu.template allocate<Dirt>(slots, 16);
   }
 
-  /// `bytes` bytes from byte `first` of the line at `offset` have been written; the line lies in `slot`.
+  /// Marks `bytes` bytes from byte `first` of the line at `offset` as written; the line lies in `slot`.
   void mark_dirty(uint32_t slot, uint32_t offset, uint32_t first, uint32_t bytes) {
     Dirt& dirt = slots_[slot];
     dirt.offset = offset;
@@ -47,8 +47,8 @@ protected:
     }
   }
 
-  /// Brings the dirty bytes of the line in `slot`, if there are any, to the region at `base`. `tag` may be
-  /// waited for.
+  /// Writes the dirty bytes of the line in `slot`, if there are any, to the region at `base`. May wait for
+  /// the DMA tag `tag`.
   void clean(Spu& spu, uint32_t slot, const uint8_t* line, ea_t base, uint32_t tag) {
     Dirt& dirt = slots_[slot];
     if ((dirt.flags[0] | dirt.flags[1] | dirt.flags[2] | dirt.flags[3]) == 0) return;
@@ -74,7 +74,7 @@ private:
   };
   struct alignas(16) Dirt {
     uint32_t flags[kLineBytes / 32]; ///< bit i of word w: byte 32 w + i
-    uint32_t offset;                 ///< of the line in the region
+    uint32_t offset;                 ///< offset of the line in the region
     uint32_t unused[3];
   };
 

@@ -1,11 +1,11 @@
 // Lifetimes of the pointers that a software cache returns, and the checked mode that watches them. Kernel
 // dialect.
 //
-// A cache that is not checked returns plain pointers into its lines. A checked one copies what it returns to
-// a window of its own, from which it goes when its time is over, whether or not the line is still there: a
-// program that uses a pointer too late is found out at the first try, not when the line happens to be
-// replaced. A checked pointer that is used then halts the SPE with stale_pointer; a plain pointer or a
-// reference that was made of one finds poison.
+// A cache without checks returns plain pointers into its lines. A checked cache returns pointers to copies in
+// a window of its own, and overwrites a copy when its lifetime ends, whether or not the line is still there:
+// a program that uses a pointer too late fails at the first try, not when the line happens to be replaced. A
+// checked pointer that is used then halts the SPE with stale_pointer; a plain pointer or a reference that was
+// made from one finds poison.
 #pragma once
 
 #include "celltrace/cache/config.hpp"
@@ -14,7 +14,7 @@
 
 namespace celltrace {
 
-/// Of a cache that is not checked: nothing.
+/// Checks nothing: plain pointers, for a cache without checks.
 template <class Spu, bool checked> class CacheLifetimes {
 protected:
   template <class T> using Pointer = const T*;
@@ -28,7 +28,7 @@ protected:
   }
 };
 
-/// A pointer that knows how long it is good for. Trivially copyable; as all pointers into a cache, it belongs
+/// A pointer that knows its lifetime. Trivially copyable; as all pointers into a cache, it belongs
 /// to the thread of its SPE.
 template <class T, class Lifetimes> class CheckedCachePointer {
 public:
@@ -52,7 +52,7 @@ private:
 
 template <class Spu> class CacheLifetimes<Spu, true> {
 public:
-  /// What an object is overwritten with at the end of its lifetime; as a float not a number, or enormous.
+  /// The word that objects are overwritten with at the end of their lifetimes; as a float NaN, or enormous.
   static constexpr uint32_t kPoison = 0x7FB0DEADu;
 
   void check(uint32_t call) const {
@@ -72,18 +72,19 @@ protected:
     end_lifetimes();
   }
 
-  /// A call of a member of the cache: what was returned calls_alive_ calls ago is no longer valid.
+  /// Begins a call of a member of the cache: the object that was returned calls_alive_ calls ago becomes
+  /// invalid.
   void begin_call() {
     ++calls_;
     poison(window_[place()]);
   }
-  /// Nothing that was returned is valid any longer.
+  /// Makes all objects invalid that have been returned.
   void end_lifetimes() {
     calls_ += calls_alive_;
     for (uint32_t i = 0; i < calls_alive_; ++i)
       poison(window_[i]);
   }
-  /// What the present call returns: the object at byte `at` of the line.
+  /// Returns the object at byte `at` of the line, as the result of the present call.
   template <class T> Pointer<T> shown(const uint8_t* line, uint32_t at) {
     if (at % alignof(T) != 0 || at + sizeof(T) > kLineBytes) spu_->halt(HaltCode::bad_argument);
     Line& shown = window_[place()];
@@ -95,10 +96,11 @@ private:
   struct alignas(kLineBytes) Line {
     uint32_t words[kLineBytes / 4];
   };
-  /// The window has no more lines than this: with more ways, pointers live shorter than promised.
+  /// Largest number of lines of the window: with more ways, pointers live shorter than promised.
   static constexpr uint32_t kMaxCallsAlive = 8;
 
-  /// How many calls what is returned is valid for, the one that returns it included. A power of two.
+  /// Returns the number of calls for which a returned object is valid, including the call that returns it. A
+  /// power of two.
   static constexpr uint32_t calls_alive(const CacheConfig& config) {
     if (!config.enabled || config.replacement != CacheReplacement::lru) return 1;
     return config.ways < kMaxCallsAlive ? config.ways : kMaxCallsAlive;

@@ -1,10 +1,10 @@
-// The cache. The design follows "An introduction to compiling for the Cell Broadband Engine, part 5: Managing
-// memory" (IBM developerWorks, 2006). Kernel dialect.
+// The software cache. Its design follows "An introduction to compiling for the Cell Broadband Engine, part 5:
+// Managing memory" (IBM developerWorks, 2006). Kernel dialect.
 //
-// What is cached is one region of main memory, addressed by its base and 32-bit offsets. The tag of a line is
-// one word: its offset with flags in the low seven bits. Only `line offset | valid` counts as a hit at first
-// sight; lines under way or out of date carry further flags and are looked up again where time matters less.
-// So are the ways of a set beyond the first four: the first quadwords of tags of all sets come first in the
+// A cache serves one region of main memory, addressed by its base and 32-bit offsets. The tag of a line is
+// one word: its offset with flags in the low seven bits. The fast lookup accepts only `line offset | valid`;
+// lines under way or out of date carry further flags and are found by the slow lookup. The slow lookup also
+// finds the ways of a set beyond the first four: the first quadwords of tags of all sets come first in the
 // table, then the second ones, and so on.
 #pragma once
 
@@ -21,15 +21,15 @@
 namespace celltrace {
 
 /// A cache of main memory in local store. `Kind` numbers the kinds of data whose references are counted
-/// apart: an integer or an enumeration with values below kKinds. If `Spu::direct_memory`, it is nothing but
-/// an addition, and the counters stay 0.
+/// separately: an integer or an enumeration with values below kKinds. If `Spu::direct_memory`, a reference is
+/// nothing but an addition, and the counters stay 0.
 ///
-/// Lifetime of pointers: what get() returns stays valid until the next call of a member, counters apart,
-/// because that call may fetch another line in its place. With replacement `lru` an enabled cache leaves it
-/// alone for ways - 1 more calls of get(), copy(), word(), write() and prefetch(). Whoever needs an object
-/// for longer takes a copy(). CacheOptions::checked watches over this.
+/// Lifetime of pointers: the result of get() stays valid until the next call of a member, except the
+/// counters', because that call may fetch another line in its place. With replacement `lru` an enabled cache
+/// keeps it for ways - 1 more calls of get(), copy(), word(), write() and prefetch(). If an object is needed
+/// for longer, take a copy(). CacheOptions::checked detects violations.
 ///
-/// Thread safety: one thread, as the Spu.
+/// Thread safety: one thread, as for the Spu.
 template <class Spu, class Kind = uint32_t, class Options = typename DefaultCacheOptions<Spu>::type>
 class SoftwareCache : public CacheLifetimes<Spu, Options::checked && !Spu::direct_memory>,
                       public DirtyBytes<Spu, Options::write_back && !Spu::direct_memory> {
@@ -40,10 +40,10 @@ public:
   static constexpr uint32_t kKinds = cache_trace::kKinds;
   /// A word for each of kSimdLanes lanes.
   using Lanes = typename Spu::simd::I;
-  /// `const T*`, or if checked what behaves as one.
+  /// `const T*`, or CheckedCachePointer if checked.
   template <class T> using Pointer = typename Lifetimes::template Pointer<T>;
 
-  /// An empty cache in `spu`'s local store, taken from its arena; `spu` must outlive it. `base`: the region
+  /// Makes an empty cache in the arena of `spu`'s local store; `spu` must outlive it. `base`: the region
   /// in main memory, 128-byte aligned and a multiple of 128 bytes long. Halts the SPE with bad_argument for
   /// an invalid configuration or base, with local_store_exhausted if the cache does not fit.
   SoftwareCache(Spu& spu, const CacheConfig& config, ea_t base) : spu_(spu), config_(config), base_(base) {
@@ -53,7 +53,7 @@ public:
   SoftwareCache(const SoftwareCache&) = delete;
   SoftwareCache& operator=(const SoftwareCache&) = delete;
 
-  /// Local store that such a cache takes, in bytes.
+  /// Returns the local store in bytes that such a cache takes.
   static constexpr uint32_t local_store_bytes(const CacheConfig& config) {
     return config.local_store_bytes() + Lifetimes::lifetime_bytes(config) +
            Dirt::dirt_bytes(config.enabled ? config.lines() : 1);
@@ -61,22 +61,22 @@ public:
 
   // --- reading ---
 
-  /// The object at `offset`, which must not cross a line. Waits for it if need be.
+  /// Returns the object at `offset`, which must not cross a line. Waits for its transfer if necessary.
   template <class T> Pointer<T> get(uint32_t offset, Kind kind) {
     static_assert(sizeof(T) <= kLineBytes, "an object must fit into a line");
     return shown_at<T>(offset, sizeof(T), kind);
   }
-  /// Likewise of `size` bytes, whatever they are.
+  /// As get(), for `size` bytes of any content.
   Pointer<uint8_t> bytes(uint32_t offset, uint32_t size, Kind kind) {
     return shown_at<uint8_t>(offset, size, kind);
   }
-  /// The object by value.
+  /// Returns the object by value.
   template <class T> T copy(uint32_t offset, Kind kind) { return *get<T>(offset, kind); }
-  /// The word at `offset`, a multiple of 4.
+  /// Returns the word at `offset`, a multiple of 4.
   uint32_t word(uint32_t offset, Kind kind) { return *get<uint32_t>(offset, kind); }
-  /// The words at `offsets`, multiples of 4, in those of the lanes that have their bit set; what other lanes
-  /// get is meaningless. A reference each, as if by word(), but lanes that want the same line share its
-  /// lookup.
+  /// Returns the words at `offsets`, multiples of 4, for the lanes that have their bit set in `lanes`; other
+  /// lanes are meaningless. Each word counts as one reference, as by word(), but lanes with the same line
+  /// share its lookup.
   Lanes words(const Lanes& offsets, uint32_t lanes, Kind kind) {
     if constexpr (Spu::direct_memory) {
       return words_one_by_one(offsets, lanes, kind);
@@ -87,9 +87,9 @@ public:
   }
 
   // --- fetching ahead ---
-  // Not counted; the get() that follows is a hit if the line is still there.
+  // Prefetches are not counted; the get() that follows is a hit if the line is still there.
 
-  /// Starts to fetch the line of `offset` unless it is there. Does not wait, unless the line that makes room
+  /// Starts to fetch the line of `offset` unless it is there. Does not wait, unless the line that is replaced
   /// is itself under way or dirty.
   void prefetch(uint32_t offset) {
     if constexpr (!Spu::direct_memory) {
@@ -102,20 +102,20 @@ public:
       hint(offset);
     }
   }
-  /// Waits for what prefetch() has under way. Programs may not end before it has come.
+  /// Waits for the lines that prefetch() has under way, which a program has to do before it ends.
   void settle() {
     if constexpr (!Spu::direct_memory) wait_for_fetches();
   }
-  /// Where memory is direct, tells the processor what will be read; elsewhere nothing: for what is there as a
-  /// rule, so that looking for it with prefetch() costs more than its misses.
+  /// Prefetches into the host's caches if memory is direct. Does nothing otherwise: for data that are mostly
+  /// cached, where looking them up with prefetch() would cost more than their misses.
   void hint(uint32_t offset) {
     if constexpr (Spu::direct_memory)
       __builtin_prefetch(reinterpret_cast<const void*>(static_cast<uintptr_t>(base_ + offset)));
     else
       (void)offset;
   }
-  /// Fetches the lines of `count` offsets that are not there, with one wait for sixteen of them. Those that
-  /// the cache has no room for together with the others are not there afterwards.
+  /// Fetches the lines of `count` offsets that are not there, with one wait for each sixteen of them. If the
+  /// cache has no room for all of them together, some are not there afterwards.
   void fetch(const uint32_t* offsets, uint32_t count) {
     if constexpr (!Spu::direct_memory) {
       this->begin_call();
@@ -126,7 +126,7 @@ public:
 
   // --- main memory changes ---
 
-  /// Forgets all lines, once what is dirty is written back.
+  /// Writes back dirty lines and forgets all lines.
   void invalidate_all() {
     if constexpr (!Spu::direct_memory) {
       this->end_lifetimes();
@@ -135,8 +135,8 @@ public:
       if (config_.enabled) clear();
     }
   }
-  /// Main memory has changed: lines are fetched again at their next reference. Dirty bytes are written back
-  /// before that.
+  /// Marks all lines as out of date, because main memory has changed: each is fetched again at its next
+  /// reference. Dirty bytes are written back before that.
   void synchronize_all() {
     if constexpr (!Spu::direct_memory) {
       this->end_lifetimes();
@@ -160,7 +160,7 @@ public:
     }
   }
 
-  /// The same for the line at `line`, which costs no more than looking it up.
+  /// As synchronize(), for the line at `line` alone, which costs no more than looking it up.
   void synchronize_line(uint32_t line) {
     if constexpr (!Spu::direct_memory) {
       this->end_lifetimes();
@@ -175,8 +175,8 @@ public:
 
   // --- writing, with CacheOptions::write_back ---
 
-  /// Writes an object that must not cross a line. Counted as a reference. Main memory has it when the line
-  /// makes room, at invalidate_all() or at flush(). With direct memory it has it at once.
+  /// Writes an object that must not cross a line. Counts as a reference. Main memory gets the object when the
+  /// line is replaced, at invalidate_all() or at flush(); at once if memory is direct.
   template <class T> void write(uint32_t offset, const T& value, Kind kind) {
     static_assert(Options::write_back && sizeof(T) <= kLineBytes && std::is_trivially_copyable_v<T>);
     if constexpr (Spu::direct_memory) {
@@ -190,7 +190,7 @@ public:
       this->mark_dirty(slot, offset & ~kLineMask, offset & kLineMask, sizeof(T));
     }
   }
-  /// Writes all dirty bytes to main memory; the lines stay. Nothing else does that at the end of a program.
+  /// Writes all dirty bytes to main memory; the lines stay. A program has to call this before it ends.
   void flush() {
     static_assert(Options::write_back);
     if constexpr (!Spu::direct_memory) {
@@ -207,7 +207,7 @@ public:
     clear_counters();
   }
 
-  /// The SPU whose local store it is in.
+  /// Returns the SPU whose local store holds the cache.
   Spu& spu() { return spu_; }
 
 private:
@@ -217,8 +217,8 @@ private:
   static constexpr uint32_t kLineShift = 7;
   // Flags of a tag. 0 is a free way.
   static constexpr uint32_t kValid = 1;
-  static constexpr uint32_t kOutOfDate = 2; ///< the synchronize flag: to be fetched again
-  static constexpr uint32_t kUnderWay = 4;  ///< its transfer has not been waited for
+  static constexpr uint32_t kOutOfDate = 2; ///< set by synchronize(): the line has to be fetched again
+  static constexpr uint32_t kUnderWay = 4;  ///< the line's transfer has not been waited for
   /// The tag of a way that does not exist: neither free nor equal to the tag of any line, whatever its flags.
   static constexpr uint32_t kNoWay = 0xFFFFFFFFu;
   static constexpr uint32_t kNotFound = 0xFFFFFFFFu;
@@ -234,7 +234,7 @@ private:
   static constexpr ScalarWork kSlowLookup = {47, 0, 23, 23, 8, 10, 77, 108, "kSlowLookup"};
   static constexpr ScalarWork kFetch = {63, 0, 25, 25, 6, 10, 84, 76, "kFetch"};
 
-  // --- the way of a hit ---
+  // --- hits ---
 
   template <class T> Pointer<T> shown_at(uint32_t offset, uint32_t size, Kind kind) {
     if constexpr (Spu::direct_memory) {
@@ -249,7 +249,7 @@ private:
     spu_.compute(kLookup);
     return look_up(offset, size, kind);
   }
-  /// The same, whose work the caller accounts for.
+  /// As find(), for callers that account for the work themselves.
   uint8_t* look_up(uint32_t offset, uint32_t size, Kind kind) {
     const uint32_t line = offset & ~kLineMask;
     const uint32_t set = set_of(line);
@@ -261,14 +261,14 @@ private:
     return line_at(slot);
   }
 
-  /// Which of the first four ways of a set holds the line, ready to be read: a bit, or 0.
+  /// Returns which of the first four ways of a set holds the line, ready to be read: one bit, or 0.
   uint32_t matches(uint32_t set, uint32_t line) const {
     return equal_bits(U4::load(tags_ + (set << 2)), U4::splat(line | kValid));
   }
   uint32_t set_of(uint32_t line) const { return cache_set(line) & set_mask_; }
   uint32_t slot_of(uint32_t set, uint32_t way) const { return (set << way_shift_) + way; }
   uint8_t* line_at(uint32_t slot) const { return lines_ + (slot << kLineShift); }
-  /// The lane of a single bit of four.
+  /// Returns the number of the lane, 0..3, of a single bit.
   static uint32_t lane_of(uint32_t bit) { return (bit >> 1) - (bit >> 3); }
   static uint32_t lowest_bit(uint32_t bits) { return bits & (~bits + 1); }
 
@@ -368,14 +368,14 @@ private:
       *arriving[i] &= ~kUnderWay;
   }
 
-  /// The way that holds the line, up to date and arrived or not; or kNotFound.
+  /// Returns the way that holds the line, whether it is up to date or has arrived or not; or kNotFound.
   uint32_t locate(uint32_t set, uint32_t line) const {
     const U4 state = U4::splat(~(kOutOfDate | kUnderWay));
     const U4 wanted = U4::splat(line | kValid);
     return first_way(set, state, wanted);
   }
   uint32_t free_way(uint32_t set) const { return first_way(set, U4::splat(kValid), U4::splat(0)); }
-  /// The first way whose tag & mask equals `wanted`, or kNotFound.
+  /// Returns the first way whose tag & mask equals `wanted`, or kNotFound.
   uint32_t first_way(uint32_t set, const U4& mask, const U4& wanted) const {
     const uint32_t* tags = tags_ + (set << 2);
     for (uint32_t way = 0; way < config_.ways; way += 4, tags += config_.sets << 2) {
@@ -392,8 +392,8 @@ private:
     return way != kNotFound && (tag(set, way) & kOutOfDate) == 0;
   }
 
-  /// Starts to fetch a line into the way that holds it out of date, or if none does into one that makes room.
-  /// Returns the way.
+  /// Starts to fetch a line into the way that holds it out of date, else into a free way, else in place of
+  /// another line. Returns the way.
   uint32_t start_fetch(uint32_t set, uint32_t way, uint32_t line) {
     spu_.compute(kFetch);
     if (way == kNotFound) way = free_way(set);
@@ -436,7 +436,7 @@ private:
 
   // --- without a cache ---
 
-  /// Fetches the quadwords that the object touches. Returns the line it would lie in.
+  /// Fetches the quadwords that the object touches. Returns the line that the object would lie in.
   uint8_t* read_through(uint32_t offset, uint32_t size) {
     const uint32_t first = offset & ~15u;
     const uint32_t bytes = ((offset + size - 1) | 15u) + 1 - first;
@@ -448,7 +448,8 @@ private:
 
   // --- state ---
 
-  /// A disabled cache is one bounce line behind a set without ways, so that no lookup succeeds.
+  /// Sets up the tables. A disabled cache is one bounce line behind a set without ways, so that no lookup
+  /// succeeds.
   void set_up() {
     if (!config_.valid() || (base_ & kLineMask) != 0) spu_.halt(HaltCode::bad_argument);
     const bool enabled = config_.enabled;
@@ -509,8 +510,8 @@ private:
     spu_.record(this, cache_trace::make(operation, offset & ~kLineMask));
   }
 
-  // What a hit needs lies in the first word of a quadword each: an SPU takes that as it is loaded, and has to
-  // rotate any other one into its place.
+  // The words that a hit needs lie first in a quadword each: an SPU can use such a word as it is loaded, and
+  // has to rotate any other one into its place.
   alignas(16) uint32_t set_mask_ = 0;
   alignas(16) uint32_t* tags_ = nullptr;
   alignas(16) uint8_t* lines_ = nullptr;
@@ -527,7 +528,7 @@ private:
   CacheRandom random_;
 };
 
-/// A cache that can be written to.
+/// A software cache that can be written to.
 template <class Spu, class Kind = uint32_t>
 using WriteBackCache = SoftwareCache<Spu, Kind, WriteBackCacheOptions>;
 

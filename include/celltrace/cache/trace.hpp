@@ -1,4 +1,4 @@
-// Recordings of what software caches were asked for, on the host: written while SPEs run on cell_emu, kept in
+// Recordings of the requests to software caches, on the host: written while SPEs run on cell_emu, kept in
 // files, replayed through caches of any shape (replay.hpp).
 //
 //   std::ofstream file("scene.cachetrace", std::ios::binary);
@@ -22,36 +22,38 @@
 
 namespace celltrace {
 
-/// One thing that a cache was asked for.
+/// One request to a cache.
 struct CacheRequest {
   cache_trace::Operation operation = cache_trace::Operation::read;
-  std::uint8_t kind = 0;   ///< of a read or a write; below kKinds
-  std::uint32_t line = 0;  ///< its number; of synchronize the first
-  std::uint32_t count = 1; ///< of a read or a write: how often, without pause; of synchronize: lines
+  std::uint8_t kind = 0;  ///< kind of data of a read or a write; below kKinds
+  std::uint32_t line = 0; ///< number of the line; for synchronize, the first line
+  /// For a read or a write: immediate repetitions, at least 1; for synchronize: number of lines.
+  std::uint32_t count = 1;
 };
 
-/// What one cache was asked for, from its construction on.
+/// All requests to one cache, from its construction on.
 struct CacheTrace {
   unsigned spe = 0;
-  /// The shape that it had; its DMA tags are not recorded.
+  /// The shape of the recorded cache; its DMA tags are not recorded.
   CacheConfig config;
   std::vector<CacheRequest> requests;
 };
 
-/// Without its prefetches: what is left is what a program has to wait for if nothing is fetched ahead.
+/// Removes the prefetches from a trace: the rest is what a program has to wait for if nothing is fetched
+/// ahead.
 CELLTRACE_EXPORT CacheTrace without_prefetches(CacheTrace trace);
 
-/// Writes what the caches of a machine record. Memory that is needed does not grow with the run.
+/// Writes the requests that the caches of a machine record. Its memory does not grow with the run.
 class CELLTRACE_EXPORT CacheTraceWriter : public SpeRecorder {
 public:
   /// `file` is a binary stream that outlives the writer.
   explicit CacheTraceWriter(std::ostream& file);
-  /// Finishes, if finish() was not called.
+  /// Calls finish() if that has not been done.
   ~CacheTraceWriter() override;
 
-  /// By an SPE's thread, as SpeRecorder says.
+  /// Records a word; called by an SPE's thread, as SpeRecorder says.
   void record(unsigned spe, const void* source, std::uint32_t word) override;
-  /// Once no SPE runs any more: writes what is left. Whether all of it arrived is the stream's state.
+  /// Writes the rest, once no SPE runs any more. The stream's state says whether everything was written.
   void finish();
 
 private:
@@ -59,8 +61,8 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// All traces of a file, ordered by SPE and then by age. Throws InputError if it is none, is damaged, or has
-/// more than `max_requests` requests, which are what takes memory.
+/// Returns all traces of a file, ordered by SPE and then by age. Throws InputError if the file has another
+/// format, is damaged, or has more than `max_requests` requests, which take most of the memory.
 CELLTRACE_EXPORT std::vector<CacheTrace> read_cache_traces(std::istream& file,
                                                            std::uint64_t max_requests = 1u << 27);
 

@@ -1,4 +1,4 @@
-// Runs of words longer than a line, such as lists of objects, read through a software cache. Kernel dialect.
+// Reads runs of words longer than a line, such as lists of objects, through a software cache. Kernel dialect.
 #pragma once
 
 #include "celltrace/cache/software_cache.hpp"
@@ -8,8 +8,8 @@
 namespace celltrace {
 
 /// Reads words one after the other, with one reference to the cache a line. Between the words the cache may
-/// be used for other things: the line being read is a copy. The line after it is prefetched, so that whoever
-/// leaves a run before its end has to settle() the cache before the program ends.
+/// be used for other things: the line being read is a copy. The line after it is prefetched, so a program
+/// that leaves a run before its end has to settle() the cache before it ends.
 ///
 ///   for (WordRun list(cache, offset, count, Kind::list); !list.empty();)
 ///     visit(list.next());
@@ -17,7 +17,7 @@ template <class Spu, class Kind, class Options> class WordRun {
 public:
   using Cache = SoftwareCache<Spu, Kind, Options>;
 
-  /// `count` words from `offset`, a multiple of 4.
+  /// Starts a run of `count` words from `offset`, a multiple of 4.
   WordRun(Cache& cache, uint32_t offset, uint32_t count, Kind kind)
       : cache_(cache), offset_(offset), count_(count), kind_(kind) {
     if constexpr (!Spu::direct_memory) {
@@ -26,7 +26,7 @@ public:
   }
 
   bool empty() const { return count_ == 0; }
-  /// The next word; there has to be one.
+  /// Returns the next word; there has to be one.
   uint32_t next() {
     --count_;
     if constexpr (Spu::direct_memory) {
@@ -50,7 +50,7 @@ private:
 
   void fetch_line() {
     const uint32_t line = offset_ & ~kLineMask;
-    // The copy comes last: what it reads would not outlive the prefetch.
+    // Prefetch first: the pointer that the copy reads from would not survive a later prefetch.
     if (count_ > (kLineBytes - (offset_ - line)) / 4) cache_.prefetch(line + kLineBytes);
     using U4 = typename Spu::simd::U4;
     const auto fetched = cache_.template get<Line>(line, kind_);

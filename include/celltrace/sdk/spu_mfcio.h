@@ -1,4 +1,4 @@
-// Under the name that existing SPE sources include; see celltrace/spe/spu_mfcio.hpp.
+// The header's name in existing SPE sources; see celltrace/spe/spu_mfcio.hpp.
 #pragma once
 
 #include "celltrace/spe/spu_mfcio.hpp"

@@ -1,4 +1,4 @@
-// Under the name that existing SPE sources include: the names of VMX for vector types.
+// The header's name in existing SPE sources: the names of VMX for vector types.
 #pragma once
 
 #include "spu_intrinsics.h"

@@ -1,4 +1,4 @@
-// What there is to run SPE programs, and by which SIMD instructions the host does.
+// The backends that run SPE programs, and the host's SIMD instructions for them.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -9,15 +9,15 @@
 
 namespace celltrace {
 
-/// What runs the SPEs' programs.
+/// A machine that runs the SPEs' programs.
 enum class Backend : unsigned char {
-  native,   ///< threads of the host, which read memory directly
+  native,   ///< threads of the host, which access memory directly
   cell_emu, ///< an emulated Cell, with programs that were compiled for the host
   cell_sim, ///< the same Cell with SPUs that execute machine code; needs a build with a compiler for the SPU
 };
 constexpr Backend kBackends[] = {Backend::native, Backend::cell_emu, Backend::cell_sim};
 
-/// SIMD instructions of `native`. What neither the build nor the CPU has is refused when a machine is made.
+/// SIMD instructions of `native`. A level that the build or the CPU lacks is refused when a machine is made.
 enum class SimdLevel : unsigned char {
   automatic, ///< the widest that the CPU and the program have
   sse2,
@@ -29,7 +29,7 @@ enum class SimdLevel : unsigned char {
 constexpr SimdLevel kSimdLevels[] = {SimdLevel::automatic, SimdLevel::sse2,   SimdLevel::avx2,
                                      SimdLevel::avx512,    SimdLevel::neon64, SimdLevel::generic};
 
-/// Names as on the command line; "unknown" for what is none of the enumeration.
+/// Return the names that the command line uses; "unknown" for values outside of the enumeration.
 constexpr const char* name_of(Backend backend) {
   switch (backend) {
   case Backend::native:
@@ -73,8 +73,8 @@ Enumeration named(const char* what, const Enumeration (&all)[N], std::string_vie
 
 } // namespace detail
 
-/// What has the name. Throws InputError, with the names there are, if nothing has. Safe to call from any
-/// thread.
+/// Return the enumerator with the name. Throw InputError, listing all names, if there is none. Safe to call
+/// from any thread.
 inline Backend backend_named(std::string_view name) {
   return detail::named("backend", kBackends, name);
 }

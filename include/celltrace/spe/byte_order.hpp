@@ -1,6 +1,6 @@
-// Records of main storage in the byte order of a machine's SPUs (Machine::byte_order()).
+// Converts records of main storage to the byte order of a machine's SPUs (Machine::byte_order()) and back.
 //
-// What a record consists of is said once, field by field, by a function of its namespace that is never
+// A record's fields are listed once, by a function of its namespace that is never
 // defined:
 //
 //   struct alignas(16) Task { ea_t blocks; uint32_t count; float scale; };
@@ -62,21 +62,21 @@ template <auto first, auto... others> struct FieldList {
     visit(record.*first);
     (visit(record.*others), ...);
   }
-  /// Whether `holds` is true of every field's type.
+  /// Returns whether `holds` is true for the types of all fields.
   template <class Holds> static consteval bool all(Holds holds) {
     return holds.template operator()<celltrace::detail::FieldOf<first>>() &&
            (holds.template operator()<celltrace::detail::FieldOf<others>>() && ...);
   }
 };
 
-/// A record that says what it consists of.
+/// A record with a list of its fields.
 template <class T>
 concept HasFields = requires(const T& record) {
   fields_of(record);
 };
 template <HasFields Record> using FieldsOf = decltype(fields_of(std::declval<const Record&>()));
 
-/// Whether all numbers of a T have 32 bits, so that it can be taken for an array of words.
+/// Returns true if all numbers of a T have 32 bits, so that it can be handled as an array of words.
 template <class T> consteval bool consists_of_words() {
   if constexpr (std::is_array_v<T>)
     return consists_of_words<std::remove_all_extents_t<T>>();
@@ -86,8 +86,8 @@ template <class T> consteval bool consists_of_words() {
     return !std::is_class_v<T> && sizeof(T) == 4;
 }
 
-/// Reverses the bytes of a number, or of every number in an array or a record. Its own inverse. What there is
-/// in between is for memcpy() and DMA only: floats among it may be anything.
+/// Reverses the bytes of a number, or of every number in an array or a record. Its own inverse. A value with
+/// reversed bytes is only good for memcpy() and DMA: floats in it may have any bits.
 template <class T> void reverse_bytes(T& value) noexcept {
   if constexpr (std::is_array_v<T>) {
     for (auto& element : value)
@@ -104,7 +104,7 @@ template <class T> void reverse_bytes(T& value) noexcept {
   }
 }
 
-/// From the host's order to `order`, or back.
+/// Converts a value from the host's order to `order`, or back.
 template <class T> void reorder(T& value, std::endian order) noexcept {
   if (order != std::endian::native) reverse_bytes(value);
 }

@@ -1,4 +1,4 @@
-// Where in a kernel an operation stands, for the diagnostics of a machine that checks. Freestanding C++17.
+// The place of an operation in a kernel, for the diagnostics of a machine that checks. Freestanding C++17.
 #pragma once
 
 #include <stdint.h>
@@ -10,9 +10,8 @@ namespace celltrace {
 struct CallSite {
   const char* file = "";
   uint32_t line = 0; ///< from 1; 0: unknown
-  /// Of machine code: the function; where calls were inlined, from which line of which function each was
-  /// called, ", inlined from work.hpp:180 in half"; at last the offset in what the symbol table names. Else
-  /// "".
+  /// For machine code: the function; if calls were inlined, the line and function that each was called from,
+  /// ", inlined from work.hpp:180 in half"; last the offset from the symbol table's entry. Else "".
   const char* function = "";
 
   static constexpr CallSite here(const char* file = __builtin_FILE(), uint32_t line = __builtin_LINE()) {

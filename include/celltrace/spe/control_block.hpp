@@ -1,4 +1,4 @@
-// What the PPE hands to a kernel that was compiled for the SPU. Freestanding C++17.
+// The data that the PPE passes to a kernel compiled for the SPU. Freestanding C++17.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -7,14 +7,14 @@
 
 namespace celltrace {
 
-/// The argument of the program's main() is the effective address of one of these, 16-byte aligned, which the
-/// program fetches by DMA. Big-endian, like everything that a PPE writes.
+/// Arguments of a kernel. The program's main() gets the effective address of one, 16-byte aligned, and
+/// fetches it by DMA. Big-endian, like everything that a PPE writes.
 struct alignas(16) ControlBlock {
-  ea_t argument;  ///< of the kernel
-  ea_t addresses; ///< `count` records of SpeAddresses, 16-byte aligned
+  ea_t argument;  ///< argument of the kernel
+  ea_t addresses; ///< array of `count` SpeAddresses, 16-byte aligned
   uint32_t id;
   uint32_t count; ///< 1..256
-  ea_t image;     ///< of the program's ELF file, 16-byte aligned, for programs with code modules
+  ea_t image;     ///< the program's ELF file, 16-byte aligned, for programs with code modules
 };
 static_assert(sizeof(ControlBlock) == 32, "ControlBlock crosses DMA");
 

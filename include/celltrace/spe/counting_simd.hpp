@@ -1,5 +1,5 @@
-// The SIMD facade of the emulated SPU: every operation is that of another implementation of simd.hpp, and is
-// counted as the instructions that the spu backend issues for it.
+// The SIMD facade of the emulated SPU: forwards every operation to another implementation of simd.hpp, and
+// counts the instructions that the spu backend issues for it.
 #pragma once
 
 #include "celltrace/spe/operation_counter.hpp"
@@ -9,7 +9,7 @@
 
 namespace celltrace::cell_emu {
 
-/// Decorates `Uncounted`, which computes.
+/// Counts the operations of `Uncounted`, which computes them.
 template <class Uncounted> struct CountingSimd {
   static constexpr std::uint32_t kWidth = Uncounted::kWidth;
   static constexpr std::uint32_t kLanes = Uncounted::kLanes;
@@ -51,9 +51,10 @@ template <class Uncounted> struct CountingSimd {
     typename Uncounted::F value;
 
     F() = default;
-    /// A constant takes two immediates, or a load; a number from memory a load, a rotation and a shuffle.
+    /// Counts a constant as two immediates or a load; a number from memory as a load, a rotation and a
+    /// shuffle.
     F(float number) : value(number) { count_chain({.fx2 = 1, .ls = 1, .shuf = 1}); }
-    /// What `compute` returns, built in place: copies made emulation a tenth slower.
+    /// Builds the result of `compute` in place: copies made emulation a tenth slower.
     template <std::invocable Compute> explicit F(Compute compute) : value(compute()) {}
     static F load(const float* lanes) {
       count_packet({.ls = 1});
@@ -111,8 +112,8 @@ template <class Uncounted> struct CountingSimd {
       count_chain({.shuf = 1});
       return {Uncounted::I::splat(number)};
     }
-    /// For each lane a load and a rotation, and for four of them three rotations more to have their offsets,
-    /// and three shuffles.
+    /// Counts a load and a rotation for each lane, and for each four lanes three more rotations to get their
+    /// offsets, and three shuffles.
     static I load_words(const void* line, const I& offsets) {
       count_packet({.fx2 = 1, .ls = 4, .shuf = 10});
       return {Uncounted::I::load_words(line, offsets.value)};
@@ -155,8 +156,9 @@ template <class Uncounted> struct CountingSimd {
     }
   };
 
-  /// Of each lane and row a load and a rotation for its start, its factors' load, and for each channel
-  /// another load and a shuffle, besides the sums. Transposing the factors and the sums is shuffles.
+  /// Counts, for each lane and row, a load and a rotation for its start, the load of its factors, and for
+  /// each channel another load and a shuffle, besides the sums. The factors and the sums are transposed by
+  /// shuffles.
   template <std::uint32_t kRows, std::uint32_t kChannels, class StartsOf, class FactorsOf>
   static void sum_rows(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                        F (&sums)[kChannels]) {
@@ -210,7 +212,7 @@ template <class Uncounted> struct CountingSimd {
     count_packet({.fx2 = 1});
     return {Uncounted::select(m.value, a.value, b.value)};
   }
-  /// There and back, less 1 where that is above.
+  /// Counts conversions to an integer and back, and the subtraction of 1 if the result is above `a`.
   static F floor(const F& a) {
     count_packet({.fx2 = 2, .fp6 = 1, .fp7 = 2});
     return F([&] { return Uncounted::floor(a.value); });
@@ -269,7 +271,7 @@ template <class Uncounted> struct CountingSimd {
       return not_above_bits(a.value, b.value);
     }
   };
-  /// Costs nothing: the quadwords are where they are.
+  /// Costs nothing: the quadwords stay where they are.
   static F join(const F4& a, const F4& b, const F4& c, const F4& d) {
     return F([&] { return Uncounted::join(a.value, b.value, c.value, d.value); });
   }

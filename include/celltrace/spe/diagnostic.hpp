@@ -1,4 +1,4 @@
-// What an emulated machine has to say about a program: which rule was broken, by whom and where.
+// Diagnostics of an emulated machine: which rule a program broke, on which SPE and where.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -13,11 +13,11 @@
 
 namespace celltrace {
 
-/// The rules that `cell_emu` and `cell_sim` check. text_of() says what each demands.
+/// The rules that `cell_emu` and `cell_sim` check; text_of() describes each.
 enum class Rule : unsigned char {
-  none, ///< nothing is broken
+  none, ///< no rule is broken
 
-  // an MFC command, when it is issued or its list is walked
+  // An MFC command, when it is issued or its list is walked.
   known_command,
   tag_range,
   transfer_size,
@@ -47,7 +47,7 @@ enum class Rule : unsigned char {
   proxy_command,
   proxy_tag_range,
 
-  // commands in flight: from their issue until the SPU has observed their completion
+  // Commands in flight: from their issue until the SPU has observed their completion.
   local_store_race,
   main_storage_race,
   get_target_touched,
@@ -57,7 +57,7 @@ enum class Rule : unsigned char {
   in_flight_at_exit,
   drained_queue,
 
-  // tag groups and statuses
+  // Tag groups and statuses.
   tag_reused,
   wait_without_command,
   tag_update_request,
@@ -65,17 +65,17 @@ enum class Rule : unsigned char {
   atomic_status_unread,
   list_stall_tag,
 
-  // reservations
+  // Reservations.
   reservation_lost_to_own_put,
   conditional_without_reservation,
 
-  // mailboxes and signals
+  // Mailboxes and signals.
   mailbox_overwritten,
   mailbox_unread,
   signal_overwritten,
   signal_unread,
 
-  // local store
+  // Local store.
   local_store_exhausted,
   local_store_overrun,
   allocation_overrun,
@@ -83,7 +83,7 @@ enum class Rule : unsigned char {
   program_overwritten,
   stack_overflow,
 
-  // run control
+  // Run control.
   invalid_instruction,
   unwritten_code,
   absent_module,
@@ -97,41 +97,41 @@ enum class Rule : unsigned char {
 };
 constexpr unsigned kRules = static_cast<unsigned>(Rule::kernel_exception) + 1;
 
-/// "transfer-size".
+/// Returns the rule's name: "transfer-size".
 CELLTRACE_EXPORT std::string_view name_of(Rule rule);
-/// What must hold: "size must be 1, 2, 4, 8 or a multiple of 16 up to 16384".
+/// Returns the condition that must hold: "size must be 1, 2, 4, 8 or a multiple of 16 up to 16384".
 CELLTRACE_EXPORT std::string_view text_of(Rule rule);
 
-/// What happens when a rule is broken: nothing, a diagnostic, or a diagnostic and the end of the SPE's
+/// The reaction to a broken rule: nothing, a diagnostic, or a diagnostic and the end of the SPE's
 /// program.
 enum class Action : unsigned char { ignore, warn, stop };
-/// What happens if the machine's configuration says nothing else.
+/// Returns the reaction that holds unless the machine's configuration names another.
 CELLTRACE_EXPORT Action default_action(Rule rule);
-/// For programs that were written for the hardware and rely on what it does beyond the manuals: the rules
-/// that it has no objection to, all of which are Action::ignore. For EmulationConfig::actions.
+/// Returns Action::ignore for the rules that the hardware does not enforce, for programs that rely on its
+/// behaviour beyond the manuals. For EmulationConfig::actions.
 CELLTRACE_EXPORT std::map<Rule, Action> lenient_actions();
 
-/// One broken rule. The address fields are those of the command, where there is one.
+/// One broken rule. The address fields are those of the command, if there is one.
 struct Diagnostic {
   static constexpr unsigned kPpe = 0xFFFFFFFFu;
 
   Rule rule = Rule::none;
   Action action = Action::stop;
-  unsigned spe = 0; ///< whose program broke it; kPpe: the PPE
-  /// The SPE's MFC commands are numbered from 1 in the order of issue; 0: no command is involved.
+  unsigned spe = 0; ///< SPE whose program broke the rule; kPpe: the PPE
+  /// Number of the SPE's MFC command, from 1 in the order of issue; 0: no command is involved.
   std::uint64_t command = 0;
   std::uint32_t opcode = 0; ///< see MfcOpcode
   std::uint32_t tag = 0;
   std::uint32_t lsa = 0;
   std::uint32_t size = 0; ///< bytes
   ea_t ea = 0;
-  CallSite site; ///< of the operation; line 0: unknown
-  // The other side of a race; for a rule that the PPE broke, the SPE that it dealt with.
+  CallSite site; ///< place of the operation; line 0: unknown
+  // The other side of a race. If the PPE broke the rule, other_spe is the SPE that it accessed.
   unsigned other_spe = 0;
   std::uint64_t other_command = 0; ///< 0: none
   CallSite other_site;
   std::uint64_t cycle = 0; ///< the SPE's virtual time
-  /// One line that says all this: "SPE 0: get 20 bytes, LS 0x18080 <- EA 0x..., tag 5: size must be ...
+  /// One line with all of this: "SPE 0: get 20 bytes, LS 0x18080 <- EA 0x..., tag 5: size must be ...
   /// [transfer-size, command 1, at kernel.hpp:12]".
   std::string text;
 };

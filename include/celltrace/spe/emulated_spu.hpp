@@ -1,4 +1,4 @@
-// The SPU that a kernel compiled for the host sees on the emulated Cell: the runtime contract of
+// The SPU of the emulated Cell, for kernels compiled for the host: the interface of
 // celltrace/spe/spu.hpp with strict checks and virtual time.
 #pragma once
 
@@ -17,8 +17,8 @@ namespace celltrace::cell_emu {
 
 /// One run of a kernel on one SPE; machines make it. Thread safety: belongs to the thread that runs the SPE.
 ///
-/// A stall, or a poll that finds a count of 0, throws SpeError when the SPE has been interrupted; a broken
-/// rule whose action is to stop ends the program with an exception, too.
+/// A stall, or a poll that finds a count of 0, throws SpeError if the SPE has been interrupted. A broken
+/// rule whose action is to stop also ends the program with an exception.
 class CELLTRACE_EXPORT Spu : public SpuBase<Spu> {
 public:
   static constexpr const char* kKey = "cell_emu";
@@ -29,13 +29,14 @@ public:
   Spu(const Spu&) = delete;
   Spu& operator=(const Spu&) = delete;
 
-  /// That of the program which runs here: for code that has no Spu at hand. Throws SpeError if none does.
+  /// Returns the Spu of the program that runs on this thread, for code that has no Spu at hand. Throws
+  /// SpeError if there is none.
   static Spu& running();
 
-  /// The same; null where none runs.
+  /// As running(), but returns null if no program runs on this thread.
   static Spu* running_or_null();
 
-  // Its allocations are known, so that commands and stores that leave them are found.
+  // Allocations are tracked, so that commands and stores that leave them are detected.
 
   template <class T>
   T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes,
@@ -48,7 +49,7 @@ public:
 
   std::uint32_t id() const { return id_; }
   std::uint32_t count() const { return count_; }
-  /// Throws SpeError if there is no such SPE.
+  /// Returns the addresses of an SPE. Throws SpeError if it does not exist.
   virtual SpeAddresses addresses(std::uint32_t spe) const = 0;
   virtual ArenaState& arena() = 0;
   [[noreturn]] void halt(HaltCode code, CallSite site = CallSite::here()) {
@@ -56,7 +57,7 @@ public:
     __builtin_unreachable();
   }
   [[noreturn]] void halt_at(HaltCode code, CallSite site) { halt(code, site); }
-  /// The condition of heq and its like held.
+  /// Ends the program because the condition of heq or another halt instruction held.
   [[noreturn]] void halt_by_instruction() {
     throw_halted_by_instruction();
     __builtin_unreachable();
@@ -81,7 +82,7 @@ public:
     issue(op, local_address(ls), (ea & ~ea_t{0xFFFFFFFF}) | local_address(list), bytes, tag);
   }
 
-  // --- what only the emulator has ---
+  // --- members that only the emulator has ---
 
   /// The floating-point status that the SDK's intrinsics keep.
   isa::Quadword& floating_status() { return floating_status_; }
@@ -91,7 +92,7 @@ public:
     if (recorder_ != nullptr) [[unlikely]]
       recorder_->computed(id_, work);
   }
-  /// Takes the time of the DMA command that fetches the module, if it is not there.
+  /// Takes the time of the DMA command that fetches the module, if it is not in local store.
   void enter_module(const CodeModule& module) {
     if (resident_modules_[module.region] != module.number) fetch_module(module);
   }
@@ -106,43 +107,45 @@ public:
   }
   void at(CallSite site) { call_site_ = site; }
 
-  /// Offset in this SPE's local store; kOutsideLocalStore for a pointer to elsewhere.
+  /// Returns the offset in this SPE's local store; kOutsideLocalStore for a pointer to elsewhere.
   std::uint32_t local_address(const void* pointer) const {
     const std::uintptr_t offset = reinterpret_cast<std::uintptr_t>(pointer) - local_store_;
     return offset < kLocalStoreBytes ? static_cast<std::uint32_t>(offset) : kOutsideLocalStore;
   }
-  /// Zeroed local store that belongs to `key` until the program ends: what a static object is on a real SPE.
+  /// Returns zeroed local store that belongs to `key` until the program ends: the counterpart of a static
+  /// object on a real SPE.
   virtual void* local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment) = 0;
 
-  // Channels by number, for programs that compute it. One that does not exist in this direction ends the
-  // program as an invalid channel does; it has the count 0.
+  // Channels by number, for programs that compute the number. Access to a channel that does not exist in this
+  // direction ends the program, as an invalid channel does; its count is 0.
 
   virtual std::uint32_t read_channel(unsigned channel) = 0;
   virtual void write_channel(unsigned channel, std::uint32_t value) = 0;
   virtual std::uint32_t channel_count(unsigned channel) = 0;
 
-  /// SPU interrupts: while they are enabled and the event status has a count, `handler` runs before the next
-  /// channel access, with interrupts disabled; it is called again until it has read the event status.
+  /// Enables SPU interrupts: while they are enabled and the event status has a count, `handler` runs before
+  /// the next channel access, with interrupts disabled. It is called again until it has read the event
+  /// status.
   virtual void enable_interrupts(std::function<void(Spu&)> handler) = 0;
-  /// Again, with the handler that was given last; SpeError if none was.
+  /// Enables interrupts again, with the handler that was given last. Throws SpeError if there was none.
   virtual void enable_interrupts() = 0;
   virtual void disable_interrupts() = 0;
-  /// bisled: calls `handler` if the event status has a count.
+  /// Calls `handler` if the event status has a count (bisled).
   template <class Handler> void branch_if_event(Handler handler) {
     if (event_count() != 0) handler(*this);
   }
 
-  /// The virtual time, in cycles since the machine was made.
+  /// Returns the virtual time, in cycles since the machine was made.
   virtual std::uint64_t cycles() = 0;
 
 protected:
-  /// `site` is where the place of every operation is put, before the operation.
+  /// Makes the SPU. `site` receives the place of every operation before the operation.
   Spu(std::uint32_t id, std::uint32_t count, const void* local_store, SpeRecorder* recorder, CallSite& site)
       : id_(id), count_(count), local_store_(reinterpret_cast<std::uintptr_t>(local_store)),
         recorder_(recorder), call_site_(site) {}
   ~Spu();
 
-  std::uint32_t resident_modules_[kMaxModuleRegions] = {}; ///< by region, 0: none
+  std::uint32_t resident_modules_[kMaxModuleRegions] = {}; ///< number of the module in each region, 0: none
 
 private:
   virtual void throw_halted(HaltCode code, CallSite site) = 0;

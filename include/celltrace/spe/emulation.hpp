@@ -1,5 +1,5 @@
-// How `cell_emu` and `cell_sim` run a machine: its schedule, when data moves, what goes wrong on purpose,
-// what is checked.
+// Options of `cell_emu` and `cell_sim`: the schedule of a machine, when data move, which faults are injected
+// and which rules are checked.
 #pragma once
 
 #include "celltrace/spe/diagnostic.hpp"
@@ -15,72 +15,74 @@
 
 namespace celltrace {
 
-/// Who runs when.
+/// The order in which SPEs run.
 enum class Schedule : unsigned char {
-  /// A host thread per SPE; they run as they like.
+  /// One host thread per SPE; the host decides.
   free,
   /// One SPE at a time on the PPE's own thread, so that a run can be repeated bit for bit, on any machine.
   lockstep,
 };
 
-/// When the data of a queued DMA command move. All are legal on the hardware; a program that depends on one
-/// of them is wrong.
+/// The time when the data of a queued DMA command move. The hardware permits all of them; a program that
+/// depends on one of them is wrong.
 enum class TransferTime : unsigned char {
   at_issue, ///< as early as fences and barriers allow
-  at_wait,  ///< gets when their completion is observed, everything else when the model says that it is done
-  random,   ///< at a seeded random point in between; unordered commands complete in seeded random order
+  at_wait,  ///< gets when the program observes their completion, other commands when the timing model
+            ///< completes them
+  random,   ///< at a seeded random time in between; unordered commands complete in seeded random order
 };
 
-/// What the architecture allows to be slow, drawn at random from the seed. All zero: nothing is.
+/// Delays that the architecture allows, drawn at random from the seed. All zero: no delays.
 struct Faults {
-  /// Every SPE's work takes 1 to this many times as long; 1 to 1000.
+  /// Largest factor by which an SPE's work is slowed down; each SPE draws one from 1 up. 1 to 1000.
   double slowest_spe = 1;
-  /// At a channel access, with this probability (0 to 1), an SPE stands still for up to `longest_pause`
+  /// Probability, 0 to 1, that an SPE stands still at a channel access, for up to `longest_pause`
   /// cycles.
   double pause_probability = 0;
   std::uint32_t longest_pause = 0;
-  /// A DMA command takes up to this many cycles longer; so do the signals and mailbox words that SPEs send.
+  /// Most cycles by which DMA commands, and signals and mailbox words of SPEs, are delayed.
   std::uint32_t dma_delay = 0;
-  /// A word from the PPE takes up to this many cycles longer. Words to one SPE stay in order.
+  /// Most cycles by which a word from the PPE is delayed. Words to one SPE stay in order.
   std::uint32_t delivery_delay = 0;
 
-  /// A bit of everything.
+  /// Returns a moderate mix of all delays.
   static constexpr Faults mixed() { return {4.0, 0.002, 20000, 5000, 5000}; }
 };
 
-/// An object in main memory, of which a command that touches it must not leave it.
+/// An object in main memory: a command that touches it must stay within it.
 struct MemoryObject {
   ea_t ea = 0;
   std::uint64_t bytes = 0; ///< at least 1
   std::string name;        ///< for diagnostics; may be empty
 };
 
-/// How to run a machine. make_machine() throws InputError for values out of the ranges that are stated here
-/// and in timing.hpp, for what is no number, and for enumerators that do not exist.
+/// Options of a machine. make_machine() throws InputError for values out of the ranges that are stated here
+/// and in timing.hpp, for NaN, and for enumerators that do not exist.
 struct EmulationConfig {
   Schedule schedule = Schedule::free;
-  /// Everything that is drawn at random derives from it.
+  /// Seed of all random numbers.
   std::uint64_t seed = 0;
-  /// Lockstep: the next SPE is drawn from the seed instead of being the one that is behind in virtual time.
+  /// Lockstep: true draws the next SPE from the seed; false takes the SPE that is behind in virtual time.
   bool explore = false;
   TransferTime transfers = TransferTime::at_wait;
   Faults faults;
   TimingParameters timing;
-  /// Where default_action() does not suit.
+  /// Reactions to broken rules, in place of default_action().
   std::map<Rule, Action> actions;
-  /// A program that runs for so many virtual cycles, waits included, breaks Rule::time_limit; 0: none.
+  /// Virtual cycles, waits included, after which a running program breaks Rule::time_limit; 0: no limit.
   std::uint64_t cycle_limit = 0;
-  /// The same for seconds of the host, 0 to 1e9. They pass for all programs at once, also while others run.
+  /// Seconds of the host, 0 to 1e9, after which a program breaks Rule::time_limit; 0: no limit. The time
+  /// passes for all programs at once, also while others run.
   double seconds_limit = 0;
-  /// Objects that are registered from the start; see Machine::register_object(). None may overlap another.
+  /// Objects that are registered from the start; see Machine::register_object(). No two may overlap.
   std::vector<MemoryObject> objects;
-  /// `cell_emu`: 128 bytes are left free behind each allocation of a program; the arena grows by as many,
-  /// into what is kept for the stack, while there is room. Stores into them, and right behind the last
-  /// allocation, break Rule::allocation_overrun.
+  /// `cell_emu`: true leaves 128 bytes free behind each allocation of a program. The arena grows by as many
+  /// bytes, into the memory reserved for the stack, while there is room. Stores into the free bytes, and
+  /// right behind the last allocation, break Rule::allocation_overrun.
   bool red_zones = false;
-  /// Lockstep: where the trace goes, as Chrome trace JSON; it must outlive the machine. Null: nowhere.
+  /// Lockstep: receives the trace, as Chrome trace JSON; must outlive the machine. Null: no trace.
   std::ostream* trace = nullptr;
-  /// `cell_emu`: takes what the kernels record; it must outlive the machine. Null: nothing is recorded.
+  /// `cell_emu`: receives the words that kernels record; must outlive the machine. Null: nothing is recorded.
   SpeRecorder* recorder = nullptr;
 };
 

@@ -1,9 +1,9 @@
-// Static objects of SPE programs, in local store on the emulated Cell as on the real one.
+// Static objects of SPE programs, which lie in local store on the emulated Cell as on the real one.
 //
 //   static celltrace::LocalStore<float[2][2048]> samples;
 //   mfc_get((*samples)[0], ea, sizeof (*samples)[0], tag, 0, 0);
 //
-// On a PC a plain static object lies in the host's memory, once for all SPEs; no DMA command reaches it.
+// A plain static object on a PC lies in the host's memory, once for all SPEs; no DMA command can reach it.
 #pragma once
 
 #ifndef __SPU__
@@ -14,9 +14,9 @@
 
 namespace celltrace {
 
-/// A T of which every SPE has one, aligned to `alignment` (a power of two, at least 16). It is all zero when
-/// the SPE's program first uses it, and gone when the program ends. On a PC, SpeError where no SPE program
-/// runs.
+/// A T that every SPE has one of, aligned to `alignment` (a power of two, at least 16). It is all zero when
+/// the SPE's program first uses it, and destroyed when the program ends. On a PC, access throws SpeError if
+/// no SPE program runs.
 template <class T, unsigned alignment = 128> class LocalStore {
   static_assert(alignment >= 16 && (alignment & (alignment - 1)) == 0, "a power of two, at least 16");
 

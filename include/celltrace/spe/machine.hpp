@@ -1,4 +1,4 @@
-// The PPE side of the runtime: a machine with n SPEs that run kernels.
+// The PPE's side of the runtime: a machine with n SPEs that run kernels.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -22,54 +22,55 @@
 
 namespace celltrace {
 
-/// How to build a machine. Values out of range make make_machine() throw InputError.
+/// Options of a machine. make_machine() throws InputError for values out of range.
 struct MachineConfig {
   Backend backend = Backend::native;
   /// Number of SPEs, 1..256; 0: on `native` one per CPU that the calling thread may use,
   /// on `cell_emu` and `cell_sim` `emulation.timing.spes`.
   unsigned spes = 0;
-  /// `native` only.
+  /// SIMD level, for `native` only.
   SimdLevel simd = SimdLevel::automatic;
-  /// How the two signal notification registers of every SPE take a second write.
+  /// Reactions of the two signal notification registers of every SPE to a second write.
   SignalMode signal_mode[2] = {SignalMode::overwrite, SignalMode::overwrite};
-  /// `cell_emu`: local store that the code and data of a program take, and that is kept for its stack, if it
-  /// does not say itself (SpeProgram::takes); bytes. The rest of the 256 KB is the kernel's arena.
+  /// `cell_emu`: bytes of local store for the code and data of a program, and for its stack, if the program
+  /// does not state them (SpeProgram::takes). The rest of the 256 KB is the kernel's arena.
   unsigned code_bytes = 104 * 1024;
   unsigned stack_bytes = 24 * 1024;
-  /// `cell_emu` and `cell_sim` only.
+  /// Options of `cell_emu` and `cell_sim`.
   EmulationConfig emulation;
-  /// `cell_sim` only.
+  /// Options of `cell_sim`.
   SimulationConfig simulation;
 };
 
-/// How an SPE's program stopped.
+/// The way in which an SPE's program stopped.
 struct SpeStop {
   enum class Reason : unsigned char {
-    exit,            ///< it returned, or stopped with one of the codes 0x2000..0x20FF
-    stop_and_signal, ///< it waits for Machine::resume()
+    exit,            ///< the kernel returned, or stopped with one of the codes 0x2000..0x20FF
+    stop_and_signal, ///< the kernel waits for Machine::resume()
   };
   Reason reason = Reason::exit;
-  /// The low byte of the code for exit (0 if the kernel returned), all 14 bits for stop_and_signal.
+  /// For exit the low byte of the code (0 if the kernel returned), for stop_and_signal all 14 bits.
   std::uint32_t code = 0;
 };
 
-/// What one SPE did since the machine was made. Counts.
+/// Counters of one SPE since the machine was made.
 struct SpeStatistics {
   std::uint64_t dma_commands = 0;
   std::uint64_t dma_list_elements = 0;
   std::uint64_t dma_bytes_read = 0;    ///< main storage -> local store
   std::uint64_t dma_bytes_written = 0; ///< local store -> main storage
   std::uint64_t signals_sent = 0;
-  std::uint64_t mailbox_words_sent = 0; ///< to other SPEs and to the PPE
-  std::uint64_t local_store_peak = 0;   ///< bytes of the arena in use at most
-  std::uint64_t module_fetches = 0;     ///< of code modules
+  std::uint64_t mailbox_words_sent = 0; ///< words sent to other SPEs and to the PPE
+  std::uint64_t local_store_peak = 0;   ///< greatest number of bytes of the arena in use
+  std::uint64_t module_fetches = 0;     ///< fetches of code modules
   std::uint64_t module_bytes = 0;
-  std::uint64_t module_cycles = 0; ///< of `cycles`, waiting for them; only cell_emu says so
-  SpuCycles cycles;                ///< virtual time; all 0 on `native`
+  /// Part of `cycles` spent waiting for code modules; only cell_emu counts it.
+  std::uint64_t module_cycles = 0;
+  SpuCycles cycles; ///< virtual time; all 0 on `native`
 };
 
-/// A machine with n SPEs. Thread safety: one PPE thread at a time calls its members; interrupt() may be
-/// called from any thread and from a signal handler's thread. Errors: std::out_of_range for an SPE that does
+/// A machine with n SPEs. Thread safety: one PPE thread at a time calls its members; only interrupt() may be
+/// called from any thread, also from one that handles signals. Errors: std::out_of_range for an SPE that does
 /// not exist.
 class CELLTRACE_EXPORT Machine {
 public:
@@ -81,87 +82,89 @@ public:
 
   virtual Backend backend() const noexcept = 0;
   virtual unsigned spe_count() const noexcept = 0;
-  /// The SPEs can dereference effective addresses (Spu::direct_memory).
+  /// Returns true if the SPEs can dereference effective addresses (Spu::direct_memory).
   virtual bool direct_memory() const noexcept = 0;
-  /// The SPU type in use, for reports: "native.avx512", "cell_emu", "cell_sim".
+  /// Returns the SPU type in use, for reports: "native.avx512", "cell_emu", "cell_sim".
   virtual std::string_view spu_key() const noexcept = 0;
 
-  /// The byte order of its SPUs: that of every number in main storage that their programs read or write. DMA
-  /// copies bytes as they are. Words in mailboxes and signals, and addresses, are numbers here.
+  /// Returns the byte order of the SPUs, which every number in main storage has that their programs read or
+  /// write. DMA copies bytes unchanged. Words in mailboxes and signals, and addresses, are passed here as
+  /// numbers in the host's order.
   virtual std::endian byte_order() const noexcept { return std::endian::native; }
 
   /// Starts a program on an idle SPE. Throws SpeError if the program was not compiled for this machine, or
-  /// the SPE is running or waits for resume(). `argument` is handed to the kernel: the ea of its control
-  /// block, 16-byte aligned by convention.
+  /// the SPE is running or waits for resume(). The kernel receives `argument`: the effective address of its
+  /// control block, 16-byte aligned by convention.
   virtual void start(unsigned spe, const SpeProgram& program, ea_t argument) = 0;
   /// Blocks until the kernel has stopped. Throws SpeError with the SPE's error if it stopped for one. When
-  /// one SPE stops with an error the others are interrupted, so that nobody waits for it for ever. Called
-  /// again before resume() or start() it returns the same stop again; {exit, 0} after it has thrown, and for
-  /// an SPE that was never started.
+  /// one SPE stops with an error the others are interrupted, so that none waits for it for ever. If it is
+  /// called again before resume() or start(), it returns the same stop again; {exit, 0} after it has thrown,
+  /// and for an SPE that was never started.
   virtual SpeStop wait(unsigned spe) = 0;
-  /// Lets a kernel that stopped with a signal go on behind its stop. Throws SpeError if it did not.
+  /// Lets a kernel that stopped with a signal go on behind its stop instruction. Throws SpeError if it did
+  /// not stop so.
   virtual void resume(unsigned spe) = 0;
-  /// False while a kernel waits for resume().
+  /// Returns whether a kernel runs; false while one waits for resume().
   virtual bool running(unsigned spe) const = 0;
-  /// Makes every kernel that stalls on a channel or waits for resume(), now or later, stop; wait() then
+  /// Stops every kernel that stalls on a channel or waits for resume(), now or later; wait() then
   /// throws SpeError. For shutdown.
   virtual void interrupt() noexcept = 0;
 
   /// Writes a word to the inbound mailbox; blocks while it is full (libspe2's SPE_MBOX_ALL_BLOCKING). Throws
   /// SpeError if the SPE has stopped with the mailbox full.
   virtual void write_in_mailbox(unsigned spe, std::uint32_t value) = 0;
-  /// Free entries of the inbound mailbox, 0..4.
+  /// Returns the number of free entries of the inbound mailbox, 0..4.
   virtual unsigned in_mailbox_space(unsigned spe) const = 0;
-  /// The word in the outbound mailbox, if there is one. Never blocks.
+  /// Return the word in the outbound mailbox, if there is one. Never block.
   virtual std::optional<std::uint32_t> read_out_mailbox(unsigned spe) = 0;
   virtual std::optional<std::uint32_t> read_out_interrupt_mailbox(unsigned spe) = 0;
   /// Writes a signal notification register.
   virtual void write_signal(unsigned spe, Signal which, std::uint32_t value) = 0;
   /// Sleeps until an SPE has a word in an outbound mailbox or has stopped since the last call, or until the
-  /// timeout. False on timeout.
+  /// timeout. Returns false on timeout.
   virtual bool wait_for_mail(std::chrono::milliseconds timeout) = 0;
 
   // Proxy commands: DMA between main storage and the local store of an SPE on behalf of the PPE. `op` is a
-  // get or put, with or without fence or barrier, but no list; `lsa` is the offset in local store, that is
-  // from addresses().local_store; `tag` is 0..15. `native`, where all is complete at once, throws SpeError
-  // for what it cannot do.
+  // get or put, with or without fence or barrier, but no list; `lsa` is the offset in local store, from
+  // addresses().local_store; `tag` is 0..15. On `native` commands complete at once; it throws SpeError
+  // for commands that it cannot execute.
 
-  /// Queues the command (8 entries; blocks while they are taken).
+  /// Queues the command. The queue has 8 entries; blocks while all are taken.
   virtual void proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size,
                              std::uint32_t tag) = 0;
-  /// Those of the tag groups in `mask` whose proxy commands are complete; blocks for `any` and `all` until
-  /// there are such.
+  /// Returns the tag groups in `mask` whose proxy commands are complete. For `any` and `all`, blocks until
+  /// one or all are complete.
   virtual std::uint32_t proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate request) = 0;
 
-  // Objects in main memory. `cell_emu` and `cell_sim` check that transfers that touch one stay in it
-  // (Rule::object_bounds; lock-line commands, which move whole lines, are not checked). Thread-safe.
+  // Objects in main memory. `cell_emu` and `cell_sim` check that transfers that touch an object stay in it
+  // (Rule::object_bounds), except lock-line commands, which move whole lines. Thread-safe.
 
-  /// Throws InputError for an object without bytes, or one that overlaps with another.
+  /// Registers an object. Throws InputError if it has no bytes or overlaps another.
   virtual void register_object(const MemoryObject&) {}
-  /// Call it before the memory is used for something else. Throws InputError if no registered object begins
-  /// there.
+  /// Removes an object; call it before the memory is used for something else. Throws InputError if no
+  /// registered object begins there.
   virtual void forget_object(ea_t) {}
 
-  /// The rules that were broken since the machine was made, in the order of their discovery; at most some
-  /// thousand. Empty on `native`, which does not check.
+  /// Returns the rules that were broken since the machine was made, in the order of their discovery; at most
+  /// some thousand. Empty on `native`, which does not check.
   virtual std::vector<Diagnostic> diagnostics() const { return {}; }
 
-  /// Where an SPE's local store and registers are mapped.
+  /// Returns the addresses where an SPE's local store and registers are mapped.
   virtual SpeAddresses addresses(unsigned spe) const = 0;
   virtual SpeStatistics statistics(unsigned spe) const = 0;
 };
 
-/// A machine by its configuration. Throws InputError for a value out of range, and for SIMD that the build or
+/// Makes a machine. Throws InputError for a value out of range, and for SIMD that the build or
 /// the CPU lacks.
 CELLTRACE_EXPORT std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 
-/// The effective address of an object in main memory.
+/// Returns the effective address of an object in main memory.
 inline ea_t to_ea(const void* object) {
   return reinterpret_cast<std::uintptr_t>(object);
 }
 
-/// For EmulationConfig::objects and Machine::register_object(): an array, a record, or the elements of a
-/// container that keeps them in a row.
+/// Describes an array, a record, or the elements of a contiguous container for EmulationConfig::objects and
+/// Machine::register_object().
 template <class T> MemoryObject memory_object(const T& object, std::string name = {}) {
   if constexpr (requires { std::data(object), std::size(object); })
     return {to_ea(std::data(object)), std::size(object) * sizeof(*std::data(object)), std::move(name)};

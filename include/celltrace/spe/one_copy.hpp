@@ -1,9 +1,9 @@
-// CELLTRACE_ONE_COPY, before a function's declaration: local store is short of code, so that on an SPU there
-// is one copy of the function, and its frame is on the stack while it runs only. Elsewhere compilers decide:
-// across a call, vectors of packets go through memory.
+// CELLTRACE_ONE_COPY, before a function's declaration, forbids inlining on an SPU: local store is short of
+// code, so there is one copy of the function, and its frame is on the stack only while it runs. Elsewhere
+// compilers decide, because vectors of packets go through memory across a call.
 //
-// Long functions that few packets need are [[gnu::noinline]] everywhere: inlined, they would take registers
-// and cache from what is frequent.
+// Long functions that few packets need are [[gnu::noinline]] on all targets: inlined, they would take
+// registers and cache from frequent code.
 #pragma once
 
 #ifdef __SPU__

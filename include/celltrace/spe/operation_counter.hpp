@@ -1,4 +1,4 @@
-// What a kernel computes on the emulated SPU, counted: the instructions that a real SPU would issue for the
+// Counts the work of a kernel on the emulated SPU: the instructions that a real SPU would issue for the
 // operations of the SIMD facade, and those that the kernel declares by compute().
 #pragma once
 
@@ -10,48 +10,50 @@ namespace celltrace::cell_emu {
 
 /// Instructions by the unit that executes them.
 struct UnitCounts {
-  // even pipe
+  // Even pipe.
   std::uint64_t fx2 = 0; ///< add, logic, compare, select, load immediate
   std::uint64_t fx3 = 0; ///< word shift
   std::uint64_t fxb = 0; ///< byte operation
   std::uint64_t fp6 = 0; ///< single precision arithmetic
   std::uint64_t fp7 = 0; ///< conversion, interpolation, integer multiply
-  // odd pipe
+  // Odd pipe.
   std::uint64_t ls = 0;   ///< load, store
   std::uint64_t shuf = 0; ///< shuffle, quadword rotate, estimate
   std::uint64_t br = 0;   ///< branch, orx
 };
 
-/// What was computed since the last look; see cycles_of() in pipeline.hpp.
+/// Instructions counted since the last take_operation_counts(); see cycles_of() in pipeline.hpp.
 struct OperationCounts {
-  /// Each issued once for each of the four quadwords of a packet, which do not depend on each other.
+  /// Instructions that are issued for each of the four quadwords of a packet, which do not depend on each
+  /// other.
   UnitCounts packet;
-  /// Each depends on the one before.
+  /// Instructions of which each depends on the one before.
   UnitCounts chain;
-  /// What kernels declare, with what it waits for.
+  /// Scalar work that kernels declare, with its waits below.
   UnitCounts scalar;
   std::uint64_t waits = 0, misses = 0; ///< cycles
-  std::uint64_t moves = 0;             ///< of the loads and stores, those of whole quadwords
+  std::uint64_t moves = 0;             ///< those loads and stores that copy whole quadwords
 };
 
-/// Of the kernel that runs on this host thread. Initial-exec and constant-initialised, and everything below
-/// is inlined always: then counting is an addition to memory per unit and basic block, some 15 % of the time
-/// of a kernel that only computes. Were it a function call per operation, kernels would take twice as long.
+/// The counts of the kernel that runs on this host thread. With initial-exec, constant initialisation, and
+/// everything below always inlined, counting is an addition to memory per unit and basic block, some 15 % of
+/// the time of a kernel that only computes. With a function call per operation, kernels would take twice as
+/// long.
 inline constinit thread_local OperationCounts operation_counts
     [[gnu::tls_model("initial-exec"), gnu::visibility("default")]];
 
-/// The counts of this thread, which start again at 0.
+/// Returns the counts of this thread and resets them to 0.
 inline OperationCounts take_operation_counts() {
   const OperationCounts taken = operation_counts;
   operation_counts = OperationCounts();
   return taken;
 }
 
-// Counting the instructions of one operation. Most of the numbers are 0, which is known when this is
-// compiled. The fields are named one by one, as GCC 12's undefined-behaviour sanitizer takes a reference to
-// part of a thread-local for null.
+// The functions below count the instructions of one operation. Most of the numbers are 0, which is known at
+// compile time. The fields are named one by one, because GCC 12's undefined-behaviour sanitizer takes a
+// reference to part of a thread-local for null.
 
-/// Each of the instructions is issued once for each of the four quadwords of a packet; the four are
+/// Counts instructions that are issued once for each of the four quadwords of a packet; the four are
 /// independent of each other, the instructions are a chain.
 [[gnu::always_inline]] inline void count_packet(const UnitCounts& n) {
   if (n.fx2 != 0) operation_counts.packet.fx2 += n.fx2;
@@ -63,7 +65,7 @@ inline OperationCounts take_operation_counts() {
   if (n.shuf != 0) operation_counts.packet.shuf += n.shuf;
   if (n.br != 0) operation_counts.packet.br += n.br;
 }
-/// Each of the instructions is issued once, and needs the result of the one before.
+/// Counts instructions that are issued once, each of which needs the result of the one before.
 [[gnu::always_inline]] inline void count_chain(const UnitCounts& n) {
   if (n.fx2 != 0) operation_counts.chain.fx2 += n.fx2;
   if (n.fx3 != 0) operation_counts.chain.fx3 += n.fx3;
@@ -75,8 +77,8 @@ inline OperationCounts take_operation_counts() {
   if (n.br != 0) operation_counts.chain.br += n.br;
 }
 
-/// Scalar work that a kernel declares. A scalar load or store comes with a shuffle; those without one move
-/// quadwords from one place to another.
+/// Counts scalar work that a kernel declares. A scalar load or store comes with a shuffle; loads and stores
+/// without one copy quadwords from one place to another.
 [[gnu::always_inline]] inline void count(const ScalarWork& work) {
   if (work.fixed != 0) operation_counts.scalar.fx2 += work.fixed;
   if (work.shift != 0) operation_counts.scalar.fx3 += work.shift;

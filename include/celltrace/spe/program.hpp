@@ -1,5 +1,5 @@
-// An SPE program as the PPE handles it: a name and its entry points, one per kind of SPU it was compiled for,
-// and its machine code for SPUs that execute that.
+// An SPE program as the PPE handles it: a name, its entry points, one per kind of SPU that it was compiled
+// for, and its machine code for SPUs that execute it.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -16,28 +16,29 @@
 
 namespace celltrace {
 
-/// Local store that a program takes on a real SPE besides its arena; bytes.
+/// Bytes of local store that a program takes on a real SPE besides its arena.
 struct LocalStoreUse {
   unsigned code_bytes = 0; ///< code, constants and data
   unsigned stack_bytes = 0;
 };
 
-/// Thrown by a program of host code on the emulated Cell: it ends as if it had returned with this exit code.
+/// The exception by which a program of host code on the emulated Cell ends as if it had returned with this
+/// exit code.
 struct CELLTRACE_EXPORT SpeExit {
   std::uint32_t code;
 };
 
 /// A kernel compiled for one or more backends. `Spu::kKey` names the SPU type ("cell_emu", "native.avx2",
-/// ...); the machine picks the entry or the image whose key fits it best. Copyable; immutable while a machine
-/// runs it.
+/// ...); the machine picks the entry or the image whose key fits it best. Copyable; must not change while a
+/// machine runs it.
 class SpeProgram {
 public:
-  /// `spu` is the address of the backend's Spu object.
+  /// An entry point; `spu` is the address of the backend's Spu object.
   using Entry = std::function<void(void* spu, ea_t argument)>;
 
   explicit SpeProgram(std::string name) : name_(std::move(name)) {}
 
-  /// Adds the kernel as compiled for `Spu`. `kernel` is a captureless callable `void(Spu&, ea_t)`.
+  /// Adds the kernel compiled for `Spu`. `kernel` is a captureless callable `void(Spu&, ea_t)`.
   template <class Spu, class Kernel> SpeProgram& add(Kernel) {
     static_assert(std::is_empty_v<Kernel>, "a kernel has no state of its own: pass it an argument ea");
     entries_[Spu::kKey] = [](void* spu, ea_t argument) { Kernel{}(*static_cast<Spu*>(spu), argument); };
@@ -49,16 +50,17 @@ public:
     return *this;
   }
 
-  /// Adds machine code: an ELF executable, whose bytes outlive the program and its copies; they are not
-  /// looked at here. Under the key "cell_sim" it is a kernel with the main() of backends/spu/main.cpp; under
-  /// "elf" a stand-alone program, main(speid, argp, envp), to which the argument of Machine::start() is argp.
+  /// Adds machine code: an ELF executable, whose bytes must outlive the program and its copies; they are not
+  /// checked here. The key "cell_sim" stands for a kernel with the main() of backends/spu/main.cpp;
+  /// "elf" for a stand-alone program, main(speid, argp, envp), whose argp is the argument of
+  /// Machine::start().
   SpeProgram& add_image(std::string key, std::span<const std::uint8_t> elf) {
     images_[std::move(key)] = elf;
     return *this;
   }
 
-  /// What the program takes of a local store, as its real build says; else the machine's configuration
-  /// decides.
+  /// Sets the local store that the program takes in its build for the real SPU; by default the machine's
+  /// configuration decides.
   SpeProgram& takes(LocalStoreUse use) {
     local_store_use_ = use;
     return *this;
@@ -66,12 +68,12 @@ public:
 
   const std::string& name() const noexcept { return name_; }
   const std::optional<LocalStoreUse>& local_store_use() const noexcept { return local_store_use_; }
-  /// The entry for an SPU type, or an empty one if the program was not compiled for it.
+  /// Returns the entry for an SPU type, or an empty one if the program was not compiled for it.
   Entry entry(const std::string& key) const noexcept {
     const auto found = entries_.find(key);
     return found == entries_.end() ? nullptr : found->second;
   }
-  /// The machine code for an SPU type, or no bytes if there is none.
+  /// Returns the machine code for an SPU type, or no bytes if there is none.
   std::span<const std::uint8_t> image(const std::string& key) const noexcept {
     const auto found = images_.find(key);
     return found == images_.end() ? std::span<const std::uint8_t>() : found->second;

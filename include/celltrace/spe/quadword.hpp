@@ -10,8 +10,8 @@ namespace celltrace::isa {
 
 static_assert(std::endian::native == std::endian::little || std::endian::native == std::endian::big);
 
-/// Kept as one integer of the host, so that every part is an integer in the host's order: on a little-endian
-/// host the parts lie in reverse.
+/// A register of 128 bits, stored as one integer of the host, so that every part is an integer in the host's
+/// order: on a little-endian host the parts lie in reverse.
 struct alignas(16) Quadword {
   std::uint8_t bytes[16];
 
@@ -26,13 +26,13 @@ struct alignas(16) Quadword {
     std::memcpy(bytes + place<Part>(index), &part, sizeof part);
   }
 
-  std::uint8_t byte(unsigned index) const { return get<std::uint8_t>(index); }       ///< index 0..15
-  std::uint16_t half(unsigned index) const { return get<std::uint16_t>(index); }     ///< index 0..7
-  std::uint32_t word(unsigned index) const { return get<std::uint32_t>(index); }     ///< index 0..3
+  std::uint8_t byte(unsigned index) const { return get<std::uint8_t>(index); }         ///< index 0..15
+  std::uint16_t half(unsigned index) const { return get<std::uint16_t>(index); }       ///< index 0..7
+  std::uint32_t word(unsigned index) const { return get<std::uint32_t>(index); }       ///< index 0..3
   std::uint64_t doubleword(unsigned index) const { return get<std::uint64_t>(index); } ///< index 0..1
 
   static Quadword zero() { return {}; }
-  /// The same word in all four slots.
+  /// Returns a quadword with the same word in all four slots.
   static Quadword splat(std::uint32_t word) {
     Quadword q;
     for (unsigned i = 0; i < 4; ++i)
@@ -40,7 +40,7 @@ struct alignas(16) Quadword {
     return q;
   }
 
-  /// As 16 bytes lie in local store.
+  /// Load and store 16 bytes as they lie in local store.
   static Quadword load(const std::uint8_t* from) {
     Quadword q;
     std::memcpy(q.bytes, from, 16);

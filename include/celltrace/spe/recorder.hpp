@@ -1,4 +1,4 @@
-// What kernels record while they run on a machine that measures, word by word: for studies and tests.
+// Recorders receive words from kernels that run on a machine that measures: for studies and tests.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -9,14 +9,15 @@ namespace celltrace {
 
 struct ScalarWork;
 
-/// Takes the words. `source` tells apart the objects of one SPE's program that record; what their words mean
-/// is their own affair.
+/// Receives the words. `source` tells apart the recording objects of one SPE's program, which define the
+/// meaning of their words.
 class CELLTRACE_EXPORT SpeRecorder {
 public:
   virtual ~SpeRecorder() = default;
-  /// Called by the threads that run the SPEs: by one at a time for one `spe`, but for several SPEs at once.
+  /// Receives one word. Called by the threads that run the SPEs: one at a time for one `spe`, but for several
+  /// SPEs at once.
   virtual void record(unsigned spe, const void* source, std::uint32_t word) = 0;
-  /// Hears, by the same threads, of every compute(). `work` may be gone afterwards, its name stays.
+  /// Receives every compute(), from the same threads. `work` may be gone afterwards, its name stays.
   virtual void computed(unsigned spe, const ScalarWork& work) {
     (void)spe;
     (void)work;

@@ -16,18 +16,19 @@
 
 namespace celltrace {
 
-/// An array of a number type, or of a record that has fields_of(). The PPE has it in the host's order, the
-/// SPEs in theirs. Where the two are the same there is one array, and publish() and fetch() do nothing; else
-/// there are two, and they copy. What either side writes is seen by the other only after that.
+/// An array of a number type, or of a record that has fields_of(). The PPE uses it in the host's order, the
+/// SPEs in theirs. If the two orders are the same there is one array, and publish() and fetch() do nothing;
+/// else there are two arrays, which they copy. Either side sees the writes of the other only after that.
 ///
-/// Thread safety: as a standard container; SPEs count as threads that use what ea() gives.
+/// Thread safety: as a standard container; SPEs count as threads that use the array at ea().
 template <class Record> class SharedRecords {
   static_assert(std::is_trivially_copyable_v<Record> && alignof(Record) <= kLineBytes);
 
 public:
-  /// None.
+  /// Makes an empty array.
   SharedRecords() = default;
-  /// `count` of them, of zeros, for a machine whose SPUs have this order. Throws std::bad_alloc.
+  /// Makes an array of `count` zeroed records for a machine whose SPUs have this order. Throws
+  /// std::bad_alloc.
   SharedRecords(std::size_t count, std::endian spe_order) : converts_(spe_order != std::endian::native) {
     resize(count);
     clear();
@@ -39,27 +40,28 @@ public:
   Record& operator[](std::size_t index) noexcept { return data()[index]; }
   const Record& operator[](std::size_t index) const noexcept { return data()[index]; }
 
-  /// Where the SPEs find a record. The first one is 128-byte aligned, and the last one's line is all there.
+  /// Returns the address of a record for the SPEs. The first one is 128-byte aligned, and all bytes of the
+  /// last one's cache line exist.
   ea_t ea(std::size_t index = 0) const noexcept {
     const Line* lines = converts_ ? theirs_.get() : ours_.get();
     return reinterpret_cast<std::uintptr_t>(lines) + index * sizeof(Record);
   }
 
-  /// Shows the SPEs what is in the PPE's array.
+  /// Copies the PPE's array to the SPEs' array.
   void publish() noexcept {
     if (converts_) copy(ours_.get(), theirs_.get());
   }
-  /// Takes what the SPEs have written into the PPE's array.
+  /// Copies the SPEs' array to the PPE's array.
   void fetch() noexcept {
     if (converts_) copy(theirs_.get(), ours_.get());
   }
 
-  /// All zeros on both sides.
+  /// Sets all records to zero on both sides.
   void clear() noexcept {
     std::fill_n(ours_.get(), lines_of(count_), Line{});
     if (converts_) std::fill_n(theirs_.get(), lines_of(count_), Line{});
   }
-  /// Becomes these, on both sides; may move. Throws std::bad_alloc.
+  /// Replaces all records, on both sides; the addresses may change. Throws std::bad_alloc.
   void assign(std::span<const Record> records) {
     resize(records.size());
     std::copy(records.begin(), records.end(), data());
@@ -76,7 +78,7 @@ private:
   }
   Record* data() const noexcept { return reinterpret_cast<Record*>(ours_.get()); }
 
-  /// With anything in them.
+  /// Makes room for `count` records with indeterminate contents.
   void resize(std::size_t count) {
     const std::size_t lines = lines_of(count);
     if (lines > capacity_) {
@@ -88,7 +90,7 @@ private:
     count_ = count;
   }
   void copy(const Line* from, Line* to) const noexcept {
-    if (count_ == 0) return; // and there may be no lines
+    if (count_ == 0) return; // the arrays may be null
     std::memcpy(to, from, count_ * sizeof(Record));
     auto* records = reinterpret_cast<Record*>(to);
     std::for_each(records, records + count_, [](Record& record) { reverse_bytes(record); });

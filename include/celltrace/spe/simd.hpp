@@ -1,5 +1,6 @@
-// The SIMD facade: what `Spu::simd` offers to kernels. This header documents it and holds what all
-// implementations share; simd_host.hpp implements it over xsimd, the spu backend over the SPU's intrinsics.
+// The SIMD facade: the operations that `Spu::simd` offers to kernels. This header documents it and holds what
+// all implementations share; simd_host.hpp implements it over xsimd, the spu backend over the SPU's
+// intrinsics.
 //
 // A ray packet is 4x4 rays, 16 lanes in structure-of-arrays form: four 128-bit vectors on an SPU, one 512-bit
 // vector on AVX-512. Lane l is ray (l % 4, l / 4). Types, all plain values without alignment demands on the
@@ -24,32 +25,32 @@
 //   to_int (truncates), to_float, floor (all of |x| < 2^31; floor may give a 0 any sign),
 //   bits_of / float_of (reinterpret), shift_left<n>, shift_right<n> (arithmetic)
 //
-// Where memory is direct it has also, for tables and to gather lanes of several packets:
+// If memory is direct the facade also has, for tables and to gather lanes of several packets:
 //
-//   I::gather(const int32_t* table, I indices): in each lane the number of the table at its index,
-//   store_unaligned() of F and I, to any number on,
-//   pick(a, I lanes): of F and I, in each lane that of the lane of `a` whose number is in `lanes`,
-//   lane_numbers(uint32 lanes) -> I, the numbers of those whose bits are set, in the first lanes; then 0,
-//   spread(uint32 bits, uint32 lanes): the first of `bits` at the first bit that is set in `lanes`, and so on
+//   I::gather(const int32_t* table, I indices): for each lane the number in the table at its index,
+//   store_unaligned() of F and I, to any address of a number,
+//   pick(a, I lanes): for each lane of F or I, the lane of `a` whose number is in `lanes`,
+//   lane_numbers(uint32 lanes) -> I, the numbers of the lanes whose bits are set, in the first lanes; then 0,
+//   spread(uint32 bits, uint32 lanes): moves bit i of `bits` to the i-th bit that is set in `lanes`
 //
-// `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes, 16 or where local store is
-// short the 4 of one quadword, and F, I and M with all of the above but load_words, extremes, join,
-// transpose_quads and the types of four: rare code works on the lanes of a packet part by part. One of 4
-// lanes has part(F of Spu::simd, first) and set_part(F& of Spu::simd, first, F), `first` a multiple of 4. All
-// have
+// `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes: 16, or the 4 of one quadword
+// if local store is short. It has F, I and M with all of the above but load_words, extremes, join,
+// transpose_quads and the types of four: rare code works on the lanes of a packet part by part. A facade of 4
+// lanes has part(F of Spu::simd, first) and set_part(F& of Spu::simd, first, F), `first` a multiple of 4.
+// Both facades have
 //
 //   sum_rows<rows>(const float* table, starts_of, factors_of, F (&sums)[channels]): for each lane, the sum
-//   of some rows of the table, times factors. starts_of(lane, uint32_t (&starts)[rows]) says where in the
-//   table the rows of a lane start, anywhere. Those of two lanes are the same if starts_of.keys(i), an
-//   aligned const int32_t[kLanes], has one number for both, for each i below StartsOf::kKeys: some
-//   implementations ask. Others ask starts_of.find_indices(look_up, int32_t (&)[rows][kLanes]) for numbers
-//   of all lanes, of which starts_of.start(number) is the same. Their look_up(const uint16_t* table,
-//   index_of, Numbers (&numbers)[n]) helps with that: of each lane, numbers[i] is that at index_of(lane, i)
-//   in the table. LookUp::Numbers is an I, whose operations emulations do not count. factors_of(row, F
-//   (&factors)[4]) gives a row's four factors, more than once if asked again. A row has four numbers for each
-//   channel, one after the other: those of channel c are multiplied by the four factors of the row, and added
-//   up to sums[c]. The rows are added up in their order, then the four numbers as (0 + 1) + (2 + 3). Behind
-//   the last row 16 bytes more may be read.
+//   of some rows of the table, times factors. starts_of(lane, uint32_t (&starts)[rows]) returns in `starts`
+//   where in the table the rows of a lane start, anywhere. Two lanes have the same starts if
+//   starts_of.keys(i), an aligned const int32_t[kLanes], is equal for both, for each i below StartsOf::kKeys;
+//   some implementations use the keys. Others call starts_of.find_indices(look_up, int32_t
+//   (&)[rows][kLanes]), which returns indices of all lanes' rows; starts_of.start(index) turns one into a
+//   start. look_up(const uint16_t* table, index_of, Numbers (&numbers)[n]) helps to find them: for each lane,
+//   it sets numbers[i] to the table's number at index_of(lane, i). LookUp::Numbers is an I, whose operations
+//   emulations do not count. factors_of(row, F (&factors)[4]) returns a row's four factors, and may be
+//   called more than once. A row has four numbers for each channel, one after the other: those of channel c
+//   are multiplied by the four factors of the row, and added up to sums[c]. The rows are added up in their
+//   order, then the four numbers as (0 + 1) + (2 + 3). Up to 16 bytes behind the last row may be read.
 //
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,
@@ -63,7 +64,7 @@ namespace celltrace {
 
 constexpr uint32_t kSimdLanes = 16;
 
-/// Lane l holds 1 << l.
+/// The bit of each lane: lane l holds 1 << l.
 alignas(64) constexpr int32_t simd_lane_bits[kSimdLanes] = {1,   2,   4,    8,    16,   32,   64,    128,
                                                             256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
 

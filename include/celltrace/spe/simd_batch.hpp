@@ -1,6 +1,6 @@
-// What simd_host.hpp makes its 16 lanes of: xsimd's batches, where xsimd knows the processor, and those of
-// four lanes by GCC's and clang's vector extensions, which are for any. These have what simd_host.hpp asks of
-// a batch, and give SSE2's bits.
+// The batches that simd_host.hpp composes its 16 lanes of: xsimd's, if xsimd knows the processor, and batches
+// of four lanes by GCC's and clang's vector extensions for any other. The latter have the operations that
+// simd_host.hpp needs, and give the same bits as SSE2.
 #pragma once
 
 #include <stdint.h>
@@ -17,10 +17,11 @@
 
 namespace celltrace {
 
-/// In the place of an architecture of xsimd's.
+/// An architecture for processors that xsimd does not know.
 struct GenericArch {};
 
-/// What every CPU that the build is for has. Builds for one machine define more: CELLTRACE_BASELINE_SIMD.
+/// The SIMD that every CPU of the build's target has. Builds for one machine define more:
+/// CELLTRACE_BASELINE_SIMD.
 #if defined(CELLTRACE_BASELINE_AVX512)
 using BaselineArch = xsimd::avx512dq;
 #elif defined(CELLTRACE_BASELINE_AVX2)
@@ -40,7 +41,7 @@ template <> struct GenericRegister<float> { typedef float type __attribute__((ve
 template <> struct GenericRegister<int32_t> { typedef int32_t type __attribute__((vector_size(16))); };
 template <> struct GenericRegister<uint32_t> { typedef uint32_t type __attribute__((vector_size(16))); };
 
-/// Of four numbers of any kind. All bits of a lane are set or none is.
+/// A mask of four lanes of any type. In a lane either all bits are set or none.
 struct GenericMask {
   using register_type = GenericRegister<int32_t>::type;
   register_type data;
@@ -87,7 +88,7 @@ template <class T> struct GenericBatch {
   Bits bits() const { return reinterpret_cast<Bits>(data); }
   static GenericBatch of_bits(Bits lanes) { return reinterpret_cast<register_type>(lanes); }
 
-  // Integers wrap, which only those without a sign may.
+  // Integers wrap around, which is only defined for unsigned ones.
   friend GenericBatch operator+(const GenericBatch& a, const GenericBatch& b) {
     if constexpr (std::is_integral_v<T>)
       return of_bits(a.bits() + b.bits());
@@ -150,7 +151,7 @@ inline GenericBatch<float> sqrt(GenericBatch<float> a) {
     a.data[i] = std::sqrt(a.data[i]);
   return a;
 }
-/// Of |a| < 2^31.
+/// Returns floor(a), for |a| < 2^31.
 inline GenericBatch<float> floor(const GenericBatch<float>& a) {
   const GenericBatch<float> whole = to_float(to_int(a));
   return select(a < whole, whole - GenericBatch<float>(1), whole);
@@ -171,7 +172,7 @@ using xsimd::abs, xsimd::bitwise_cast, xsimd::bool_cast, xsimd::floor, xsimd::ma
     xsimd::sqrt, xsimd::to_float, xsimd::to_int, xsimd::zip_hi, xsimd::zip_lo;
 
 #if defined(__aarch64__)
-// Those of xsimd 8 are estimates, which are not IEEE's bits.
+// xsimd 8 estimates these operations, which does not give IEEE's bits.
 inline xsimd::batch<float, xsimd::neon64> divide(const xsimd::batch<float, xsimd::neon64>& a,
                                                  const xsimd::batch<float, xsimd::neon64>& b) {
   return vdivq_f32(a, b);

@@ -1,5 +1,5 @@
-// The SIMD facade of simd.hpp on a host CPU, over simd_batch.hpp: 16 lanes are sixteen/size batches of the
-// architecture.
+// The SIMD facade of simd.hpp on a host CPU, over simd_batch.hpp: 16 lanes are kSimdLanes / size
+// batches of the architecture.
 //
 // `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq", "xsimd::neon64") or GenericArch; it is
 // part of every type's name, so that translation units compiled for different CPUs share no inline function.
@@ -17,7 +17,7 @@ namespace simd_host {
 
 template <class Batch> constexpr bool is_generic = std::is_same_v<typename Batch::arch_type, GenericArch>;
 
-/// One bit per lane of a mask of `Batch`'s, lane 0 in bit 0.
+/// Returns one bit per lane of a mask of `Batch`, lane 0 in bit 0.
 template <class Batch>
 uint32_t lane_bits(const typename Batch::batch_bool_type& mask) {
 #if defined(__AVX512F__)
@@ -37,7 +37,7 @@ uint32_t lane_bits(const typename Batch::batch_bool_type& mask) {
   return bits;
 }
 
-/// The least number of `low` and the greatest of `high`.
+/// Sets `least` to the least number of `low` and `greatest` to the greatest number of `high`.
 template <class Batch> void extremes(const Batch& low, const Batch& high, float& least, float& greatest) {
 #if defined(__AVX512F__)
   if constexpr (Batch::size == 16) {
@@ -57,7 +57,7 @@ template <class Batch> void extremes(const Batch& low, const Batch& high, float&
   }
 }
 
-/// 16 lanes of 4 each, as batches.
+/// 16 lanes, as batches of registers of four lanes each.
 template <class Batch> struct Joined { Batch part[kSimdLanes / Batch::size]; };
 template <class Batch, class Four>
 Joined<Batch> join(const Four& a, const Four& b, const Four& c, const Four& d) {
@@ -202,7 +202,7 @@ template <class Arch> struct HostSimd {
       return zip(a, b, [](auto x, auto y) { return simd_host::divide(x, y); });
     }
     friend F operator-(const F& a) {
-      // Not 0 - x, which is what some architectures make of -x: that of a zero would have another sign.
+      // Flips the sign: 0 - x, which some architectures use for -x, would give zeros the wrong sign.
       return map(a, [](auto x) { return x ^ FloatBatch(-0.0f); });
     }
     friend M operator<(const F& a, const F& b) {
@@ -299,7 +299,7 @@ template <class Arch> struct HostSimd {
   static F max(const F& a, const F& b) {
     return F::zip(a, b, [](auto x, auto y) { return simd_host::max(x, y); });
   }
-  /// The least and the greatest of all lanes.
+  /// Sets `least` and `greatest` to the least and the greatest of all lanes.
   static void extremes(const F& a, float& least, float& greatest) {
     FloatBatch low = a.part[0], high = a.part[0];
     for (uint32_t i = 1; i < kParts; ++i) {

@@ -35,7 +35,7 @@ template <class Simd> struct HostEight {
   friend HostEight operator*(const HostEight& a, const HostEight& b) {
     return make([&](uint32_t i) { return a.part[i] * b.part[i]; });
   }
-  /// a * b - c, rounded once or twice.
+  /// Returns a * b - c, rounded once or twice.
   friend HostEight multiply_subtract(const HostEight& a, const HostEight& b, const HostEight& c) {
     return make([&](uint32_t i) {
 #if defined(__AVX512VL__)

@@ -1,5 +1,5 @@
-// Four lanes of a host CPU by the operators of simd.hpp: for tests of a single ray with four triangles, which
-// would leave most of sixteen lanes empty.
+// Four lanes of a host CPU with the operators of simd.hpp: for tests of a single ray with four triangles,
+// which would leave most of sixteen lanes empty.
 #pragma once
 
 #include "celltrace/spe/simd_host.hpp"
@@ -33,7 +33,7 @@ template <class Simd> struct HostQuad {
     friend F operator-(const F& a, const F& b) { return a.lanes - b.lanes; }
     friend F operator*(const F& a, const F& b) { return a.lanes * b.lanes; }
     friend F operator/(const F& a, const F& b) { return simd_host::divide(a.lanes, b.lanes); }
-    friend F operator-(const F& a) { return a.lanes ^ Batch(-0.0f); } // of a zero, too
+    friend F operator-(const F& a) { return a.lanes ^ Batch(-0.0f); } // also right for zeros
     friend M operator<(const F& a, const F& b) { return {a.lanes < b.lanes}; }
     friend M operator<=(const F& a, const F& b) { return {a.lanes <= b.lanes}; }
     friend M operator>(const F& a, const F& b) { return b < a; }
@@ -44,7 +44,7 @@ template <class Simd> struct HostQuad {
   static F max(const F& a, const F& b) { return simd_host::max(a.lanes, b.lanes); }
   static F abs(const F& a) { return simd_host::abs(a.lanes); }
   static F select(const M& m, const F& a, const F& b) { return simd_host::select(m.lanes, a.lanes, b.lanes); }
-  /// Rows become columns.
+  /// Transposes the 4x4 numbers.
   static void transpose(F& a, F& b, F& c, F& d) {
     simd_host::transpose_quads(a.lanes, b.lanes, c.lanes, d.lanes);
   }

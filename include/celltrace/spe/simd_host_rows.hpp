@@ -1,5 +1,6 @@
-// Sums of rows of a table, as Spu::simd's sum_rows() promises them, on the host: all lanes at once where
-// their rows are the same, otherwise lane by lane. Both do the same operations in the same order.
+// Sums of rows of a table, as sum_rows() of Spu::simd has to compute them, on the host: all lanes at
+// once if their rows are the same, otherwise lane by lane. Both ways do the same operations in the
+// same order.
 #pragma once
 
 #include "celltrace/spe/simd_batch.hpp"
@@ -10,7 +11,7 @@
 
 namespace celltrace::simd_host {
 
-/// In each 128 bits, the two lower or the two higher numbers of `a` and `b` in turn.
+/// Interleaves, in each 128 bits, the two lower or the two higher numbers of `a` and `b`.
 template <class Batch> [[gnu::always_inline]] inline Batch zip_low(const Batch& a, const Batch& b) {
 #if defined(__AVX512F__)
   if constexpr (Batch::size == 16) return _mm512_unpacklo_ps(a, b);
@@ -39,14 +40,14 @@ template <class Batch>
   d = zip_high(ac_high, bd_high);
 }
 
-/// Where compilers may not move the computation of `batch` down to where it is used.
+/// Keeps compilers from moving the computation of `batch` down to its use.
 template <class Batch> [[gnu::always_inline]] inline void keep_in_order([[maybe_unused]] Batch& batch) {
 #if defined(__AVX__)
   asm("" : "+v"(batch.data));
 #endif
 }
 
-/// Calls `body` with each of the numbers, without a loop: what it keeps in arrays stays in registers.
+/// Calls `body` with each of the numbers, without a loop, so that its arrays stay in registers.
 template <std::size_t... i, class Body>
 [[gnu::always_inline]] inline void unroll(std::index_sequence<i...>, const Body& body) {
   (body(i), ...);
@@ -55,7 +56,7 @@ template <std::size_t kCount, class Body> [[gnu::always_inline]] inline void unr
   unroll(std::make_index_sequence<kCount>(), body);
 }
 
-/// `S` is a HostSimd.
+/// Implements sum_rows(); `S` is a HostSimd.
 template <class S, uint32_t kRows, uint32_t kChannels> struct RowSums {
   using F = typename S::F;
   using F4 = typename S::F4;
@@ -68,7 +69,7 @@ template <class S, uint32_t kRows, uint32_t kChannels> struct RowSums {
     const uint32_t others = ~lanes_like(starts_of, 0) & ((1u << kLanes) - 1);
     uint32_t second = 0;
     if (others != 0) {
-      // Twice all lanes takes less than each by itself where one register holds them.
+      // Two sums over all lanes are faster than one for each lane if one register holds all lanes.
       if constexpr (S::kParts == 1) second = lanes_like(starts_of, first_of(others));
       if ((others & ~second) != 0) return sum_by_lane(table, starts_of, factors_of, sums);
     }
@@ -79,7 +80,7 @@ template <class S, uint32_t kRows, uint32_t kChannels> struct RowSums {
 private:
   static uint32_t first_of(uint32_t lanes) { return static_cast<uint32_t>(__builtin_ctz(lanes)); }
 
-  /// The lanes whose keys are those of `lane`.
+  /// Returns the lanes whose keys equal those of `lane`.
   template <class StartsOf>
   [[gnu::always_inline]] static uint32_t lanes_like(const StartsOf& starts_of, uint32_t lane) {
     using I = typename S::I;
@@ -91,8 +92,8 @@ private:
     return same.bits();
   }
 
-  /// All lanes with the rows of one. Row by row and part by part, so that the sums and a row's factors are in
-  /// registers.
+  /// Sums the rows of one lane for all lanes, row by row and part by part, so that the sums and a row's
+  /// factors stay in registers.
   template <class StartsOf, class FactorsOf>
   [[gnu::always_inline]] static void sum_like(const float* table, const StartsOf& starts_of, uint32_t lane,
                                               const FactorsOf& factors_of, F (&sums)[kChannels]) {
@@ -117,7 +118,7 @@ private:
             (four[channel][0] + four[channel][1]) + (four[channel][2] + four[channel][3]);
     });
   }
-  /// Of some lanes, whose rows are the same.
+  /// Replaces the sums of some lanes, whose rows are the same.
   template <class StartsOf, class FactorsOf>
   static void replace_lanes(const float* table, const StartsOf& starts_of, uint32_t lanes,
                             const FactorsOf& factors_of, F (&sums)[kChannels]) {
@@ -129,8 +130,9 @@ private:
   }
 
 #if defined(__AVX512F__)
-  /// Numbers of a table go to their lanes in registers: to store them one by one takes twice as long. Half
-  /// the lanes at a time, so that what several of their numbers need stays in registers, too.
+  /// Looks up numbers of a table into their lanes in registers: storing them one by one takes twice as
+  /// long. Handles half the lanes at a time, so that values that several numbers share stay in registers,
+  /// too.
   struct LookUp {
     using Numbers = typename S::I;
 
@@ -163,18 +165,18 @@ private:
     }
   };
 
-  /// A row is one unaligned load for each pair of channels, and one for the last of an odd number. Those of
-  /// four lanes are in one register, or of pairs in two: lane 4q + i is the q-th quarter of the i-th register
-  /// of four.
+  /// Loads a row by one unaligned load for each pair of channels, and one for the last of an odd number.
+  /// Four lanes share one register, or two for pairs: lane 4q + i is the q-th quarter of the i-th
+  /// register of four.
   template <class StartsOf, class FactorsOf>
   requires(kLanes == 16)
       static void sum_by_lane(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                               F (&sums)[kChannels]) {
     alignas(64) int32_t indices[kRows][kLanes];
     starts_of.find_indices(LookUp(), indices);
-    asm("" : "+m"(indices)); // or compilers would take the numbers out of the registers that they come from
+    asm("" : "+m"(indices)); // keeps compilers from taking the numbers out of their registers
     Batch four[kChannels][4];
-    // Of pairs of channels, side by side: of lanes i and i + 4, and of i + 8 and i + 12.
+    // Pairs of channels, side by side: `low` has lanes i and i + 4, `high` lanes i + 8 and i + 12.
     Batch low[kPairs + 1][4], high[kPairs + 1][4];
     unroll<kRows>([&](std::size_t row) __attribute__((always_inline)) {
       F factors[4];
@@ -218,7 +220,7 @@ private:
     }
   }
 #endif
-  /// A row is one unaligned load a channel: gathering its numbers takes a load for each.
+  /// Loads a row by one unaligned load a channel: gathering would take a load for each number.
   template <class StartsOf, class FactorsOf>
   static void sum_by_lane(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                           F (&sums)[kChannels]) {
@@ -233,7 +235,7 @@ private:
     }
     alignas(64) float of_lane[kChannels][kLanes];
     for (uint32_t quad = 0; quad < kLanes / 4; ++quad) {
-      // By channel or pair of channels, of each of four lanes the four sums.
+      // By channel or pair of channels: the four sums of each of four lanes.
       Pair pairs[kPairs + 1][4];
       F4 singles[kChannels][4];
       unroll<4>([&](std::size_t i) __attribute__((always_inline)) {
@@ -271,7 +273,7 @@ private:
         : twice(_mm256_broadcast_ps(reinterpret_cast<const __m128*>(four))) {}
     [[gnu::always_inline]] F4 once() const { return {typename F4::Batch(_mm256_castps256_ps128(twice))}; }
   };
-  /// The four sums of two channels side by side: one load and one product for both.
+  /// The four sums of two channels side by side: one load and one product serve both.
   struct Pair {
     __m256 eight;
 
@@ -279,7 +281,7 @@ private:
       const __m256 product = _mm256_mul_ps(_mm256_loadu_ps(numbers), factors.twice);
       eight = is_first ? product : _mm256_add_ps(eight, product);
     }
-    /// Of four lanes.
+    /// Stores the totals of four lanes.
     [[gnu::always_inline]] static void store_total(Pair (&of)[4], float* first, float* second) {
       const __m256 ab_low = _mm256_unpacklo_ps(of[0].eight, of[1].eight),
                    ab_high = _mm256_unpackhi_ps(of[0].eight, of[1].eight);

@@ -1,4 +1,4 @@
-// The SPE side of the runtime: what a kernel may ask of the SPU it runs on.
+// The SPE's side of the runtime: the operations that a kernel may use on its SPU.
 //
 // A kernel is `template <class Spu> void kernel(Spu& spu, ea_t argument)`. It is compiled once per backend;
 // `Spu` is that backend's type and derives from `SpuBase<Spu>` below, which spells every operation in terms
@@ -11,7 +11,7 @@
 //   uint32_t id() const, count() const       this SPE and the number of SPEs of the machine; ids are 0 .. count()-1
 //   SpeAddresses addresses(spe) const        where another SPE's local store and registers are mapped
 //   template <Channel c> uint32_t read_channel()         stalls while the channel's count is 0, if it may stall
-//   template <Channel c> void write_channel(uint32_t)    likewise
+//   template <Channel c> void write_channel(uint32_t)    stalls in the same way
 //   template <Channel c> uint32_t channel_count()        never stalls
 //   template <MfcOpcode op> void mfc_command(void* ls, ea_t ea, uint32_t size, uint32_t tag)
 //   template <MfcOpcode op> void mfc_list_command(void* ls, ea_t ea, const ListElement* list, uint32_t bytes, uint32_t tag)
@@ -22,8 +22,8 @@
 // A backend that measures or checks also hides the members of SpuBase that do nothing: compute(), note(), record(), at(), halt_at().
 // clang-format on
 //
-// Threads: a Spu belongs to the thread that runs its kernel; no operation may be called from another one.
-// What other SPEs and the PPE may touch are the mapped registers and local stores, through DMA and through
+// Threads: a Spu belongs to the thread that runs its kernel; no other thread may call its operations.
+// Other SPEs and the PPE may only touch the mapped registers and local stores, through DMA and through
 // Machine.
 //
 // Errors: an operation that breaks a rule of the architecture (size, alignment, tag, local-store address,
@@ -50,7 +50,7 @@ struct ArenaState {
   uint8_t* next;
 };
 
-/// Scalar work of a stretch of kernel, in instructions; for SpuBase::compute().
+/// Scalar work of a stretch of a kernel, in instructions; for SpuBase::compute().
 struct ScalarWork {
   uint32_t fixed = 0;    ///< integer and logical operations, compares, selects
   uint32_t floating = 0; ///< single precision operations
@@ -60,25 +60,25 @@ struct ScalarWork {
   uint32_t branches = 0;      ///< branches of all kinds
   uint32_t shift = 0;         ///< word shifts and rotations
   uint32_t waits = 0;         ///< cycles that these instructions wait for each other's results
-  uint32_t misses = 0;        ///< cycles lost to branches that nothing foretold
-  const char* name = nullptr; ///< of the constant, for who counts how often which work is done; null: nobody
+  uint32_t misses = 0;        ///< cycles lost to branches without a hint
+  const char* name = nullptr; ///< name of the constant, for recorders that count the work; null: not counted
 };
 
 template <class Derived> class SpuBase {
 public:
   // --- code ---
 
-  /// Call it before functions of a code module are called, which from then on are there, until another module
-  /// of its region is entered. On backends whose code is not in local store it does nothing.
+  /// Makes a code module resident. Call it before functions of the module are called; it stays until another
+  /// module of its region is entered. Does nothing on backends whose code is not in local store.
   void enter_module(const CodeModule&) {}
-  /// Functions of a module say so: on cell_emu, running while the module is not there breaks a rule.
+  /// Checks, on cell_emu, that a function's module is resident. Functions of a module call it.
   void run_in_module(const CodeModule&) {}
 
   // --- local store ---
 
-  /// `count` value-initialised objects in local store, aligned to `alignment` (a power of two, at least 16).
-  /// Halts the SPE with local_store_exhausted if they do not fit, with bad_argument for another alignment.
-  /// There is no free; see mark() and release().
+  /// Returns `count` value-initialised objects in local store, aligned to `alignment` (a power of two, at
+  /// least 16). Halts the SPE with local_store_exhausted if they do not fit, with bad_argument for another
+  /// alignment. There is no free; see mark() and release().
   template <class T>
   T* allocate(uint32_t count = 1, uint32_t alignment = kLineBytes, CallSite site = CallSite::here()) {
     if (alignment < 16 || (alignment & (alignment - 1)) != 0) self().halt_at(HaltCode::bad_argument, site);
@@ -90,24 +90,24 @@ public:
     arena.next = start + count * sizeof(T);
     T* objects = reinterpret_cast<T*>(start);
     if constexpr (std::is_trivially_default_constructible_v<T>) {
-      __builtin_memset(start, 0, count * sizeof(T)); // a loop over bytes would take longer than many a frame
+      __builtin_memset(start, 0, count * sizeof(T)); // a loop over bytes would take longer than many frames
     } else {
       for (uint32_t i = 0; i < count; ++i)
         new (static_cast<void*>(objects + i)) T();
     }
     return objects;
   }
-  /// The present fill of the arena; release() gives back what was allocated since.
+  /// Returns the present fill of the arena; release() frees everything that was allocated since.
   uint8_t* mark() { return self().arena().next; }
   void release(uint8_t* marked) { self().arena().next = marked; }
-  /// Bytes that are still free.
+  /// Returns the number of free bytes.
   uint32_t available() { return static_cast<uint32_t>(self().arena().end - self().arena().next); }
 
   // --- DMA ---
   // `size` is 1, 2, 4, 8 or a multiple of 16 up to 16 KB; ls and ea agree in their low four bits and are
   // naturally aligned (16 bytes from size 16 on). `tag` is 0..31 (31 is the runtime's own, see kRuntimeTag).
-  // The call stalls while the queue of 16 is full; the data may move at any time until a wait has observed
-  // the tag's completion. f: after all earlier commands of the tag; b: also before all later ones.
+  // A call stalls while the queue of 16 is full; the data may move at any time until a wait has observed
+  // the tag's completion. Suffix f: after all earlier commands of the tag; b: also before all later ones.
 
   void get(void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site = CallSite::here()) {
     command<MfcOpcode::get>(ls, ea, size, tag, site);
@@ -128,9 +128,9 @@ public:
     command<MfcOpcode::putb>(ls, ea, size, tag, site);
   }
 
-  // Lists: `list` are `elements` (at most 2048) ListElements in local store, 8-byte aligned; `ls` is where
-  // the data lies (each element starts at the next 16-byte boundary); `ea` supplies the high half of all
-  // addresses. The list itself must stay untouched until the tag is complete.
+  // Lists: `list` points to `elements` (at most 2048) ListElements in local store, 8-byte aligned; `ls` is
+  // where the data lie (each element starts at the next 16-byte boundary); `ea` supplies the high half of all
+  // addresses. The list itself must stay unchanged until the tag is complete.
 
   void getl(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
             CallSite site = CallSite::here()) {
@@ -168,7 +168,7 @@ public:
   uint32_t getllar(void* ls, ea_t ea, CallSite site = CallSite::here()) {
     return atomic_command<MfcOpcode::getllar>(ls, ea, site);
   }
-  /// Writes the line if the reservation still holds; true if it did.
+  /// Writes the line if the reservation still holds; returns whether it did.
   bool putllc(const void* ls, ea_t ea, CallSite site = CallSite::here()) {
     return (atomic_command<MfcOpcode::putllc>(ls, ea, site) & atomic_status::putllc_failed) == 0;
   }
@@ -176,7 +176,7 @@ public:
   uint32_t putlluc(const void* ls, ea_t ea, CallSite site = CallSite::here()) {
     return atomic_command<MfcOpcode::putlluc>(ls, ea, site);
   }
-  /// As putlluc, queued under a tag.
+  /// As putlluc(), queued under a tag.
   void putqlluc(const void* ls, ea_t ea, uint32_t tag, CallSite site = CallSite::here()) {
     command<MfcOpcode::putqlluc>(ls, ea, kLineBytes, tag, site);
   }
@@ -192,12 +192,12 @@ public:
   uint32_t wait_any(uint32_t mask, CallSite site = CallSite::here()) {
     return tag_status(mask, TagUpdate::any, site);
   }
-  /// The completed tag groups & mask, without stalling.
+  /// Returns the completed tag groups & mask, without stalling.
   uint32_t completed(uint32_t mask, CallSite site = CallSite::here()) {
     return tag_status(mask, TagUpdate::immediate, site);
   }
 
-  /// Tag groups whose lists stopped at a notify element; stalls until there is one.
+  /// Returns the tag groups whose lists stopped at a notify element; stalls until there is one.
   uint32_t read_list_stall_status(CallSite site = CallSite::here()) {
     return read<Channel::rd_list_stall_stat>(site);
   }
@@ -208,18 +208,18 @@ public:
 
   // --- mailboxes ---
 
-  /// The oldest word of the 4-entry inbound mailbox; stalls while it is empty.
+  /// Returns the oldest word of the 4-entry inbound mailbox; stalls while it is empty.
   uint32_t read_in_mailbox(CallSite site = CallSite::here()) { return read<Channel::rd_in_mbox>(site); }
   uint32_t in_mailbox_count(CallSite site = CallSite::here()) { return count_of<Channel::rd_in_mbox>(site); }
-  /// To the PPE; stalls while the previous word is unread.
+  /// Writes a word to the PPE; stalls while the previous word is unread.
   void write_out_mailbox(uint32_t value, CallSite site = CallSite::here()) {
     write<Channel::wr_out_mbox>(value, site);
   }
-  /// Free entries of the outbound mailbox: 1 or 0.
+  /// Returns the free entries of the outbound mailbox: 1 or 0.
   uint32_t out_mailbox_count(CallSite site = CallSite::here()) {
     return count_of<Channel::wr_out_mbox>(site);
   }
-  /// As the outbound mailbox, and interrupts the PPE.
+  /// As write_out_mailbox(), and interrupts the PPE.
   void write_out_interrupt_mailbox(uint32_t value, CallSite site = CallSite::here()) {
     write<Channel::wr_out_intr_mbox>(value, site);
   }
@@ -229,7 +229,7 @@ public:
 
   // --- signal notification ---
 
-  /// Reads and clears the register; stalls while nothing was signalled.
+  /// Read and clear a signal register; stall while nothing was signalled.
   uint32_t read_signal_1(CallSite site = CallSite::here()) { return read<Channel::rd_sig_notify_1>(site); }
   uint32_t read_signal_2(CallSite site = CallSite::here()) { return read<Channel::rd_sig_notify_2>(site); }
   uint32_t signal_1_count(CallSite site = CallSite::here()) {
@@ -248,8 +248,8 @@ public:
     command<MfcOpcode::sndsig>(word, which == Signal::one ? to.signal_1 : to.signal_2, 4, kRuntimeTag, site);
     wait_all(1u << kRuntimeTag, site);
   }
-  /// Writes a word to the inbound mailbox of SPE `spe`. A full mailbox loses its newest word: the protocol
-  /// between the SPEs has to bound what is under way. Returns when the word has been delivered.
+  /// Writes a word to the inbound mailbox of SPE `spe`. A full mailbox loses its newest word, so the protocol
+  /// between the SPEs has to bound the number of words under way. Returns when the word has been delivered.
   void send_mailbox(uint32_t spe, uint32_t value, CallSite site = CallSite::here()) {
     uint32_t* word = outgoing_word(value);
     command<MfcOpcode::put>(word, self().addresses(spe).in_mailbox, 4, kRuntimeTag, site);
@@ -266,7 +266,7 @@ public:
     write<Channel::wr_event_mask>(mask, site);
   }
   uint32_t read_event_mask(CallSite site = CallSite::here()) { return read<Channel::rd_event_mask>(site); }
-  /// Pending & mask; stalls until the count is 1. Clears no pending bit.
+  /// Returns pending & mask; stalls until the count is 1. Clears no pending bit.
   uint32_t read_event_status(CallSite site = CallSite::here()) { return read<Channel::rd_event_stat>(site); }
   uint32_t event_count(CallSite site = CallSite::here()) { return count_of<Channel::rd_event_stat>(site); }
   void acknowledge_events(uint32_t mask, CallSite site = CallSite::here()) {
@@ -278,38 +278,39 @@ public:
   void write_decrementer(uint32_t value, CallSite site = CallSite::here()) {
     write<Channel::wr_dec>(value, site);
   }
-  /// Counts down at the timebase (79.8 MHz on a PlayStation 3).
+  /// Returns the decrementer, which counts down at the timebase (79.8 MHz on a PlayStation 3).
   uint32_t read_decrementer(CallSite site = CallSite::here()) { return read<Channel::rd_dec>(site); }
 
   // --- run control ---
 
-  /// Stops with a 14-bit code. 0x2000..0x20FF end the program as if it returned; with any other the SPE waits
-  /// for Machine::resume(). The real SPU takes the code as part of the instruction.
+  /// Stops with a 14-bit code. 0x2000..0x20FF end the program as if it returned; after any other code the SPE
+  /// waits for Machine::resume(). The code is a template argument because it is part of the real SPU's
+  /// instruction.
   template <uint32_t code> void stop_and_signal(CallSite site = CallSite::here()) {
     static_assert(code < 0x4000, "a stop code has 14 bits");
     self().at(site);
     self().template stop<code>();
   }
 
-  // --- for a machine that measures: nothing happens elsewhere ---
+  // --- for machines that measure; elsewhere these members do nothing ---
 
   /// Declares scalar work that the SIMD facade does not see.
   void compute(const ScalarWork&) {}
   /// Marks a moment in the trace. `what` is a string literal.
   void note(const char*, uint32_t) {}
-  /// Adds a word to what the object `source` of the kernel records (recorder.hpp).
+  /// Adds a word to the recording of the kernel's object `source` (recorder.hpp).
   void record(const void*, uint32_t) {}
-  /// Where in the kernel the operation that follows stands.
+  /// Names the place in the kernel of the operation that follows.
   void at(CallSite) {}
-  /// halt() for what was asked for at this place.
+  /// Halts, as halt(), because of a call at this place.
   [[noreturn]] void halt_at(HaltCode code, CallSite) { self().halt(code); }
 
-  /// The tag of send_signal() and send_mailbox().
+  /// The DMA tag that send_signal() and send_mailbox() use.
   static constexpr uint32_t kRuntimeTag = 31;
 
 protected:
-  /// Call once the arena exists, before the kernel runs: reserves the quadword that outgoing words leave
-  /// from.
+  /// Reserves the quadword that outgoing words are sent from. Call it once the arena exists, before the
+  /// kernel runs.
   void initialise_base() { outgoing_ = self().template allocate<uint32_t>(4, 16); }
 
 private:
@@ -331,7 +332,8 @@ private:
     self().at(site);
     self().template mfc_command<op>(const_cast<void*>(ls), ea, size, tag);
   }
-  /// A list command carries its list's local-store address in the low half of the effective address.
+  /// Issues a list command, which carries its list's local-store address in the low half of the effective
+  /// address.
   template <MfcOpcode op>
   void list_command(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
                     CallSite site) {
@@ -348,7 +350,8 @@ private:
     write<Channel::wr_tag_update>(static_cast<uint32_t>(request), site);
     return read<Channel::rd_tag_stat>(site);
   }
-  /// The registers of other SPEs lie at 0xC of a quadword, so the word to send lies in word 3 of one.
+  /// Returns the word to send, word 3 of a quadword, because the registers of other SPEs lie at 0xC of a
+  /// quadword.
   uint32_t* outgoing_word(uint32_t value) {
     outgoing_[3] = value;
     return outgoing_ + 3;

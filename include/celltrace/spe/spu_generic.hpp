@@ -1,6 +1,6 @@
 // The generic intrinsics of the C/C++ Language Extensions for Cell that compute, spu_*: one name for the
-// instructions of all types of elements. A scalar in the place of a vector stands for all elements. They do
-// exactly what the SPU does, see spu_instructions.hpp.
+// instructions of all element types. A scalar in the place of a vector stands for all elements. The
+// intrinsics do exactly what the SPU does, see spu_instructions.hpp.
 #pragma once
 
 #include "celltrace/spe/spu_specific.hpp"
@@ -10,7 +10,7 @@
 
 namespace celltrace::sdk {
 
-/// An operand in its register: a vector, or a scalar for every element of T.
+/// Returns an operand in its register: a vector, or a scalar for every element of T.
 template <class T, class Operand> Quadword operand(const Operand& given) {
   if constexpr (AnyVector<Operand>) {
     static_assert(sizeof(ElementOf<Operand>) == sizeof(T), "operands have elements of one size");
@@ -26,14 +26,14 @@ template <class T, class Operand> Quadword operand(const Operand& given) {
 template <AnyVector V> Quadword register_of(const V& v) {
   return VectorOf<V>(v).quadword();
 }
-/// A count or mask in the preferred slot of a register.
+/// Returns a register with a count or mask in its preferred slot.
 inline Quadword preferred(unsigned int word) {
   Quadword q = Quadword::zero();
   q.set(0, word);
   return q;
 }
 
-/// Result: the type of the elements.
+/// Executes an instruction with one operand; `Result` is the type of the elements.
 template <class Result> Vector<Result> unary(Opcode opcode, const Quadword& a, int immediate = 0) {
   return Vector<Result>(execute(opcode, a, Quadword::zero(), Quadword::zero(), immediate));
 }
@@ -45,7 +45,7 @@ Vector<Result> ternary(Opcode opcode, const Quadword& a, const Quadword& b, cons
   return Vector<Result>(execute(opcode, a, b, c, 0));
 }
 
-/// The instruction for elements of T.
+/// Returns the instruction for elements of T.
 template <OpcodeByElement by, class T> constexpr Opcode opcode_for() {
   constexpr Opcode opcode = by.of<T>();
   static_assert(opcode != Opcode::stop, "there is no such operation on elements of this type");
@@ -53,7 +53,7 @@ template <OpcodeByElement by, class T> constexpr Opcode opcode_for() {
 }
 template <class T> constexpr bool is_unsigned = std::is_unsigned_v<T>;
 
-/// What compares give.
+/// The element type of the masks that compares return.
 template <class T>
 using MaskOf = std::conditional_t<
     sizeof(T) == 1, unsigned char,
@@ -74,7 +74,7 @@ auto spu_splats(Scalar scalar) {
     all[i] = static_cast<typename decltype(all)::value_type>(scalar);
   return all;
 }
-/// Of the number of the element only the low bits count.
+/// Returns an element, whose number counts modulo the number of elements.
 template <celltrace::sdk::AnyVector V> celltrace::sdk::ElementOf<V> spu_extract(const V& v, int element) {
   using Elements = celltrace::sdk::VectorOf<V>;
   return Elements(v)[static_cast<unsigned>(element) % Elements::kElements];
@@ -86,7 +86,7 @@ celltrace::sdk::VectorOf<V> spu_insert(Scalar scalar, const V& v, int element) {
       static_cast<celltrace::sdk::ElementOf<V>>(scalar);
   return result;
 }
-/// The other elements, which are undefined on the SPU, are 0.
+/// Sets the other elements to 0, which are undefined on the SPU.
 template <class Scalar>
 requires std::is_arithmetic_v<Scalar>
 auto spu_promote(Scalar scalar, int element) {
@@ -108,7 +108,7 @@ inline vec_int4 spu_convts(const vec_float4& a, int scale) {
 inline vec_uint4 spu_convtu(const vec_float4& a, int scale) {
   return celltrace::sdk::unary<unsigned int>(celltrace::isa::Opcode::cfltu, a.quadword(), scale);
 }
-/// Of a vec_float4 the elements 0 and 2; of integers the lower half of each element of the result.
+/// Takes elements 0 and 2 of a vec_float4; of integers the lower half of each element of the result.
 template <celltrace::sdk::AnyVector V> auto spu_extend(const V& a) {
   using namespace celltrace::sdk;
   using T = ElementOf<V>;
@@ -122,7 +122,7 @@ template <celltrace::sdk::AnyVector V> auto spu_extend(const V& a) {
   else
     return unary<long long>(Opcode::xswd, register_of(a));
 }
-/// To the elements 0 and 2.
+/// Writes the results to elements 0 and 2.
 inline vec_float4 spu_roundtf(const vec_double2& a) {
   return celltrace::sdk::unary<float>(celltrace::isa::Opcode::frds, a.quadword());
 }
@@ -136,7 +136,7 @@ template <celltrace::sdk::AnyVector V, class B> celltrace::sdk::VectorOf<V> spu_
       .halfword = Opcode::ah, .word = Opcode::a, .single = Opcode::fa, .doubleword = Opcode::dfa};
   return binary<T>(opcode_for<kAdd, T>(), register_of(a), operand<T>(b));
 }
-/// One of them may be a scalar.
+/// Subtracts; one of the operands may be a scalar.
 template <class A, class B>
 requires celltrace::sdk::AnyVector<A> || celltrace::sdk::AnyVector<B>
 auto spu_sub(const A& a, const B& b) {
@@ -174,7 +174,8 @@ CELLTRACE_SPU_CARRY(spu_genb, bg, b, a)
 #undef CELLTRACE_SPU_EXTENDED
 #undef CELLTRACE_SPU_CARRY
 
-/// a * b + c, of floating point; of vec_short8 the product of the odd elements, and a vec_int4.
+/// Returns a * b + c for floating point; for vec_short8 uses the products of the odd elements, and adds a
+/// vec_int4.
 template <celltrace::sdk::AnyVector V, celltrace::sdk::AnyVector W>
 celltrace::sdk::VectorOf<W> spu_madd(const V& a, const std::type_identity_t<V>& b, const W& c) {
   using namespace celltrace::sdk;
@@ -188,7 +189,7 @@ celltrace::sdk::VectorOf<W> spu_madd(const V& a, const std::type_identity_t<V>& 
     return ternary<T>(opcode_for<kMultiplyAdd, T>(), register_of(a), register_of(b), register_of(c));
   }
 }
-/// The products of the even elements are added.
+/// Adds the products of the even elements.
 template <celltrace::sdk::AnyVector V, celltrace::sdk::AnyVector W>
 celltrace::sdk::VectorOf<W> spu_mhhadd(const V& a, const std::type_identity_t<V>& b, const W& c) {
   using namespace celltrace::sdk;
@@ -209,11 +210,11 @@ celltrace::sdk::VectorOf<W> spu_mhhadd(const V& a, const std::type_identity_t<V>
     return ternary<T>(opcode_for<kFused, T>(), register_of(a), register_of(b), register_of(c));              \
   }
 #define CELLTRACE_ARGUMENTS(...) __VA_ARGS__
-/// a * b - c
+/// a * b - c.
 CELLTRACE_SPU_FUSED(spu_msub, CELLTRACE_ARGUMENTS({.single = Opcode::fms, .doubleword = Opcode::dfms}))
-/// c - a * b
+/// c - a * b.
 CELLTRACE_SPU_FUSED(spu_nmsub, CELLTRACE_ARGUMENTS({.single = Opcode::fnms, .doubleword = Opcode::dfnms}))
-/// -(a * b + c)
+/// -(a * b + c).
 CELLTRACE_SPU_FUSED(spu_nmadd, CELLTRACE_ARGUMENTS({.doubleword = Opcode::dfnma}))
 #undef CELLTRACE_SPU_FUSED
 #undef CELLTRACE_ARGUMENTS
@@ -226,15 +227,15 @@ celltrace::sdk::VectorOf<V> spu_mul(const V& a, const std::type_identity_t<V>& b
   return binary<T>(opcode_for<kMultiply, T>(), register_of(a), register_of(b));
 }
 
-/// The even halfwords of a, times the odd ones of b, in the high halfwords of words.
+/// Multiplies the even halfwords of a by the odd ones of b, into the high halfwords of words.
 inline vec_int4 spu_mulh(const vec_short8& a, const vec_short8& b) {
   return celltrace::sdk::binary<int>(celltrace::isa::Opcode::mpyh, a.quadword(), b.quadword());
 }
-/// The products of the odd halfwords, shifted right by 16.
+/// Returns the products of the odd halfwords, shifted right by 16.
 inline vec_int4 spu_mulsr(const vec_short8& a, const vec_short8& b) {
   return celltrace::sdk::binary<int>(celltrace::isa::Opcode::mpys, a.quadword(), b.quadword());
 }
-/// The products of the even halfwords.
+/// Returns the products of the even halfwords.
 template <celltrace::sdk::AnyVector V> auto spu_mule(const V& a, const std::type_identity_t<V>& b) {
   using namespace celltrace::sdk;
   using T = ElementOf<V>;
@@ -242,7 +243,7 @@ template <celltrace::sdk::AnyVector V> auto spu_mule(const V& a, const std::type
   using Product = std::conditional_t<is_unsigned<T>, unsigned int, int>;
   return binary<Product>(is_unsigned<T> ? Opcode::mpyhhu : Opcode::mpyhh, register_of(a), register_of(b));
 }
-/// The products of the odd halfwords.
+/// Returns the products of the odd halfwords.
 template <celltrace::sdk::AnyVector V, class B> auto spu_mulo(const V& a, const B& b) {
   using namespace celltrace::sdk;
   using T = ElementOf<V>;
@@ -251,7 +252,7 @@ template <celltrace::sdk::AnyVector V, class B> auto spu_mulo(const V& a, const 
   return binary<Product>(is_unsigned<T> ? Opcode::mpyu : Opcode::mpy, register_of(a), operand<T>(b));
 }
 
-/// Estimates of 1 / a and 1 / sqrt(|a|), good to 12 bits.
+/// Return estimates of 1 / a and 1 / sqrt(|a|), good to 12 bits.
 inline vec_float4 spu_re(const vec_float4& a) {
   const qword ra(a);
   return vec_float4(si_fi(ra, si_frest(ra)));
@@ -269,7 +270,7 @@ inline vec_uchar16 spu_absd(const vec_uchar16& a, const vec_uchar16& b) {
 inline vec_uchar16 spu_avg(const vec_uchar16& a, const vec_uchar16& b) {
   return celltrace::sdk::binary<unsigned char>(celltrace::isa::Opcode::avgb, a.quadword(), b.quadword());
 }
-/// Of every four bytes: the sum of b's in the even, of a's in the odd halfword.
+/// Sums every four bytes: those of b into the even, those of a into the odd halfword.
 inline vec_ushort8 spu_sumb(const vec_uchar16& a, const vec_uchar16& b) {
   return celltrace::sdk::binary<unsigned short>(celltrace::isa::Opcode::sumb, a.quadword(), b.quadword());
 }
@@ -312,7 +313,7 @@ template <celltrace::sdk::AnyVector V> auto spu_cmpabsgt(const V& a, const std::
   constexpr OpcodeByElement kGreater{.single = Opcode::fcmgt, .doubleword = Opcode::dfcmgt};
   return binary<MaskOf<T>>(opcode_for<kGreater, T>(), register_of(a), register_of(b));
 }
-/// `tests`: SPU_SV_NAN and its like.
+/// Tests for special values; `tests` combines SPU_SV_NAN and the other SPU_SV constants.
 inline vec_ullong2 spu_testsv(const vec_double2& a, int tests) {
   return celltrace::sdk::unary<unsigned long long>(celltrace::isa::Opcode::dftsv, a.quadword(), tests);
 }
@@ -330,7 +331,7 @@ template <std::integral A, std::integral B> void spu_hcmpgt(A a, B b) {
 
 // --- bits ---
 
-/// The ones in each byte.
+/// Counts the ones in each byte.
 template <celltrace::sdk::AnyVector V> vec_uchar16 spu_cntb(const V& a) {
   static_assert(sizeof(celltrace::sdk::ElementOf<V>) == 1, "counts in bytes");
   return celltrace::sdk::unary<unsigned char>(celltrace::isa::Opcode::cntb, celltrace::sdk::register_of(a));
@@ -339,7 +340,7 @@ template <celltrace::sdk::AnyVector V> vec_uint4 spu_cntlz(const V& a) {
   static_assert(sizeof(celltrace::sdk::ElementOf<V>) == 4, "counts in words");
   return celltrace::sdk::unary<unsigned int>(celltrace::isa::Opcode::clz, celltrace::sdk::register_of(a));
 }
-/// The lowest bits of all elements, in element 0.
+/// Gathers the lowest bits of all elements in element 0.
 template <celltrace::sdk::AnyVector V> vec_uint4 spu_gather(const V& a) {
   using namespace celltrace::sdk;
   using T = ElementOf<V>;
@@ -359,7 +360,7 @@ template <std::integral Bits> vec_uint4 spu_maskw(Bits bits) {
   return celltrace::sdk::unary<unsigned int>(celltrace::isa::Opcode::fsm,
                                              celltrace::sdk::preferred(static_cast<unsigned int>(bits)));
 }
-/// The bits of b where those of the mask are 1, else those of a.
+/// Selects the bits of b where the mask's are 1, else those of a.
 template <celltrace::sdk::AnyVector V, celltrace::sdk::AnyVector Mask>
 celltrace::sdk::VectorOf<V> spu_sel(const V& a, const std::type_identity_t<V>& b, const Mask& mask) {
   using namespace celltrace::sdk;
@@ -389,7 +390,7 @@ CELLTRACE_SPU_LOGIC(spu_or, or_)
 CELLTRACE_SPU_LOGIC(spu_orc, orc)
 CELLTRACE_SPU_LOGIC(spu_xor, xor_)
 #undef CELLTRACE_SPU_LOGIC
-/// All words together, in element 0.
+/// Returns the OR of all words in element 0.
 template <celltrace::sdk::AnyVector V> celltrace::sdk::VectorOf<V> spu_orx(const V& a) {
   static_assert(celltrace::sdk::is_one_of<celltrace::sdk::ElementOf<V>, int, unsigned int>, "works on words");
   return celltrace::sdk::unary<celltrace::sdk::ElementOf<V>>(celltrace::isa::Opcode::orx,
@@ -398,7 +399,7 @@ template <celltrace::sdk::AnyVector V> celltrace::sdk::VectorOf<V> spu_orx(const
 
 // --- shifts and rotates of elements ---
 
-// Counts that are too large shift everything out; spu_rlmask() and spu_rlmaska() shift right by the negative
+// Counts that are too large shift all bits out; spu_rlmask() and spu_rlmaska() shift right by the negative
 // count.
 #define CELLTRACE_SPU_SHIFT(name, of_halfwords, of_words, sign)                                              \
   template <celltrace::sdk::AnyVector V, class Count>                                                        \
@@ -421,7 +422,8 @@ CELLTRACE_SPU_SHIFT(spu_sra, rotmah, rotma, -)
 
 // --- shifts and rotates of the quadword ---
 
-// By bits only the low three of the count are used; by "bytes from bit shift count" those above them.
+// Shifts by bits use only the low three bits of the count; those by "bytes from bit shift count" the bits
+// above.
 #define CELLTRACE_SPU_QUADWORD(name, opcode, of_count)                                                       \
   template <celltrace::sdk::AnyVector V> celltrace::sdk::VectorOf<V> name(const V& a, int count) {           \
     using namespace celltrace::sdk;                                                                          \
@@ -441,7 +443,7 @@ CELLTRACE_SPU_QUADWORD(spu_slqwbyte, shlqby, CELLTRACE_COUNT)
 CELLTRACE_SPU_QUADWORD(spu_slqwbytebc, shlqbybi, CELLTRACE_COUNT)
 CELLTRACE_SPU_QUADWORD(spu_srqw, rotqmbi, CELLTRACE_RIGHT)
 CELLTRACE_SPU_QUADWORD(spu_srqwbyte, rotqmby, CELLTRACE_RIGHT)
-// The instruction negates the bytes, which are rounded down: from 7 on they are right.
+// The instruction negates the number of bytes, which is rounded down, so that counts start from 7.
 CELLTRACE_SPU_QUADWORD(spu_srqwbytebc, rotqmbybi, 7u -)
 #undef CELLTRACE_SPU_QUADWORD
 #undef CELLTRACE_COUNT

@@ -1,7 +1,7 @@
 // The SDK's <spu_intrinsics.h>, for existing SPE sources on the emulated Cell: vector types, the specific
-// (si_*) and generic (spu_*) intrinsics of the C/C++ Language Extensions for Cell. What has to do with
-// channels, interrupts and run control is in this file; it acts on the SPE whose program runs on the present
-// thread, and throws SpeError where none does. On a real SPU this header is the compiler's own.
+// (si_*) and generic (spu_*) intrinsics of the C/C++ Language Extensions for Cell. This file itself has the
+// intrinsics of channels, interrupts and run control; they act on the SPE whose program runs on the present
+// thread, and throw SpeError if none does. On a real SPU this header is the compiler's own.
 #pragma once
 
 #ifdef __SPU__
@@ -43,7 +43,7 @@ constexpr unsigned int SPU_WrOutMbox = 28;
 constexpr unsigned int SPU_RdInMbox = 29;
 constexpr unsigned int SPU_WrOutIntrMbox = 30;
 
-// --- spu_testsv(): what is looked for ---
+// --- spu_testsv(): values to test for ---
 
 constexpr int SPU_SV_NEG_DENORM = 0x01;
 constexpr int SPU_SV_POS_DENORM = 0x02;
@@ -55,7 +55,7 @@ constexpr int SPU_SV_NAN = 0x40;
 
 namespace celltrace::sdk {
 
-/// The running SPE, about to do what stands at `site`.
+/// Returns the running SPE, and notes that the next operation stands at `site`.
 inline cell_emu::Spu& spu_at(CallSite site) {
   cell_emu::Spu& spu = cell_emu::Spu::running();
   spu.at(site);
@@ -80,7 +80,7 @@ inline unsigned int spu_readchcnt(unsigned int channel,
   return celltrace::sdk::spu_at(site).channel_count(channel);
 }
 
-// The same by registers, of which the preferred slot counts.
+// Channel access by registers, whose preferred slot counts.
 
 inline qword si_rdch(unsigned int channel, celltrace::CallSite site = celltrace::CallSite::here()) {
   return si_from_uint(spu_readch(channel, site));
@@ -101,9 +101,10 @@ void spu_writechqw(unsigned int channel, const V& value,
   si_wrch(channel, qword(celltrace::sdk::VectorOf<V>(value)), site);
 }
 
-// --- MFC commands by their word ---
+// --- MFC commands by their opcode ---
 
-/// What a cast of a local-store pointer to unsigned int gives on a real SPU. Not of the SDK.
+/// Returns the number that a cast of a local-store pointer to unsigned int gives on a real SPU. Not part of
+/// the SDK.
 inline unsigned int spu_ls_address(const volatile void* pointer) {
   return celltrace::cell_emu::Spu::running().local_address(celltrace::sdk::local_pointer(pointer));
 }
@@ -111,13 +112,14 @@ inline unsigned int spu_ls_address(const volatile void* pointer) {
 inline qword si_from_ptr(const volatile void* pointer) {
   return si_from_uint(pointer == nullptr ? 0 : spu_ls_address(pointer));
 }
-/// Null for the address 0.
+/// Returns the pointer to a local-store address; null for the address 0.
 inline void* si_to_ptr(qword ra) {
   const unsigned int lsa = si_to_uint(ra);
   return lsa == 0 ? nullptr : static_cast<char*>(celltrace::sdk::local_quadword(lsa)) + (lsa & 15);
 }
 
-/// With the EAH that was written last. For a list command, `eal` is the list's spu_ls_address().
+/// Issues a command with the EAH that was written last. For a list command, `eal` is the list's
+/// spu_ls_address().
 inline void spu_mfcdma32(const volatile void* ls, unsigned int eal, unsigned int size, unsigned int tag,
                          unsigned int command, celltrace::CallSite site = celltrace::CallSite::here()) {
   spu_writech(MFC_LSA, ls == nullptr ? 0 : spu_ls_address(ls), site);
@@ -145,14 +147,15 @@ inline unsigned int spu_mfcstat(unsigned int type, celltrace::CallSite site = ce
 template <class Handler> void spu_bisled(Handler handler) {
   celltrace::cell_emu::Spu::running().branch_if_event([&](auto&) { handler(); });
 }
-/// What is at LS 0 on a real SPU is what EmulatedSpu::enable_interrupts() was given; SpeError if nothing was.
+/// Enables interrupts with the handler of EmulatedSpu::enable_interrupts(), which stands for the code at LS 0
+/// of a real SPU. Throws SpeError if there is none.
 inline void spu_ienable() {
   celltrace::cell_emu::Spu::running().enable_interrupts();
 }
 inline void spu_idisable() {
   celltrace::cell_emu::Spu::running().disable_interrupts();
 }
-/// Interrupts are disabled, or enabled, if it branches.
+/// Disables, or enables, interrupts if it branches.
 template <class Handler> void spu_bisled_d(Handler handler) {
   celltrace::cell_emu::Spu::running().branch_if_event([&](auto& spu) {
     spu.disable_interrupts();
@@ -175,17 +178,17 @@ inline void spu_mtspr(int number, unsigned int value) {
 
 // --- run control ---
 
-/// The code is part of the instruction, so it is a constant.
+/// Stops with a code that is part of the instruction, so that it has to be a constant.
 #define spu_stop(code) (celltrace::cell_emu::Spu::running().stop_and_signal<(code)>())
 
 #define si_stop(code) spu_stop(code)
-/// Its registers are for debuggers; the code is 0x3FFF.
+/// Stops with the code 0x3FFF; the registers are for debuggers.
 #define si_stopd(ra, rb, rc) ((void)(ra), (void)(rb), (void)(rc), spu_stop(0x3FFF))
 
-/// For optimisers alone.
+/// Does nothing: a hint for optimisers.
 #define __align_hint(pointer, base, offset) ((void)0)
 
-// Loads and stores are in order on the emulated Cell.
+// Does nothing: loads and stores are in order on the emulated Cell.
 inline void spu_sync() {
 }
 inline void spu_sync_c() {

@@ -1,6 +1,6 @@
 // The SDK's <spu_mfcio.h>, for existing SPE sources in C or C++ on the emulated Cell: DMA, tag groups,
-// mailboxes, signals, events and the decrementer under the names that they use. Everything acts on the SPE
-// whose program runs on the present thread, and throws SpeError where none does. On a real SPU this header is
+// mailboxes, signals, events and the decrementer under the SDK's names. Everything acts on the SPE
+// whose program runs on the present thread, and throws SpeError if none does. On a real SPU this header is
 // the compiler's own.
 //
 //   #define main saxpy_main
@@ -8,9 +8,9 @@
 //   #undef main
 //   const EmulatedRun run = emulate(lockstep(2), spe_main(saxpy_main), to_ea(&control));
 //
-// Differences from the SDK: effective addresses have 64 bits, as main memory has on a PC; what DMA moves lies
-// in LocalStore objects or in what EmulatedSpu::allocate() returns; functions instead of macros.
-// docs/testing-spe-code.md says more.
+// Differences from the SDK: effective addresses have 64 bits, like main memory on a PC; DMA buffers have to
+// be LocalStore objects or memory from EmulatedSpu::allocate(); functions instead of macros.
+// docs/testing-spe-code.md has more.
 #pragma once
 
 #ifdef __SPU__
@@ -32,7 +32,7 @@ constexpr unsigned int MFC_CMD_WORD(unsigned int tid, unsigned int rid, unsigned
   return tid << 24 | rid << 16 | command;
 }
 
-/// As the SDK's, with the bits where ListElement has them.
+/// The SDK's list element, with the bits at the same places as in ListElement.
 struct mfc_list_element_t {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
   uint32_t notify : 1;
@@ -46,7 +46,7 @@ struct mfc_list_element_t {
   uint32_t eal;
 
   mfc_list_element_t() = default;
-  /// In the order of the SDK's fields.
+  /// Takes the fields in the SDK's order.
   constexpr mfc_list_element_t(uint32_t notify_bit, uint32_t reserved_bits, uint32_t bytes, uint32_t ea_low)
       : eal(ea_low) {
     notify = notify_bit & 1;
@@ -60,7 +60,7 @@ static_assert(sizeof(mfc_list_element_t) == sizeof(celltrace::ListElement));
 
 namespace celltrace::sdk {
 
-/// What the SDK's macros take for an effective address: 64 bits, or a pointer of the host.
+/// An effective address as the SDK's macros take it: 64 bits, or a pointer of the host.
 struct EffectiveAddress {
   ea_t value;
 
@@ -95,7 +95,7 @@ void command(const volatile void* ls, EffectiveAddress ea, uint32_t size, uint32
 template <MfcOpcode op>
 void list_command(const volatile void* ls, EffectiveAddress ea, const volatile void* list, std::size_t bytes,
                   uint32_t tag, CallSite site) {
-  // A product with the size of an element has 64 bits on a PC.
+  // A count times the size of an element has 64 bits on a PC.
   const auto length =
       static_cast<uint32_t>(std::min<std::size_t>(bytes, ListElement::list_bytes(~uint64_t{0})));
   spu_at(site).mfc_list_command<op>(local_pointer(ls), ea.value,
@@ -105,7 +105,7 @@ void list_command(const volatile void* ls, EffectiveAddress ea, const volatile v
 } // namespace celltrace::sdk
 
 // --- DMA ---
-// tid and rid, the transfer and replacement class, change the speed of a transfer and not what it does; they
+// tid and rid, the transfer and replacement class, change only the speed of a transfer; they
 // are ignored.
 
 inline void mfc_put(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int size,
@@ -139,7 +139,7 @@ inline void mfc_getb(const volatile void* ls, celltrace::sdk::EffectiveAddress e
   celltrace::sdk::command<celltrace::MfcOpcode::getb>(ls, ea, size, tag, site);
 }
 
-// Lists: `bytes` is the size of the list, 8 for every element; of `ea` only the high half counts.
+// Lists: `bytes` is the size of the list, 8 for every element; only the high half of `ea` counts.
 
 inline void mfc_putl(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
                      std::size_t bytes, unsigned int tag, unsigned int, unsigned int,
@@ -172,7 +172,7 @@ inline void mfc_getlb(const volatile void* ls, celltrace::sdk::EffectiveAddress 
   celltrace::sdk::list_command<celltrace::MfcOpcode::getlb>(ls, ea, list, bytes, tag, site);
 }
 
-// Lock lines; mfc_read_atomic_status() says how the first three went.
+// Lock lines; mfc_read_atomic_status() returns the result of the first three.
 
 inline void mfc_getllar(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int,
                         unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
@@ -379,7 +379,7 @@ namespace celltrace::sdk {
 /// The tags that an SPE's program has reserved.
 inline LocalStore<uint32_t, 16> reserved_tags;
 
-/// The bits of `count` tags from `tag` on; 0 if there are no such tags.
+/// Returns the bits of `count` tags from `tag` on; 0 if there are no such tags.
 constexpr uint32_t tag_bits(unsigned int tag, unsigned int count) {
   if (count == 0 || count > kMfcTags || tag > kMfcTags - count) return 0;
   return static_cast<uint32_t>(((uint64_t{1} << count) - 1) << tag);
@@ -387,7 +387,7 @@ constexpr uint32_t tag_bits(unsigned int tag, unsigned int count) {
 
 } // namespace celltrace::sdk
 
-/// The first of `count` free tags in sequence, which are reserved from now on, or MFC_TAG_INVALID.
+/// Reserves `count` free tags in sequence and returns the first, or MFC_TAG_INVALID if there are none.
 inline unsigned int mfc_multi_tag_reserve(unsigned int count) {
   uint32_t& reserved = *celltrace::sdk::reserved_tags;
   for (unsigned int tag = 0; tag < celltrace::kMfcTags; ++tag) {
@@ -398,7 +398,7 @@ inline unsigned int mfc_multi_tag_reserve(unsigned int count) {
   }
   return MFC_TAG_INVALID;
 }
-/// MFC_TAG_INVALID, and nothing is released, unless all of them are reserved.
+/// Releases the tags. Returns MFC_TAG_INVALID, and releases nothing, unless all of them are reserved.
 inline unsigned int mfc_multi_tag_release(unsigned int tag, unsigned int count) {
   uint32_t& reserved = *celltrace::sdk::reserved_tags;
   const uint32_t bits = celltrace::sdk::tag_bits(tag, count);
@@ -415,7 +415,7 @@ inline unsigned int mfc_tag_release(unsigned int tag) {
 
 namespace celltrace {
 
-/// The `main(speid, argp, envp)` of an SPE program, renamed, as a program for emulate(). What it returns is
+/// Turns the renamed `main(speid, argp, envp)` of an SPE program into a program for emulate(). Its result is
 /// the exit code. It may take fewer arguments.
 template <class... Arguments> auto spe_main(int (*main_function)(Arguments...), unsigned long long envp = 0) {
   static_assert(sizeof...(Arguments) <= 3, "main(speid, argp, envp)");

@@ -1,11 +1,11 @@
-// The specific intrinsics of the C/C++ Language Extensions for Cell, si_*: an instruction of the SPU each, on
-// registers (qword). Arguments are in the order of the instruction's operands; what an instruction reads and
-// writes (rt) comes last. Immediates are the numbers that assembly has, scales of conversions 0..127. They do
-// exactly what the SPU does, see spu_instructions.hpp.
+// The specific intrinsics of the C/C++ Language Extensions for Cell, si_*: each is an instruction of the SPU,
+// on registers (qword). Arguments are in the order of the instruction's operands; a register that an
+// instruction reads and writes (rt) comes last. Immediates are the numbers as in assembly, scales of
+// conversions 0..127. The intrinsics do exactly what the SPU does, see spu_instructions.hpp.
 //
-// Addresses are those in local store, as numbers: si_from_ptr() and spu_ls_address() give them. What is
-// loaded and stored by si_lqd() and its like are words in the host's byte order. Of instructions that mean a
-// place in the code (lqr, stqr, bisled) there are none; spu_bisled() takes a function.
+// Addresses are numbers in local store, as from si_from_ptr() and spu_ls_address(). si_lqd() and the other
+// loads and stores move words in the host's byte order. Instructions that refer to a
+// place in the code (lqr, stqr, bisled) are missing; spu_bisled() takes a function.
 #pragma once
 
 #include "celltrace/spe/spu_vectors.hpp"
@@ -223,7 +223,7 @@ CELLTRACE_SI_A_IMMEDIATE(dftsv)
 #undef CELLTRACE_SI_A_IMMEDIATE
 #undef CELLTRACE_SI_IMMEDIATE
 
-// --- halts: of the preferred slot ---
+// --- halts, which compare the preferred slots ---
 
 inline void si_heq(qword ra, qword rb) {
   celltrace::sdk::si(celltrace::isa::Opcode::heq, ra, rb, qword{}, 0);
@@ -248,7 +248,7 @@ inline void si_hlgti(qword ra, int immediate) {
 
 namespace celltrace::sdk {
 
-/// A scalar of 1 or 2 bytes ends at byte 3, a larger one begins at byte 0.
+/// Element of the preferred slot: a scalar of 1 or 2 bytes ends at byte 3, a larger one begins at byte 0.
 template <class Scalar>
 constexpr unsigned kPreferredElement = sizeof(Scalar) < 4 ? 4 / sizeof(Scalar) - 1 : 0;
 
@@ -368,14 +368,14 @@ inline qword si_fscrrd() {
 inline void si_fscrwr(qword ra) {
   celltrace::sdk::si(celltrace::isa::Opcode::fscrwr, ra, qword{}, qword{}, 0);
 }
-/// No special-purpose register is defined: they read as 0.
+/// Returns 0: no special-purpose register is defined.
 inline qword si_mfspr(int) {
   return qword{};
 }
 inline void si_mtspr(int, qword) {
 }
 
-// --- what only takes time, or orders what is in order on the emulated Cell ---
+// --- instructions that only take time, or order what is in order on the emulated Cell ---
 
 inline void si_nop() {
 }

@@ -1,9 +1,10 @@
-// The vector types of the C/C++ Language Extensions for Cell, on the host: vec_float4 and its like, and
+// The vector types of the C/C++ Language Extensions for Cell, on the host: vec_float4 and others, and
 // qword.
 //
-// They behave as on the SPU: element 0 is the one at the lowest address, and a cast from one type to another
-// keeps the 128 bits of the register, in which element 0 is the most significant, whatever the byte order of
-// the host. Operators compute what the SPU's instructions do. In memory an element is a number of the host.
+// The types behave as on the SPU: element 0 is the one at the lowest address, and a cast from one type to
+// another keeps the 128 bits of the register, in which element 0 is the most significant, whatever the byte
+// order of the host. Operators compute the same as the SPU's instructions. In memory an element is a number
+// of the host.
 //
 //   vec_float4 v = {1, 2, 3, 4};
 //   vec_uchar16 pattern = (vec_uchar16)(vec_uint4){0x04050607, 0x00010203, 0x0C0D0E0F, 0x08090A0B};
@@ -25,9 +26,9 @@ namespace celltrace::sdk {
 
 template <class T> class Vector;
 
-/// The compilers' own vectors.
+/// The compilers' own vector types.
 template <class T> struct NativeVector;
-/// What is a vector: element_type is there.
+/// Traits of types; vectors have an element_type.
 template <class V> struct VectorTraits {};
 template <class T> struct VectorTraits<Vector<T>> {
   using element_type = T;
@@ -61,7 +62,7 @@ concept AnyNativeVector = AnyVector<V> && VectorTraits<std::remove_cvref_t<V>>::
 template <AnyVector V> using ElementOf = typename VectorTraits<std::remove_cvref_t<V>>::element_type;
 template <AnyVector V> using VectorOf = Vector<ElementOf<V>>;
 
-/// An element of a list in braces: like C, it takes numbers of any type.
+/// An element of a list in braces, which takes numbers of any type, as in C.
 template <class T> struct ListedElement {
   T value;
   template <class Number>
@@ -69,7 +70,7 @@ template <class T> struct ListedElement {
   constexpr ListedElement(Number number) : value(static_cast<T>(number)) {}
 };
 
-/// The instructions that do an operation with elements of each type; `stop`: there is none.
+/// The instructions of an operation, by type of elements; `stop`: there is none.
 struct OpcodeByElement {
   Opcode byte = Opcode::stop, halfword = Opcode::stop, word = Opcode::stop, single = Opcode::stop,
          doubleword = Opcode::stop;
@@ -81,7 +82,7 @@ struct OpcodeByElement {
   }
 };
 
-/// 16 bytes of elements. Trivial; may alias what it is cast from. Thread safety: that of its bytes.
+/// A vector of 16 bytes. Trivial; may alias other types. Thread safety: that of its bytes.
 template <class T> class [[gnu::may_alias]] alignas(16) Vector {
 public:
   using value_type = T;
@@ -89,7 +90,7 @@ public:
   static constexpr unsigned kElements = 16 / sizeof(T);
 
   Vector() = default;
-  /// {1, 2}: elements that are left out are 0. Throws std::length_error for too many.
+  /// Takes elements in braces; missing ones are 0. Throws std::length_error for too many.
   constexpr Vector(std::initializer_list<ListedElement<T>> list) : elements_{} {
     if (list.size() > kElements) throw std::length_error("too many elements for a vector");
     unsigned i = 0;
@@ -103,7 +104,7 @@ public:
       for (unsigned i = 0; i < kElements; ++i)
         elements_[i] = q.get<T>(i);
   }
-  /// The same bits.
+  /// Converts, keeping the bits.
   template <class Other> explicit Vector(const Vector<Other>& other) : Vector(other.quadword()) {}
 
   Vector(const Native& native) { std::memcpy(elements_, &native, sizeof elements_); }
@@ -120,7 +121,7 @@ public:
     return VectorOf<Other>(*this);
   }
 
-  /// The register that holds it.
+  /// Returns the register that holds the vector.
   Quadword quadword() const {
     if constexpr (sizeof(T) == 1) {
       return Quadword::load(reinterpret_cast<const std::uint8_t*>(elements_));
@@ -162,7 +163,7 @@ public:
   friend Vector operator|(const Vector& a, const Vector& b) { return of(Opcode::or_, a, b); }
   friend Vector operator^(const Vector& a, const Vector& b) { return of(Opcode::xor_, a, b); }
   friend Vector operator~(const Vector& a) { return of(Opcode::nor, a, a); }
-  /// Of floating point it changes the sign, also of a zero.
+  /// Negates; changes the sign of floating-point zeros, too.
   friend Vector operator-(const Vector& a) {
     if constexpr (std::is_floating_point_v<T>) {
       Vector signs;
@@ -181,13 +182,14 @@ public:
   Vector& operator^=(const Vector& b) { return *this = *this ^ b; }
 
 private:
-  /// There are no instructions for sums of bytes and doublewords; compilers for the SPU make them of others.
+  /// True if there are instructions for sums. Compilers for the SPU compose sums of bytes and doublewords
+  /// from others.
   static constexpr bool kHasSums = std::is_floating_point_v<T> || sizeof(T) == 2 || sizeof(T) == 4;
 
   static Vector of(Opcode opcode, const Vector& a, const Vector& b) {
     return Vector(execute(opcode, a.quadword(), b.quadword(), Quadword::zero(), 0));
   }
-  /// Integers that wrap around.
+  /// Applies `f` to each pair of integers, which wrap around.
   template <class F> static Vector each(const Vector& a, const Vector& b, F f) {
     using Bits = std::make_unsigned_t<std::conditional_t<sizeof(T) < 4, int, T>>;
     Vector result;
@@ -199,7 +201,7 @@ private:
   T elements_[kElements];
 };
 
-/// The vector that has elements as a scalar is: of an unsigned char for char, which has no sign on the SPU.
+/// The vector type whose elements are of a scalar type: unsigned char for char, which has no sign on the SPU.
 template <class Scalar> struct VectorForScalar { using type = Vector<Scalar>; };
 template <> struct VectorForScalar<char> { using type = Vector<unsigned char>; };
 template <> struct VectorForScalar<long> {
@@ -222,5 +224,5 @@ using vec_llong2 = celltrace::sdk::Vector<long long>;
 using vec_float4 = celltrace::sdk::Vector<float>;
 using vec_double2 = celltrace::sdk::Vector<double>;
 
-/// What the specific intrinsics work on.
+/// The register type that the specific intrinsics work on.
 using qword = vec_char16;

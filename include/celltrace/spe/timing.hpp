@@ -1,5 +1,5 @@
-// The timing model of `cell_emu` and `cell_sim`: every number in one place. Results are a model's, not a
-// machine's.
+// The timing model of `cell_emu` and `cell_sim`: every number in one place. Results are those of a model, not
+// of a real machine.
 //
 // Units are SPU cycles unless said otherwise. Sources: Kistler, Perrone, Petrini, "Cell Multiprocessor
 // Communication Network", IEEE Micro 2006 (290 cycles for a line from SPE to SPE, 25.6 GB/s a port); IBM Cell
@@ -18,8 +18,8 @@ namespace celltrace {
 
 struct TimingParameters {
   double clock_hz = 3.2e9;            ///< 1000 to 1e12
-  std::uint32_t cycles_per_tick = 40; ///< of the decrementer: 80 MHz; at least 1
-  unsigned spes = 8;                  ///< of a machine that is not told otherwise; 1 to 256
+  std::uint32_t cycles_per_tick = 40; ///< decrementer: 80 MHz; at least 1
+  unsigned spes = 8;                  ///< number of SPEs of a machine unless it is configured; 1 to 256
 
   // --- channels ---
   std::uint32_t channel_write = 1;
@@ -36,7 +36,7 @@ struct TimingParameters {
   std::uint32_t lock_line_spe = 290; ///< a lock line that another SPE's atomic unit holds
   std::uint32_t lock_line_memory = 500;
   std::uint32_t ppe_delivery = 200; ///< from the PPE's store until an SPE's register has it
-  std::uint32_t ppe_access = 400;   ///< what an access to an SPE's registers costs the PPE
+  std::uint32_t ppe_access = 400;   ///< cost to the PPE of an access to an SPE's registers
 
   // --- SPU pipelines: latencies ---
   std::uint32_t simple_fixed = 2;     ///< FX2: add, logic, compare, select
@@ -50,7 +50,7 @@ struct TimingParameters {
   std::uint32_t branch_miss = 18;
 
   // --- machine code: `cell_sim` ---
-  std::uint32_t double_operation = 13; ///< FPD, of which the first cycles keep both pipes from issuing
+  std::uint32_t double_operation = 13; ///< FPD; its first cycles keep both pipes from issuing
   std::uint32_t double_issue_block = 6;
   std::uint32_t hint_latency =
       15; ///< from a hint until its target can be issued from; an earlier branch waits
@@ -60,22 +60,23 @@ struct TimingParameters {
 
   // --- counted operations: `cell_emu`; 0 to 1 each ---
   // Calibrated by cell_sim with tools/calibrate-charges.sh.
-  /// Part of the latency beyond the issue of an operation's own four quadwords that the code cannot fill.
+  /// Share of the latency, beyond the issue of an operation's own four quadwords, that other code cannot
+  /// fill.
   double exposed_latency = 0.613;
-  /// Part of the cycles in which both pipes have something to issue that really pair up.
+  /// Share of the cycles in which both pipes have something to issue that are really dual-issued.
   double paired_issue = 0.376;
-  /// Hints for each branch.
+  /// Hint instructions per branch.
   double hints = 0.936;
-  /// Cycles that each branch waits for a hint that comes too late.
+  /// Cycles per branch of waiting for a hint that comes too late.
   double late_hint = 0.23;
-  /// Cycles of nothing but no-ops for each branch.
+  /// Cycles per branch in which only no-ops are issued.
   double no_ops = 0.102;
-  /// Cycles that instructions come late for each quadword that code moves about.
+  /// Cycles per copied quadword in which instructions come late.
   double late_fetch = 0.039;
 
-  /// A Cell at 3.2 GHz with 8 SPEs.
+  /// Returns the parameters of a Cell at 3.2 GHz with 8 SPEs.
   static constexpr TimingParameters cell() { return {}; }
-  /// A PlayStation 3: 3.192 GHz, a timebase of 79.8 MHz, 6 SPEs for programs.
+  /// Returns the parameters of a PlayStation 3: 3.192 GHz, a timebase of 79.8 MHz, 6 SPEs for programs.
   static constexpr TimingParameters playstation_3() {
     TimingParameters timing;
     timing.clock_hz = 3.192e9;
@@ -84,10 +85,10 @@ struct TimingParameters {
   }
 };
 
-/// Where the cycles of an SPE went, under the names of IBM's full-system simulator. `cell_emu` cannot see
+/// The cycles of an SPE by their use, under the names of IBM's full-system simulator. `cell_emu` cannot see
 /// some of them, which are 0 there.
 struct SpuCycles {
-  /// The sum of all cycles and stalls that follow.
+  /// Sum of all cycles and stalls that follow.
   std::uint64_t total_cycle = 0;
   std::uint64_t single_cycle = 0; ///< one instruction issued
   std::uint64_t dual_cycle = 0;   ///< two instructions issued
@@ -99,27 +100,27 @@ struct SpuCycles {
   std::uint64_t stall_due_to_fp_resource = 0;   ///< a double precision operation kept both pipes
   std::uint64_t stall_due_to_ls_contention = 0; ///< loads and stores against DMA
   std::uint64_t channel_stall_cycle = 0;        ///< waits for DMA, mailboxes, signals and events
-  std::uint64_t stall_due_to_injection = 0;     ///< of faults that the configuration asked for
+  std::uint64_t stall_due_to_injection = 0;     ///< delays from configured faults
   // Instructions by unit.
   std::uint64_t fx2 = 0, fx3 = 0, fxb = 0, fp6 = 0, fp7 = 0, fpd = 0; ///< even pipe
   std::uint64_t ls = 0, shuf = 0, br = 0, hbr = 0, spr = 0;           ///< odd pipe; spr: channel instructions
   std::uint64_t nop = 0;                                              ///< no-ops of both pipes
-  // Of stall_due_to_dependency: by the unit whose result was waited for.
+  // Parts of stall_due_to_dependency, by the unit whose result was waited for.
   std::uint64_t dependency_fx2 = 0, dependency_fx3 = 0, dependency_fxb = 0, dependency_fp6 = 0,
                 dependency_fp7 = 0, dependency_fpd = 0, dependency_ls = 0, dependency_shuf = 0,
                 dependency_br = 0, dependency_spr = 0;
   std::uint64_t branch_taken = 0;      ///< branches that were taken
-  std::uint64_t branch_taken_miss = 0; ///< branches whose way neither a hint nor falling through foretold
-  std::uint64_t hint_hit = 0;          ///< branches that went where a hint said
+  std::uint64_t branch_taken_miss = 0; ///< branches that were not predicted by a hint or by falling through
+  std::uint64_t hint_hit = 0;          ///< branches to the address that a hint predicted
 
-  /// Without no-ops.
+  /// Returns the number of instructions without no-ops.
   std::uint64_t instructions() const {
     return fx2 + fx3 + fxb + fp6 + fp7 + fpd + ls + shuf + br + hbr + spr;
   }
   SpuCycles& operator+=(const SpuCycles& more);
 };
 
-/// Every count by its name.
+/// All counts and their names.
 inline constexpr std::pair<const char*, std::uint64_t SpuCycles::*> kSpuCycleCounts[] = {
     {"total_cycle", &SpuCycles::total_cycle},
     {"single_cycle", &SpuCycles::single_cycle},
@@ -162,7 +163,7 @@ inline constexpr std::pair<const char*, std::uint64_t SpuCycles::*> kSpuCycleCou
 static_assert(sizeof(SpuCycles) == std::size(kSpuCycleCounts) * sizeof(std::uint64_t), "a count has no name");
 
 inline SpuCycles& SpuCycles::operator+=(const SpuCycles& more) {
-  // As arrays, which the compiler adds up a vector at a time.
+  // Adds arrays, which the compiler vectorises.
   using Counts = std::array<std::uint64_t, std::size(kSpuCycleCounts)>;
   Counts sums = std::bit_cast<Counts>(*this);
   const Counts terms = std::bit_cast<Counts>(more);

@@ -6,13 +6,12 @@
 
 namespace celltrace {
 
-/// An effective address: a place in the main storage domain (main memory, or the local store or problem state
-/// of an SPE where those are mapped). Never dereferenced by a kernel unless `Spu::direct_memory` says that it
-/// may be.
+/// An effective address: a place in the main storage domain (main memory, or the mapped local store or
+/// problem state of an SPE). A kernel may dereference it only if `Spu::direct_memory`.
 using ea_t = uint64_t;
 
 constexpr uint32_t kLocalStoreBytes = 256 * 1024;
-/// On the emulated Cell: the local-store address of a pointer that does not point into the SPE's local store.
+/// Local-store address, on the emulated Cell, of a pointer that does not point into the SPE's local store.
 constexpr uint32_t kOutsideLocalStore = 0xFFFFFFFFu;
 /// Cache line of the EIB: the size at which a DMA transfer is most efficient.
 constexpr uint32_t kLineBytes = 128;
@@ -91,13 +90,13 @@ enum class Channel : uint32_t {
   wr_out_mbox = 28,
   rd_in_mbox = 29,
   wr_out_intr_mbox = 30,
-  // For tools that measure: marks in a trace, and the start and end of counting.
+  // Channels of measuring tools: marks in a trace, and the start and end of counting.
   set_bookmark_tag = 69,
   pm_start_event = 70,
   pm_stop_event = 71,
 };
 
-/// What a write to channel 23 (tag status update) asks for.
+/// The request that a write to channel 23 (tag status update) makes.
 enum class TagUpdate : uint32_t { immediate = 0, any = 1, all = 2 };
 
 /// Bits of the SPU event facility (channels 0, 1, 2 and 11).
@@ -126,11 +125,11 @@ constexpr uint32_t getllar_done = 0x4;
 /// Signal notification register of an SPE.
 enum class Signal : uint32_t { one = 1, two = 2 };
 
-/// How a signal notification register takes a write while it still holds an unread value.
+/// The reaction of a signal notification register to a write while it still holds an unread value.
 enum class SignalMode : uint32_t { overwrite, logical_or };
 
 /// One element of a DMA list in local store: notify bit and size in the first word, low half of the effective
-/// address in the second. The list is 8-byte aligned; the high half of the address is that of the command.
+/// address in the second. The list is 8-byte aligned; the high half of the address is the command's.
 struct ListElement {
   uint32_t notify_and_size;
   uint32_t ea_low;
@@ -139,7 +138,8 @@ struct ListElement {
   static constexpr ListElement make(uint32_t size, ea_t ea, bool notify = false) {
     return {size | (notify ? kNotify : 0u), static_cast<uint32_t>(ea)};
   }
-  /// The bytes of a list of `elements`. What 32 bits do not hold becomes a length that no MFC takes.
+  /// Returns the bytes of a list of `elements`. If 32 bits cannot hold them, returns a length that no MFC
+  /// accepts.
   static constexpr uint32_t list_bytes(uint64_t elements) {
     constexpr uint64_t most = 0xFFFFFFFFu / 8;
     return static_cast<uint32_t>(elements < most ? elements : most) * 8;
@@ -147,7 +147,7 @@ struct ListElement {
 };
 static_assert(sizeof(ListElement) == 8, "a list element is 8 bytes");
 
-/// Why a kernel stopped itself; the low bits of the stop-and-signal code.
+/// The reason for which a kernel stopped itself; the low bits of the stop-and-signal code.
 enum class HaltCode : uint32_t {
   local_store_exhausted = 1,
   bad_argument = 2,
@@ -156,10 +156,10 @@ enum class HaltCode : uint32_t {
 };
 constexpr HaltCode kLastHaltCode = HaltCode::stale_pointer;
 
-/// A kernel on an SPU halts with the stop-and-signal code kHaltStop + HaltCode.
+/// Base of the stop-and-signal codes with which a kernel on an SPU halts: kHaltStop + HaltCode.
 constexpr uint32_t kHaltStop = 0x1000;
 
-/// For messages.
+/// Returns the code's text for messages.
 constexpr const char* to_text(HaltCode code) {
   switch (code) {
   case HaltCode::local_store_exhausted:
@@ -174,9 +174,9 @@ constexpr const char* to_text(HaltCode code) {
   return "unknown halt code";
 }
 
-/// Where the problem-state registers and the local store of an SPE lie in the main storage domain. The signal
+/// The addresses of an SPE's problem-state registers and local store in the main storage domain. The signal
 /// and mailbox addresses are those of the 32-bit registers themselves: their low four bits are 0xC, so that
-/// the word that is sent to them lies in the last word of a quadword.
+/// a word that is sent to them lies in the last word of a quadword.
 struct alignas(16) SpeAddresses {
   ea_t local_store;
   ea_t signal_1;

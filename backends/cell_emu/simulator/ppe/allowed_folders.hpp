@@ -1,4 +1,4 @@
-// The folders of the host that programs may use, and nothing else of it.
+// The folders of the host that programs may use; the rest of the host is out of reach.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/spu_errno.hpp"
@@ -11,7 +11,7 @@
 
 namespace celltrace::cell_emu {
 
-/// A file descriptor of the host, closed at the end.
+/// A file descriptor of the host, closed on destruction.
 class HostDescriptor {
 public:
   HostDescriptor() = default;
@@ -30,13 +30,13 @@ private:
   int fd_ = -1;
 };
 
-/// Names, as programs give them, are looked up relative to a current folder, with symbolic links; where they
-/// lead out of the allowed folders they fail with EACCES, without a word on whether there is something. Links
-/// that are put in the way in the meantime are not followed. All functions throw CallFailed. Thread safety:
+/// Looks up the names that programs pass, relative to a current folder, with symbolic links. Names that
+/// lead out of the allowed folders fail with EACCES, whether or not something exists there. Links
+/// that appear during the look-up are not followed. All functions throw CallFailed. Thread safety:
 /// none.
 class AllowedFolders {
 public:
-  /// A name in a folder: what openat() and its like take. The name has no slash and may be ".".
+  /// A name in a folder, the arguments of openat() and related calls. The name has no slash and may be ".".
   struct Place {
     HostDescriptor folder;
     std::string name;
@@ -44,24 +44,24 @@ public:
   };
   enum class LastLink { follow, keep };
 
-  /// The first folder is the current one. Without any, all names fail. Throws InputError for what is no
-  /// folder.
+  /// Makes the first folder the current one. Without folders, all names fail. Throws InputError for paths
+  /// that are no folders.
   explicit AllowedFolders(const std::vector<std::filesystem::path>& folders);
 
-  /// The last part of the name need not exist.
+  /// Finds the place of a name, whose last part need not exist.
   Place locate(std::string_view name, LastLink last = LastLink::follow) const;
 
-  /// Opens a file or folder, never a device or a pipe. The mode is that of a file that is made.
+  /// Opens a file or folder, never a device or a pipe. The mode is for files that are created.
   HostDescriptor open(std::string_view name, int host_flags, unsigned mode) const;
   HostDescriptor open(const Place& place, int host_flags, unsigned mode) const;
 
   void change_to(std::string_view name);
-  /// Throws EACCES if there are no folders.
+  /// Returns the current folder. Throws EACCES if there are no folders.
   const std::string& current() const;
 
 private:
   struct Root {
-    std::string given; ///< absolute, without dots; links may be in it
+    std::string given; ///< absolute, without dots; may contain links
     std::string path;  ///< without links
     HostDescriptor folder;
   };

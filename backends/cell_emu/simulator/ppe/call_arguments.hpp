@@ -1,4 +1,5 @@
-// How a call's arguments and results lie in local store, and checked access to what they point to.
+// The places of a call's arguments and results in local store, and checked access to the data that they point
+// to.
 //
 // Arguments are padded to 16 bytes each. The result replaces the first of them: the value in word 0 (words 0
 // and 1 if it has 64 bits), errno in word 3.
@@ -17,8 +18,8 @@
 
 namespace celltrace::cell_emu {
 
-/// The 256 KB that pointers of a program lead into. As on the hardware, bits of an address above the 18th do
-/// not count; what would reach over the end of local store is refused with EFAULT.
+/// The 256 KB that pointers of a program refer to. As on the hardware, bits of an address above the 18th are
+/// ignored; a range beyond the end of local store is refused with EFAULT.
 class LocalStoreView {
 public:
   static constexpr std::uint32_t kBytes = 256 * 1024;
@@ -32,15 +33,15 @@ public:
     if (bytes > kBytes - start) throw CallFailed{SpuErrno::fault};
     return {bytes_ + start, static_cast<std::size_t>(bytes)};
   }
-  /// As much of a range as local store has.
+  /// Returns as much of a range as local store has.
   std::span<std::uint8_t> range_up_to(std::uint32_t address, std::uint64_t bytes) const {
     const std::uint32_t start = wrap(address);
     return {bytes_ + start, static_cast<std::size_t>(std::min<std::uint64_t>(bytes, kBytes - start))};
   }
 
-  /// Up to the terminating zero, which must be in local store.
+  /// Returns the string up to its terminating zero, which must be in local store.
   std::string_view string(std::uint32_t address) const { return string_up_to(address, kBytes + 1); }
-  /// At most `bytes` characters, which need no terminating zero then.
+  /// Returns at most `bytes` characters, which then need no terminating zero.
   std::string_view string_up_to(std::uint32_t address, std::uint64_t bytes) const {
     const auto all = range_up_to(address, bytes);
     const auto* start = reinterpret_cast<const char*>(all.data());
@@ -64,8 +65,8 @@ private:
   std::uint8_t* bytes_;
 };
 
-/// A va_list: where the next argument lies that was in a register, and the caller's frame, behind whose first
-/// 32 bytes the others lie.
+/// A va_list: the address of the next argument that was in a register, and the caller's frame, which has the
+/// other arguments behind its first 32 bytes.
 class VariableArguments {
 public:
   VariableArguments(const LocalStoreView& local_store, std::uint32_t next, std::uint32_t caller_frame)
@@ -88,7 +89,7 @@ private:
   std::uint32_t next_, caller_frame_;
 };
 
-/// The arguments of one call, by number from 0. A block that reaches over the end of local store goes on at
+/// The arguments of one call, by number from 0. A block that reaches beyond the end of local store goes on at
 /// 0.
 class CallArguments {
 public:
@@ -103,7 +104,7 @@ public:
     return std::uint64_t{load(argument, 0)} << 32 | load(argument, 1);
   }
   std::string_view string(unsigned argument) const { return local_store_.string(word(argument)); }
-  /// A va_list by value, in this slot and the next one.
+  /// Returns a va_list that was passed by value, in this slot and the next one.
   VariableArguments variable(unsigned argument) const {
     return {local_store_, word(argument), word(argument + 1)};
   }
@@ -124,7 +125,7 @@ private:
   std::uint32_t block_;
 };
 
-/// What a call that succeeds returns.
+/// The result of a successful call.
 class CallResult {
 public:
   static CallResult number(std::int64_t value) { return {static_cast<std::uint32_t>(value), 0}; }

@@ -56,7 +56,7 @@ std::uint64_t EaHeap::allocate(std::uint64_t bytes, std::uint64_t alignment) {
   if (bytes > most_bytes_ || alignment > most_bytes_ || !reserve()) return 0;
   alignment = std::max(alignment, kAlignment);
   const std::uint64_t reserved = std::max(round_up(bytes, kAlignment), kAlignment);
-  // The smallest block that has room wherever it starts.
+  // Find the smallest block that has room wherever it starts.
   const auto fitting = free_by_size_.lower_bound({reserved + alignment - kAlignment, 0});
   if (fitting == free_by_size_.end()) return 0;
   const auto [size, start] = *fitting;

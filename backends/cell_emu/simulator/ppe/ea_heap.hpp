@@ -1,4 +1,4 @@
-// Main memory that programs allocate by effective address: malloc_ea() and its family, and mmap_ea().
+// Main memory that programs allocate by effective address: malloc_ea() and related calls, and mmap_ea().
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace celltrace::cell_emu {
 
-/// One block of the host's memory, reserved at the first allocation: where the system has room, below 4 GB,
+/// One block of the host's memory, reserved at the first allocation: if the system has room, below 4 GB,
 /// since programs keep effective addresses in 32 bits unless they are compiled otherwise, and at the same
-/// place in every run. Blocks are kept apart and aligned to 128 bytes, so that each can be transferred at
-/// full speed. All of it is given back with the object. Thread safety: none.
+/// place in every run. Allocated blocks are kept apart and aligned to 128 bytes, so that each can be
+/// transferred at full speed. All memory is released with the object. Thread safety: none.
 class EaHeap {
 public:
   static constexpr std::uint64_t kAlignment = 128;
@@ -24,17 +24,17 @@ public:
   EaHeap(const EaHeap&) = delete;
   EaHeap& operator=(const EaHeap&) = delete;
 
-  /// Returns 0 if there is no room. Nothing is said about the contents.
+  /// Returns 0 if there is no room. The contents are indeterminate.
   /// @param alignment a power of two
   std::uint64_t allocate(std::uint64_t bytes, std::uint64_t alignment = kAlignment);
 
-  /// Returns whether a block starts there.
+  /// Releases a block. Returns whether a block starts there.
   bool release(std::uint64_t ea);
 
-  /// How long the block is that starts there, as it was asked for.
+  /// Returns the requested length of the block that starts there.
   std::optional<std::uint64_t> bytes_at(std::uint64_t ea) const;
 
-  /// Where [ea, ea + bytes) lies if one block holds it, else null.
+  /// Returns the memory of [ea, ea + bytes) if one block holds it, else null.
   std::uint8_t* at(std::uint64_t ea, std::uint64_t bytes) const;
 
 private:
@@ -49,7 +49,7 @@ private:
   std::uint64_t most_bytes_;
   std::uint8_t* memory_ = nullptr;
   std::map<std::uint64_t, Block> used_;
-  std::map<std::uint64_t, std::uint64_t> free_; // bytes by address, no two side by side
+  std::map<std::uint64_t, std::uint64_t> free_; // bytes by address, no two adjacent
   std::set<std::pair<std::uint64_t, std::uint64_t>> free_by_size_;
 };
 

@@ -1,4 +1,4 @@
-// What the formats of printf and scanf have in common: how their text is read, and lengths of integers.
+// Common parts of the formats of printf and scanf: reading their text, and lengths of integers.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/call_arguments.hpp"
@@ -11,17 +11,17 @@
 
 namespace celltrace::cell_emu {
 
-/// Of an argument. What is `normal` or `word` has 32 bits.
+/// The length of an argument; `normal` and `word` have 32 bits.
 enum class Length { normal, byte, half, two_words, word };
 
-/// A format that is read character by character: a copy, for conversions may write where it was.
+/// A format that is read character by character: a copy, because conversions may overwrite the original.
 class FormatText {
 public:
   explicit FormatText(std::string_view text) : text_(text) {}
 
   bool at_end() const { return at_ == text_.size(); }
   std::size_t place() const { return at_; }
-  /// Not at the end.
+  /// Returns the next character. Not at the end.
   char peek() const { return text_[at_]; }
   char take() { return text_[at_++]; }
   bool skip(char character) {
@@ -33,11 +33,11 @@ public:
   bool skips_to_another(char sign, char end) {
     return at_ + 1 < text_.size() && text_[at_ + 1] != end && skip(sign);
   }
-  /// What has been read since `start`.
+  /// Returns the text that has been read since `start`.
   std::string_view since(std::size_t start) const {
     return std::string_view(text_).substr(start, at_ - start);
   }
-  /// Up to that character, or all that is left.
+  /// Returns the text up to that character, or all that is left.
   std::string_view take_until(char character) {
     const std::size_t start = at_;
     at_ = std::min(text_.find(character, at_), text_.size());
@@ -62,7 +62,7 @@ private:
   std::size_t at_ = 0;
 };
 
-/// The low bits of `value`, as many as an integer of that length has.
+/// Stores the low bits of `value`, as many as an integer of that length has.
 inline void store_integer(const LocalStoreView& local_store, std::uint32_t address, Length length,
                           std::uint64_t value) {
   switch (length) {

@@ -1,4 +1,4 @@
-// The files that the programs of one machine have open: descriptors, as POSIX knows them, and the streams of
+// The files that the programs of one machine have open: POSIX descriptors, and the streams of
 // the C library above them.
 #pragma once
 
@@ -17,22 +17,23 @@
 
 namespace celltrace::cell_emu {
 
-/// What descriptors refer to. All functions throw CallFailed.
+/// The object that descriptors refer to. All functions throw CallFailed.
 class OpenFile {
 public:
   enum class From { start, here, end };
 
   virtual ~OpenFile() = default;
-  /// Returns how many bytes there were, 0 at the end.
+  /// Reads and returns the number of bytes, 0 at the end.
   virtual std::size_t read(std::span<std::uint8_t>) { throw CallFailed{SpuErrno::bad_file}; }
   virtual void write(std::string_view) { throw CallFailed{SpuErrno::bad_file}; }
-  /// Returns the new position.
+  /// Moves the position and returns it.
   virtual std::int64_t seek(std::int64_t, From) { throw CallFailed{SpuErrno::illegal_seek}; }
-  /// The host's descriptor, or -1 for what is no file of the host.
+  /// Returns the host's descriptor, or -1 for anything but a file of the host.
   virtual int host_descriptor() const { return -1; }
 };
 
-/// Text that is there from the start, and what somebody gives when it has been read.
+/// An input of text that is there from the start, and of pieces that a function returns when it has been
+/// read.
 class InputText final : public OpenFile {
 public:
   InputText(std::string text, std::function<std::string()> more)
@@ -45,7 +46,7 @@ private:
   std::size_t at_ = 0;
 };
 
-/// Text that somebody takes at once, or that is dropped.
+/// An output of text that a function receives at once, or that is dropped.
 class OutputText final : public OpenFile {
 public:
   explicit OutputText(std::function<void(std::string_view)> take) : take_(std::move(take)) {}
@@ -58,7 +59,7 @@ private:
 /// A file of the host.
 class HostFile final : public OpenFile {
 public:
-  /// @param path for fchdir()
+  /// Takes over a file.
   HostFile(HostDescriptor file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
   std::size_t read(std::span<std::uint8_t> to) override;
   void write(std::string_view bytes) override;
@@ -76,13 +77,13 @@ class OpenFiles {
 public:
   explicit OpenFiles(std::size_t most) : files_(most) {}
 
-  /// Throws EBADF.
+  /// Returns the file of a descriptor. Throws EBADF.
   const std::shared_ptr<OpenFile>& at(std::int32_t descriptor) const;
-  /// Throws EMFILE.
+  /// Adds a file and returns its descriptor. Throws EMFILE.
   std::int32_t add(std::shared_ptr<OpenFile> file);
-  /// In place of what it refers to. Throws EBADF for a number that cannot be.
+  /// Replaces the file of a descriptor. Throws EBADF for a number out of range.
   void set(std::int32_t descriptor, std::shared_ptr<OpenFile> file);
-  /// Throws EBADF.
+  /// Closes a descriptor. Throws EBADF.
   void close(std::int32_t descriptor);
 
 private:
@@ -106,7 +107,7 @@ public:
 
   int get() override;
   void unget(int character) override { pushed_back_ += static_cast<char>(character); }
-  /// ungetc(). Throws CallFailed if too much is pushed back.
+  /// Pushes a character back, as ungetc(). Throws CallFailed if too much is pushed back.
   void push_back(int character);
 
   std::size_t read(std::span<std::uint8_t> to);
@@ -121,18 +122,18 @@ private:
   std::int32_t descriptor_;
   bool reads_, writes_;
   bool at_end_ = false, has_error_ = false;
-  std::string pushed_back_; // the last one is read first
+  std::string pushed_back_; // characters that are read first, from the last one
 };
 
-/// Streams by the number that a program has for them, from 1: standard input, output and error, then the
+/// Streams by their numbers in programs, from 1: standard input, output and error, then the
 /// lowest free ones. Thread safety: none.
 class Streams {
 public:
   explicit Streams(std::size_t most) : streams_(most) {}
 
-  /// Throws EBADF.
+  /// Returns a stream. Throws EBADF.
   Stream& at(std::uint32_t number);
-  /// Throws EMFILE.
+  /// Adds a stream and returns its number. Throws EMFILE.
   std::uint32_t add(Stream stream);
   void set(std::uint32_t number, Stream stream);
   void remove(std::uint32_t number) { streams_[number - 1].reset(); }

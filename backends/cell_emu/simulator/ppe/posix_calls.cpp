@@ -1,4 +1,4 @@
-// What newlib for the SPU has of POSIX, by the numbers of libspe2.
+// POSIX calls of newlib for the SPU, by the numbers of libspe2.
 #include "backends/cell_emu/simulator/ppe/ppe_state.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ CallResult success() {
   return CallResult::number(0);
 }
 
-/// 0, or the host's errno.
+/// Returns 0, or fails with the host's errno.
 CallResult checked(int host_result) {
   if (host_result != 0) fail_with_host_errno();
   return success();
@@ -38,7 +38,7 @@ int host_descriptor(PpeState& state, std::int32_t descriptor) {
 // --- open files
 // -------------------------------------------------------------------------------------------------
 
-/// The flags of open() as they reach the PPE: those of Linux.
+/// Converts the flags of open(), which reach the PPE as those of Linux.
 int host_flags(std::uint32_t flags) {
   int host = 0;
   switch (flags & 3) {
@@ -113,7 +113,7 @@ CallResult write_bytes(PpeState& state, const Arguments& arguments) {
   return CallResult::number(static_cast<std::int64_t>(from.size()));
 }
 
-/// A file of the host with a position of its own; standard input and its like have none.
+/// Returns a file of the host with a position of its own; the standard streams have none.
 int positioned(PpeState& state, const Arguments& arguments) {
   const int host = state.files.at(arguments.number(0))->host_descriptor();
   if (host < 0) throw CallFailed{SpuErrno::illegal_seek};
@@ -137,7 +137,7 @@ CallResult write_bytes_at(PpeState& state, const Arguments& arguments) {
   return CallResult::number(count);
 }
 
-/// The parts of readv() and writev(): address and length, of 32 bits each.
+/// Calls `transfer` for the parts of readv() and writev(): address and length, of 32 bits each.
 template <class Transfer> CallResult for_each_part(const Arguments& arguments, const Transfer& transfer) {
   constexpr std::int32_t kMostParts = 1024;
   const LocalStoreView& local_store = arguments.local_store();
@@ -180,7 +180,7 @@ CallResult change_mode_of_file(PpeState& state, const Arguments& arguments) {
   return checked(::fchmod(host_descriptor(state, arguments.number(0)), arguments.word(1) & 0777));
 }
 
-/// All SPEs are one process, and a process never waits for its own locks.
+/// Succeeds: all SPEs are one process, and a process never waits for its own locks.
 CallResult lock_file(PpeState& state, const Arguments& arguments) {
   host_descriptor(state, arguments.number(0));
   return success();
@@ -257,7 +257,7 @@ CallResult current_folder(PpeState& state, const Arguments& arguments) {
   return CallResult::address(to);
 }
 
-/// A template whose last six characters are X, without them.
+/// Returns the prefix of a template whose last six characters are X.
 std::string_view template_prefix(const Arguments& arguments) {
   const std::string_view name = arguments.string(0);
   if (!name.ends_with("XXXXXX")) throw CallFailed{SpuErrno::invalid};
@@ -285,7 +285,7 @@ CallResult set_umask(PpeState& state, const Arguments& arguments) {
 // --- status
 // -----------------------------------------------------------------------------------------------------
 
-/// Thirteen words, from which the library makes its own struct stat.
+/// Stores thirteen words, from which the library makes its own struct stat.
 void store_status(const Arguments& arguments, const struct stat& status) {
   if (status.st_size > INT32_MAX) throw CallFailed{SpuErrno::overflow};
   const std::uint64_t fields[] = {static_cast<std::uint64_t>(status.st_dev),
@@ -309,7 +309,7 @@ void store_status(const Arguments& arguments, const struct stat& status) {
 CallResult status_of_file(PpeState& state, const Arguments& arguments) {
   const int host = state.files.at(arguments.number(0))->host_descriptor();
   struct stat status = {};
-  if (host < 0) { // a terminal, as far as anybody can tell
+  if (host < 0) { // a terminal, for all that a program can tell
     status.st_mode = S_IFCHR | 0620;
     status.st_nlink = 1;
     status.st_blksize = 1024;
@@ -355,7 +355,7 @@ std::unique_ptr<ListedFolder> list_folder(PpeState& state, std::string_view name
   auto listed = std::make_unique<ListedFolder>();
   while (const dirent* entry = ::readdir(listing.get()))
     listed->entries.push_back({static_cast<std::uint32_t>(entry->d_ino), entry->d_name});
-  // The order of the host differs from machine to machine.
+  // Sorted, because the order of the host differs from machine to machine.
   std::ranges::sort(listed->entries, {}, &ListedFolder::Entry::name);
   return listed;
 }
@@ -383,7 +383,7 @@ CallResult close_folder(PpeState& state, const Arguments& arguments) {
   return success();
 }
 
-/// A word of inode and 256 bytes of name.
+/// Stores a word of inode and 256 bytes of name.
 CallResult read_folder(PpeState& state, const Arguments& arguments) {
   constexpr std::size_t kNameBytes = 256;
   ListedFolder& folder = *listed_folder(state, arguments);
@@ -414,7 +414,7 @@ CallResult tell_folder(PpeState& state, const Arguments& arguments) {
 // --- time
 // -------------------------------------------------------------------------------------------------------
 
-/// Pairs of a time_t and a long, such as timeval and timespec.
+/// A pair of a time_t and a long, such as timeval and timespec.
 struct TimePair {
   std::int64_t seconds, fraction;
 
@@ -453,7 +453,7 @@ CallResult time_of_day(PpeState& state, const Arguments& arguments) {
   if (const std::uint32_t to = arguments.word(0); to != 0)
     now(state).store(state, arguments.local_store(), to);
   if (const std::uint32_t zone = arguments.word(1); zone != 0)
-    arguments.local_store().store(zone, std::uint64_t{0}); // Greenwich
+    arguments.local_store().store(zone, std::uint64_t{0}); // Greenwich time
   return success();
 }
 
@@ -468,7 +468,7 @@ CallResult seconds_of_day(PpeState& state, const Arguments& arguments) {
   return CallResult::number(seconds);
 }
 
-/// Returns at once: virtual time passes by what the SPUs do.
+/// Returns at once: only the work of SPUs advances virtual time.
 CallResult sleep_for(PpeState& state, const Arguments& arguments) {
   const TimePair wanted = TimePair::load(state, arguments.local_store(), arguments.word(0));
   if (wanted.seconds < 0 || wanted.fraction < 0 || wanted.fraction >= 1000000000)
@@ -512,7 +512,7 @@ CallResult do_nothing(PpeState&, const Arguments&) {
   return success();
 }
 
-/// What would reach beyond the allowed folders, or needs rights that a guest has not.
+/// Refuses calls that would reach beyond the allowed folders, or that need privileges.
 CallResult refuse(PpeState&, const Arguments&) {
   throw CallFailed{SpuErrno::not_permitted};
 }

@@ -1,4 +1,4 @@
-// What the answers to calls for help share, and the tables that they stand in.
+// Shared state of the answers to calls for help, and the tables of these answers.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/allowed_folders.hpp"
@@ -22,26 +22,26 @@ struct ListedFolder {
     std::uint32_t inode;
     std::string name;
   };
-  std::vector<Entry> entries; ///< by name
+  std::vector<Entry> entries; ///< sorted by name
   std::size_t next = 0;
 };
 
-/// Thread safety: none; PpeCalls serializes.
+/// The state of all files and memory. Thread safety: none; PpeCalls serializes.
 struct PpeState {
   explicit PpeState(PpeCallsConfig config);
 
   std::chrono::microseconds now() const;
 
-  /// Opens a file of the host. The mode is one of POSIX; flags are the host's.
+  /// Opens a file of the host. The mode is POSIX's; flags are the host's.
   std::shared_ptr<HostFile> open(std::string_view name, int host_flags, unsigned mode) const;
 
-  /// Makes a new file with a name that ends in a number, and puts the name there. Throws CallFailed.
-  /// @param name `prefix` and six characters on return
+  /// Makes a new file whose name is `prefix` and six characters that end in a number. Throws CallFailed.
+  /// @param name receives the name
   std::shared_ptr<HostFile> make_temporary(std::string_view prefix, std::string& name);
-  /// As above, but the file does not exist.
+  /// Returns a name as for make_temporary(), without making the file.
   std::string temporary_name(std::string_view prefix);
 
-  /// Memory that a program may use by effective address. Throws EFAULT.
+  /// Returns memory that a program may use by effective address. Throws EFAULT.
   std::span<std::uint8_t> effective_memory(std::uint64_t ea, std::uint64_t bytes) const;
 
   PpeCallsConfig config;
@@ -51,10 +51,10 @@ struct PpeState {
   EaHeap ea_heap;
   std::vector<std::unique_ptr<ListedFolder>> listed_folders; ///< by the program's number for them, from 1
   unsigned umask = 022;
-  unsigned temporary_files = 0; ///< so far
+  unsigned temporary_files = 0; ///< number of files made so far
 };
 
-/// One operation. Answers throw CallFailed.
+/// One operation. Its answer may throw CallFailed.
 struct PpeCall {
   enum class OnFailure { minus_one, zero };
 
@@ -62,19 +62,19 @@ struct PpeCall {
   OnFailure on_failure = OnFailure::minus_one;
 };
 
-/// By operation, from 0, which is none.
+/// Return the calls by operation; entry 0 is none.
 std::span<const PpeCall> c99_calls();
 std::span<const PpeCall> posix_calls();
 std::span<const PpeCall> memory_calls();
 
-/// mmap_ea() and its family, which are operations of POSIX.
+/// mmap_ea() and related calls, which are POSIX operations.
 CallResult map_memory(PpeState&, const CallArguments&);
 CallResult remap_memory(PpeState&, const CallArguments&);
 CallResult synchronize_memory(PpeState&, const CallArguments&);
 CallResult unmap_memory(PpeState&, const CallArguments&);
 
-/// A system call of Linux. Its number and its six arguments are doublewords at `block`; the result replaces
-/// the number: a value, or -errno.
+/// Answers a system call of Linux. Its number and its six arguments are doublewords at `block`; the result
+/// replaces the number: a value, or -errno.
 void answer_linux_call(PpeState& state, const LocalStoreView& local_store, std::uint32_t block);
 
 } // namespace celltrace::cell_emu

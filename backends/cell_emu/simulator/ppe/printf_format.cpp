@@ -34,7 +34,7 @@ struct Directive {
   char conversion = 0;
 };
 
-/// What a conversion makes, in order; zeros stand for as many zeros.
+/// The output of a conversion, in order; `zeros` are numbers of zeros.
 struct Pieces {
   std::string_view sign = {};
   std::uint64_t leading_zeros = 0;
@@ -47,7 +47,7 @@ struct Pieces {
   }
 };
 
-/// No double has more decimal digits, before or behind the point, that are not zero.
+/// Digits that a double can have before or behind the point and that are not zero.
 constexpr std::int64_t kMostDigits = 1100;
 
 class Formatter {
@@ -146,7 +146,7 @@ private:
         d.zero = true;
         break;
       case '\'':
-        break; // the "C" locale has no groups
+        break; // the "C" locale does not group digits
       default:
         return;
       }
@@ -320,7 +320,7 @@ private:
     }
   }
 
-  /// With at most kMostDigits behind the point, of which more are zeros anyway.
+  /// Returns the digits, with at most kMostDigits behind the point, since more are zeros anyway.
   std::string_view digits_of(double magnitude, std::chars_format format, std::int64_t precision) {
     const int digits = static_cast<int>(std::min(precision, kMostDigits));
     char* end = std::to_chars(buffer_.data(), buffer_.data() + buffer_.size(), magnitude, format, digits).ptr;
@@ -348,7 +348,7 @@ private:
     put(d, {.sign = sign, .digits = digits, .trailing_zeros = zeros, .suffix = exponent});
   }
 
-  /// %g drops zeros at the end, # keeps the point.
+  /// Drops zeros at the end for %g; # keeps the point.
   static void finish_fraction(const Directive& d, std::string& digits, std::uint64_t& zeros) {
     const bool general = d.conversion == 'g' || d.conversion == 'G';
     if (general && !d.alternative) {

@@ -1,4 +1,4 @@
-// The printf family's conversions, on arguments in local store.
+// The conversions of the printf family, for arguments in local store.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/call_arguments.hpp"
@@ -10,10 +10,10 @@
 
 namespace celltrace::cell_emu {
 
-/// Text that grows at its end. It is counted as a whole but kept only up to a limit.
+/// Text that grows at its end. All of it is counted, but only a limited part is kept.
 class FormattedText {
 public:
-  /// More than this is refused with EOVERFLOW, so that no width keeps the PPE busy for long.
+  /// Largest text; more is refused with EOVERFLOW, so that no width keeps the PPE busy for long.
   static constexpr std::uint64_t kMostBytes = 16 << 20;
 
   explicit FormattedText(std::uint64_t most_kept = kMostBytes) : most_kept_(most_kept) {}
@@ -25,15 +25,15 @@ public:
   const std::string& kept() const { return kept_; }
 
 private:
-  std::size_t grow(std::uint64_t count); // how many of them are kept
+  std::size_t grow(std::uint64_t count); // returns how many of them are kept
 
   std::uint64_t most_kept_, length_ = 0;
   std::string kept_;
 };
 
-/// Formats as C99's vprintf() does where int, long and pointers have 32 bits, in the "C" locale, with glibc's
-/// choices where C99 leaves one: "(nil)" and "(null)", "-nan", conversions that it does not know as they are.
-/// Throws CallFailed: EFAULT for strings, and counts of %n, that local store does not hold; EINVAL for a
+/// Formats as C99's vprintf() does with 32-bit int, long and pointers, in the "C" locale, with glibc's
+/// choices where C99 leaves one: "(nil)" and "(null)", "-nan", unknown conversions are copied.
+/// Throws CallFailed: EFAULT for strings, and counts of %n, outside of local store; EINVAL for a
 /// format that ends in a conversion; EILSEQ for wide characters that are not ASCII; EOVERFLOW.
 void format_printf(FormattedText& text, std::string_view format, const LocalStoreView& local_store,
                    VariableArguments arguments);

@@ -27,7 +27,7 @@ int digit_value(int c) {
 
 struct Directive {
   bool stored = true;
-  std::uint64_t width = 0; ///< 0: as much as there is
+  std::uint64_t width = 0; ///< 0: unlimited
   Length length = Length::normal;
   char conversion = 0;
 };
@@ -38,7 +38,7 @@ public:
   Field(CharacterSource& source, std::uint64_t& consumed, std::uint64_t width)
       : source_(source), consumed_(consumed), left_(width) {}
 
-  /// The next character without taking it, or kEnd.
+  /// Returns the next character without taking it, or kEnd.
   int peek() {
     if (left_ == 0) return kEnd;
     const int c = source_.get();
@@ -62,7 +62,7 @@ private:
   std::uint64_t left_;
 };
 
-/// Stops the whole call; what was stored before counts.
+/// End the whole call; earlier stores count.
 struct InputFailed {};
 struct MatchFailed {};
 
@@ -229,7 +229,7 @@ private:
                     saturated(d, value, overflow, negative, is_signed));
   }
 
-  /// As strtol() and strtoul() treat what does not fit.
+  /// Returns the value that strtol() or strtoul() has for numbers that do not fit.
   static std::uint64_t saturated(const Directive& d, std::uint64_t value, bool overflow, bool negative,
                                  bool is_signed) {
     const std::uint64_t all = d.length == Length::two_words ? ~std::uint64_t{0} : 0xFFFFFFFF;
@@ -349,7 +349,7 @@ private:
     else
       local_store_.store(address, static_cast<std::uint8_t>(c));
     const std::uint32_t next = address + (wide ? 4 : 1);
-    if (LocalStoreView::wrap(next) == 0) throw CallFailed{SpuErrno::fault}; // nothing goes on at 0
+    if (LocalStoreView::wrap(next) == 0) throw CallFailed{SpuErrno::fault}; // strings do not wrap to 0
     return next;
   }
 

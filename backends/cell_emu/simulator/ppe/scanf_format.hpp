@@ -1,4 +1,4 @@
-// The scanf family's conversions, into local store.
+// The conversions of the scanf family, into local store.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/call_arguments.hpp"
@@ -9,13 +9,13 @@
 
 namespace celltrace::cell_emu {
 
-/// Characters one after the other.
+/// A source of characters.
 class CharacterSource {
 public:
   virtual ~CharacterSource() = default;
-  /// The next one, 0..255, or -1 at the end.
+  /// Returns the next character, 0..255, or -1 at the end.
   virtual int get() = 0;
-  /// Takes the last one back; at most one in a row.
+  /// Takes the last character back; at most one in a row.
   virtual void unget(int character) = 0;
 };
 
@@ -26,11 +26,11 @@ public:
   void unget(int) override { --at_; }
 
 private:
-  std::string text_; // a copy: conversions may write where it was
+  std::string text_; // a copy, because conversions may overwrite the original
   std::size_t at_ = 0;
 };
 
-/// Reads as C99's vscanf() does where int, long and pointers have 32 bits, in the "C" locale. Returns the
+/// Reads as C99's vscanf() does with 32-bit int, long and pointers, in the "C" locale. Returns the
 /// number of conversions that were stored, or -1 if the input ended before there was one. Throws CallFailed:
 /// EFAULT for places outside local store; EINVAL for conversions that C99 does not have.
 int scan_formatted(CharacterSource& source, std::string_view format, const LocalStoreView& local_store,

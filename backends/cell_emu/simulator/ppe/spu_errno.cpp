@@ -9,7 +9,7 @@ namespace celltrace::cell_emu {
 namespace {
 
 struct Entry {
-  std::uint32_t number; // the SPU's
+  std::uint32_t number; // of the SPU
   int host;
   std::string_view text;
 };

@@ -30,18 +30,18 @@ enum class SpuErrno : std::uint32_t {
   illegal_sequence = 84,    ///< EILSEQ
 };
 
-/// Thrown inside the answer to a call, which then reports failure with this errno. Never leaves PpeCalls.
+/// Thrown inside the answer to a call, which then reports failure with this errno. Caught by PpeCalls.
 struct CallFailed {
   SpuErrno error;
 };
 
-/// The number that the SPU has for an errno of the host; EIO for one that it does not have.
+/// Returns the SPU's number for an errno of the host; EIO if there is none.
 SpuErrno spu_errno(int host_errno);
 
-/// Throws CallFailed with what the host says.
+/// Throws CallFailed with the host's errno.
 [[noreturn]] void fail_with_host_errno();
 
-/// What perror() says of it.
+/// Returns the text that perror() prints for it.
 std::string_view error_text(std::uint32_t spu_errno);
 
 } // namespace celltrace::cell_emu

@@ -37,7 +37,7 @@ std::int64_t offset_of_32_bits(std::int64_t offset) {
 // --- opening and closing
 // ----------------------------------------------------------------------------------------
 
-/// What fopen() makes of "r+" and its like.
+/// The flags that fopen() makes of "r+" and other modes.
 struct Mode {
   int host_flags;
   bool reads, writes;
@@ -88,8 +88,7 @@ CallResult reopen_stream(PpeState& state, const Arguments& arguments) {
   const std::uint32_t name = arguments.word(0), number = arguments.word(2);
   const Mode mode = parse_mode(arguments.string(1));
   const std::int32_t descriptor = state.streams.at(number).descriptor();
-  if (name == 0)
-    return CallResult::address(number); // another mode for the same file: there are no text files
+  if (name == 0) return CallResult::address(number); // modes do not differ: there are no text files
   std::shared_ptr<HostFile> file;
   try {
     file = state.open(arguments.string(0), mode.host_flags, 0666);
@@ -119,7 +118,7 @@ CallResult open_temporary(PpeState& state, const Arguments&) {
 
 CallResult name_temporary(PpeState& state, const Arguments& arguments) {
   const std::uint32_t to = arguments.word(0);
-  // The library has room of its own only if it is given it.
+  // The library passes a buffer only if it was given one.
   if (to == 0) throw CallFailed{SpuErrno::invalid};
   std::string name = state.temporary_name("tmp");
   name += '\0';
@@ -197,7 +196,7 @@ CallResult rewind_stream(PpeState& state, const Arguments& arguments) {
   return success();
 }
 
-/// fpos_t has 16 bytes; what is in them is our own affair.
+/// Stores the position in an fpos_t of 16 bytes, whose format is free.
 CallResult get_position(PpeState& state, const Arguments& arguments) {
   const std::uint32_t to = arguments.word(1);
   arguments.local_store().store(to, static_cast<std::uint64_t>(stream(state, arguments).tell()));
@@ -228,7 +227,7 @@ CallResult get_standard_character(PpeState& state, const Arguments&) {
   return get_from(state.streams.at(kStandardInput));
 }
 
-/// The characters up to and with the next line feed, at most `most`; none at the end.
+/// Returns the characters up to and with the next line feed, at most `most`; none at the end.
 std::string read_line(Stream& from, std::size_t most) {
   std::string line;
   while (line.size() < most && !line.ends_with('\n')) {
@@ -387,7 +386,7 @@ CallResult rename_file(PpeState& state, const Arguments& arguments) {
   return success();
 }
 
-/// There is no command processor.
+/// Fails: there is no command processor.
 CallResult run_command(PpeState&, const Arguments& arguments) {
   if (arguments.word(0) != 0) throw CallFailed{SpuErrno::not_implemented};
   return success();
