@@ -7,7 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "pov/bounds_check.hpp"
 #include "pov/finite.hpp"
+#include "pov/light.hpp"
 #include "pov/object_queries.hpp"
 
 namespace celltrace::pov {
@@ -66,6 +68,11 @@ double component(Session& session, const Quantity& quantity, int which, const Lo
 void append_component(Session& session, Quantity& vector, double component, const Location& where) {
   if (vector.count == 5) session.fail(where, "a vector has at most five components");
   vector.v[static_cast<std::size_t>(vector.count++)] = component;
+}
+
+Quantity vector(Session& session, const Quantity& components, const Location& where) {
+  if (components.is_float()) session.fail(where, "a vector has at least two components");
+  return components;
 }
 
 Transform scale(Session& session, const Quantity& factors, const Location& where) {
@@ -195,6 +202,94 @@ void set_number_of_waves(Session& session, double number, const Location& where)
   session.builder.set_number_of_waves(static_cast<int>(std::max(number, 1.0)));
 }
 
+void set_photons(Session& session, const Location& where) {
+  if (renders_media(session)) session.builder.set_photons(make_unsupported("'photons'", where));
+  session.tokens.skip_group();
+}
+
+void refuse_radiosity(Session& session, const Location& where) {
+  if (renders_media(session)) session.diagnostics.supports(make_unsupported("'radiosity'", where), where);
+  session.tokens.skip_group();
+}
+
+void refuse_block(Session& session, NameId word, const Location& where) {
+  session.diagnostics.supports(unsupported_block(session, word, where), where);
+  session.tokens.skip_group();
+}
+
+void set_unsupported_default(Session& session, NameId word, const Location& where) {
+  TexturePtr& texture = session.builder.default_texture;
+  texture = with_unsupported(texture, unsupported_block(session, word, where));
+  session.tokens.skip_group();
+}
+
+TexturePtr with(Session& session, const TexturePtr& texture, const PigmentPtr& pigment,
+                const Location& where) {
+  require_plain(session, texture, where);
+  return with_pigment(texture, *pigment);
+}
+
+TexturePtr with(Session& session, const TexturePtr& texture, const NormalPtr& normal, const Location& where) {
+  require_plain(session, texture, where);
+  return with_normal(texture, normal);
+}
+
+TexturePtr with(Session& session, const TexturePtr& texture, const FinishPtr& finish, const Location& where) {
+  require_plain(session, texture, where);
+  return with_finish(texture, *finish);
+}
+
+void start_from(Session& session, const TexturePtr& texture) {
+  session.base_texture = texture;
+}
+
+void start_from(Session& session, const ObjectDefinition& object, const Location& where) {
+  session.base_texture = plain_texture_of(session, object, where);
+}
+
+void start_interior(Session& session, const ObjectDefinition& object) {
+  session.base_interior = object.interior;
+}
+
+void start_from(Session& session, const MaterialDefinition& material) {
+  session.base_interior = material.interior;
+}
+
+void dress(Session& session, ObjectDefinition& object, const PigmentDefinition& pigment) {
+  set_texture(object, with_pigment(texture_of(session, object), pigment));
+}
+
+void dress(Session& session, ObjectDefinition& object, const NormalPtr& normal) {
+  set_texture(object, with_normal(texture_of(session, object), normal));
+}
+
+void dress(Session& session, ObjectDefinition& object, const FinishDefinition& finish) {
+  set_texture(object, with_finish(texture_of(session, object), finish));
+}
+
+std::shared_ptr<NormalDefinition> copy_of_normal(const NormalPtr& normal) {
+  return normal ? copy_of(*normal) : std::make_shared<NormalDefinition>();
+}
+
+TexturePtr with_texture(const TexturePtr& before, const TexturePtr& declared) {
+  return before->uv_mapping ? with_uv_mapping(declared) : declared;
+}
+
+TexturePtr finished_texture(Session& session, const TexturePtr& texture, const Location& where) {
+  check(session, texture, where);
+  return with_finished_uv_mapping(texture);
+}
+
+void start_irid(Session& session, FinishDefinition& finish, double amount) {
+  finish.value.irid = amount;
+  session.irid = &finish.value;
+}
+
+void transform(Session& session, MaterialDefinition& material, const Transform& next, const Location& where) {
+  for (TexturePtr* texture : {&material.texture, &material.inside})
+    if (*texture) *texture = transformed(session, *texture, next, where);
+}
+
 PatternChange chosen(int number) {
   return [=](Session&, PatternDefinition& pattern) { choose(pattern, number); };
 }
@@ -219,6 +314,9 @@ PatternChange option(int number, const Quantity& value, const Location& where) {
   };
 }
 
+namespace {
+
+/// `constant`: Julia's, or null for the Mandelbrot set. `magnet`: 0, 1 or 2.
 PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
                       const Location& where) {
   pattern::Fractal fractal;
@@ -232,6 +330,13 @@ PatternChange fractal(Session& session, double magnet, const Quantity* constant,
   }
   set_iterations(session, fractal, iterations, where);
   return [=](Session&, PatternDefinition& pattern) { choose(pattern, fractal); };
+}
+
+} // namespace
+
+PatternChange julia(Session& session, double magnet, const Quantity& constant, double iterations,
+                    const Location& where) {
+  return fractal(session, magnet, &constant, iterations, where);
 }
 
 void set_iterations(Session& session, pattern::Fractal& fractal, double number, const Location& where) {
@@ -310,7 +415,8 @@ PatternChange unsupported_change(const UnsupportedPtr& unsupported) {
   return [=](Session&, PatternDefinition& pattern) { mark(pattern.unsupported, unsupported); };
 }
 
-PatternChange warp(const SpaceStep& warp, const Location& where) {
+PatternChange warp(Session& reading, SpaceStep warp, const Location& items_where, const Location& where) {
+  if (auto* hole = std::get_if<warp::BlackHole>(&warp)) keep_apart(reading, *hole, items_where);
   return [=](Session& session, PatternDefinition& pattern) {
     const auto* mapping = std::get_if<warp::Mapping>(&warp);
     if (mapping != nullptr && mapping->orientation == Vec3(0))
@@ -357,6 +463,14 @@ warp::Mapping mapping(Session& session, int pattern, const Location& where) {
   warp::Mapping mapping;
   mapping.shape = *shape;
   return mapping;
+}
+
+warp::Mapping mapping(Session& session, int pattern, const Vec3& orientation, double distance,
+                      const Location& where) {
+  warp::Mapping result = mapping(session, pattern, where);
+  result.orientation = orientation;
+  result.distance = distance;
+  return result;
 }
 
 int octaves(double number) {
@@ -417,6 +531,10 @@ void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefiniti
                const Location& where) {
   if (pigment.asks_for_surface()) session.fail(where, "a sky_sphere has no surface for this pigment");
   append(session, sky.pigments, pigment, where);
+}
+
+void check(Session& session, const SkySphereDefinition& sky, const Location& where) {
+  if (sky.pigments.empty() && !sky.unsupported) session.fail(where, "a sky_sphere needs a pigment");
 }
 
 void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where) {
@@ -630,6 +748,23 @@ void ignore_colour(Session& session, const Location& where) {
   session.diagnostics.warn_once(where, "this colour is ignored: what gives an object one is its 'pigment'");
 }
 
+ObjectPtr complete(Session& session, const std::shared_ptr<ObjectDefinition>& object, const Location& where) {
+  object->where = where;
+  check(session, *object, where);
+  object->reaches_out_of_bounds = reaches_out_of_bounds(session, *object, where);
+  return own_object(session, object, where);
+}
+
+ObjectPtr located(const std::shared_ptr<ObjectDefinition>& object, const Location& where) {
+  object->where = where;
+  return object;
+}
+
+void ignore_colour_name(Session& session, const Quantity& value, const Location& where) {
+  if (!value.is_colour) session.fail(where, "unexpected " + session.tokens.describe_last());
+  ignore_colour(session, where);
+}
+
 void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument) {
   if (argument.value.is_colour && is_complete(written.number, written.arguments.size()))
     ignore_colour(session, argument.where);
@@ -672,6 +807,17 @@ std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& wr
   else
     object->shape = std::move(shape);
   return object;
+}
+
+std::shared_ptr<ObjectDefinition> open_shape(Session& session, WrittenShape written) {
+  written.is_open = true;
+  return shape(session, written);
+}
+
+std::shared_ptr<ObjectDefinition> shape_with_comma(Session& session, WrittenShape written,
+                                                   const Location& comma) {
+  written.comma = comma;
+  return shape(session, written);
 }
 
 /// Whether a union is nothing but its parts, placed with it.
@@ -781,6 +927,26 @@ void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefiniti
   } catch (const InputError& error) {
     session.fail(where, error.what());
   }
+}
+
+std::shared_ptr<TriangleDefinition> flat_triangle(const Quantity& a, const Quantity& b, const Quantity& c) {
+  auto triangle = std::make_shared<TriangleDefinition>();
+  triangle->vertices = {a.vec3(), b.vec3(), c.vec3()};
+  return triangle;
+}
+
+std::shared_ptr<TriangleDefinition> smooth_triangle(const std::array<Quantity, 3>& corners,
+                                                    const std::array<Quantity, 3>& normals) {
+  auto triangle = flat_triangle(corners[0], corners[1], corners[2]);
+  triangle->normals = {normals[0].vec3(), normals[1].vec3(), normals[2].vec3()};
+  triangle->is_smooth = true;
+  return triangle;
+}
+
+void set_textures(Session& session, Mesh2Definition& mesh, double count, std::vector<TexturePtr> textures,
+                  const Location& where) {
+  check_count(session, count, textures.size(), where);
+  mesh.textures = std::move(textures);
 }
 
 void set_textures(Session& session, TriangleDefinition& triangle, const std::vector<TexturePtr>& textures,

@@ -22,8 +22,14 @@ void append(Session& session, std::vector<T, A>& list, U&& element, const Locati
   list.push_back(std::forward<U>(element));
 }
 
+template <class T> std::shared_ptr<T> copy_of(const T& definition) {
+  return std::make_shared<T>(definition);
+}
+
 // ---- Numbers ----
 
+/// What stands in < >: at least two components.
+Quantity vector(Session& session, const Quantity& components, const Location& where);
 /// Whether there is a component of this number (Names::Entry::component).
 bool has_component(const Quantity& quantity, int which);
 /// The component a word behind a dot names, as in v.x or c.red.
@@ -72,6 +78,34 @@ void add(Session& session, Spline& spline, double at, const Quantity& value, con
 /// Fails if the spline has no knots.
 SplinePtr finished(Session& session, const std::shared_ptr<Spline>& spline, const Location& where);
 
+// ---- Parts of textures ----
+
+// The texture with another pigment, normal or finish. Fail if it has none of its own.
+TexturePtr with(Session& session, const TexturePtr& texture, const PigmentPtr& pigment,
+                const Location& where);
+TexturePtr with(Session& session, const TexturePtr& texture, const NormalPtr& normal, const Location& where);
+TexturePtr with(Session& session, const TexturePtr& texture, const FinishPtr& finish, const Location& where);
+/// Has what is read next start from the parts of a texture.
+void start_from(Session& session, const TexturePtr& texture);
+/// The same for an object's texture.
+void start_from(Session& session, const ObjectDefinition& object, const Location& where);
+/// Has the interior that is read next start from an object's or a material's.
+void start_interior(Session& session, const ObjectDefinition& object);
+void start_from(Session& session, const MaterialDefinition& material);
+/// Gives an object's texture a pigment, normal or finish.
+void dress(Session& session, ObjectDefinition& object, const PigmentDefinition& pigment);
+void dress(Session& session, ObjectDefinition& object, const NormalPtr& normal);
+void dress(Session& session, ObjectDefinition& object, const FinishDefinition& finish);
+/// A copy to change; a new one of null.
+std::shared_ptr<NormalDefinition> copy_of_normal(const NormalPtr& normal);
+/// The declared texture in place of `before`, on surface coordinates if that was to be.
+TexturePtr with_texture(const TexturePtr& before, const TexturePtr& declared);
+/// What has been read, complete.
+TexturePtr finished_texture(Session& session, const TexturePtr& texture, const Location& where);
+/// Has what is read next say how a finish is iridescent.
+void start_irid(Session& session, FinishDefinition& finish, double amount);
+void transform(Session& session, MaterialDefinition& material, const Transform& next, const Location& where);
+
 // ---- Scene ----
 
 void set_assumed_gamma(Session& session, double gamma, const Location& where);
@@ -81,6 +115,21 @@ void set_max_trace_level(Session& session, double level, const Location& where);
 void set_noise_generator(Session& session, double number, const Location& where);
 void set_adc_bailout(Session& session, double share, const Location& where);
 void set_number_of_waves(Session& session, double number, const Location& where);
+
+void set_photons(Session& session, const Location& where);
+/// Passes over radiosity { }, which is not supported at qualities that have it.
+void refuse_radiosity(Session& session, const Location& where);
+/// Passes over a block of the scene's that is not supported.
+void refuse_block(Session& session, NameId word, const Location& where);
+
+/// Has a pigment, normal or finish be that of the default texture.
+template <class Part>
+void set_default(Session& session, const std::shared_ptr<const Part>& part, const Location& where) {
+  TexturePtr& texture = session.builder.default_texture;
+  texture = with(session, texture, part, where);
+}
+/// Passes over a block that is not supported.
+void set_unsupported_default(Session& session, NameId word, const Location& where);
 
 // ---- Textures ----
 
@@ -97,9 +146,9 @@ template <class T> PatternChange set(T Turbulence::*member, T value) {
 }
 PatternChange poly_wave(double exponent);
 PatternChange option(int number, const Quantity& value, const Location& where);
-/// `constant`: Julia's, or null for the Mandelbrot set. `magnet`: 0, 1 or 2.
-PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
-                      const Location& where);
+/// `magnet`: 0, 1 or 2.
+PatternChange julia(Session& session, double magnet, const Quantity& constant, double iterations,
+                    const Location& where);
 /// Gives a fractal as many iterations as can be counted. With less than 0 POV-Ray has 0.55
 /// everywhere.
 void set_iterations(Session& session, pattern::Fractal& fractal, double number, const Location& where);
@@ -119,7 +168,8 @@ PatternChange interior(double type, double factor, const Location& where);
 /// The grey of a pigment.
 PatternChange grey(const PigmentDefinition& pigment);
 PatternChange unsupported_change(const UnsupportedPtr& unsupported);
-PatternChange warp(const SpaceStep& warp, const Location& where);
+/// `items_where`: where the first word in it stands.
+PatternChange warp(Session& session, SpaceStep warp, const Location& items_where, const Location& where);
 /// A black hole's copies do not reach into one another: they are as far apart as that takes.
 void keep_apart(Session& session, warp::BlackHole& hole, const Location& where);
 /// Along the only axis of which `width` is not 0.
@@ -128,6 +178,8 @@ warp::Repeat repeat(Session& session, const Vec3& width, const Location& where);
 Vec3 offset(Session& session, int option, const Quantity& value, const Location& where);
 /// Of a pattern's word.
 warp::Mapping mapping(Session& session, int pattern, const Location& where);
+warp::Mapping mapping(Session& session, int pattern, const Vec3& orientation, double distance,
+                      const Location& where);
 /// Fails unless it has a length.
 double positive(Session& session, double value, const char* what, const Location& where);
 int octaves(double number);
@@ -153,6 +205,8 @@ void set_colour(PigmentDefinition& pigment, const Pigment& colour);
 void set_quick_colour(Session& session, PigmentDefinition& pigment, const Pigment& colour);
 
 /// Fails if the pigment depends on a surface: a sky has none.
+/// What a sky_sphere has to have.
+void check(Session& session, const SkySphereDefinition& sky, const Location& where);
 void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
                const Location& where);
 /// Moves the pigments that it has got.
@@ -182,6 +236,11 @@ TexturePtr with_old_pattern(Session& session, const TexturePtr& texture, const P
 /// Changes the waves of the texture's normal.
 TexturePtr with_old_waves(Session& session, const TexturePtr& texture, const PatternChange& change);
 TexturePtr with_old_finish(const TexturePtr& texture, const std::function<void(FinishDefinition&)>& change);
+
+TexturePtr with_old_colours(Session& session, const TexturePtr& texture, int pattern, const PigmentMap& list,
+                            const Location& where);
+TexturePtr with_old_map(Session& session, const TexturePtr& texture, const PigmentMap& map,
+                        const Location& where);
 
 // Maps and lists (maps.cpp)
 
@@ -214,6 +273,13 @@ void set_colours(Session& session, PigmentDefinition& pigment, int pattern, Pigm
 void set_list(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
               const Location& where);
 void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap list, const Location& where);
+// The same for the pattern of an object.
+void set_colours(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
+                 const Location& where);
+void set_list(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
+              const Location& where);
+void set_list(Session& session, NormalDefinition& normal, const Limit& object, NormalMap list,
+              const Location& where);
 TexturePtr with_pattern(Session& session, const TexturePtr& texture, const PatternChange& pattern);
 TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, TextureMap list,
                      const Location& where);
@@ -275,12 +341,22 @@ void set_cutaway_textures(Session& session, ObjectDefinition& object, const Loca
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 /// What an object has to have when it ends.
 void check(Session& session, const ObjectDefinition& object, const Location& where);
+/// The object, which has been read to its end.
+ObjectPtr complete(Session& session, const std::shared_ptr<ObjectDefinition>& object, const Location& where);
+/// The same for what has nothing to be checked.
+ObjectPtr located(const std::shared_ptr<ObjectDefinition>& object, const Location& where);
 /// What POV-Ray makes of a colour among an object's modifiers.
 void ignore_colour(Session& session, const Location& where);
+/// The same of a name; fails if that is no colour's. Must come before the next token.
+void ignore_colour_name(Session& session, const Quantity& value, const Location& where);
 /// Adds what stands behind other arguments without a comma: that may also be the name of a colour, which is
 /// such a modifier where the shape is complete.
 void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
+/// The same with `open` behind the arguments, or with a comma.
+std::shared_ptr<ObjectDefinition> open_shape(Session& session, WrittenShape written);
+std::shared_ptr<ObjectDefinition> shape_with_comma(Session& session, WrittenShape written,
+                                                   const Location& comma);
 /// With POV-Ray's defaults: no direction, as far away as can be, and an arc without an end.
 std::shared_ptr<RainbowDefinition> new_rainbow();
 void set_colours(Rainbow& rainbow, const PigmentMap& map);
@@ -306,6 +382,12 @@ void apply(Session& session, const std::shared_ptr<const MaterialDefinition>& ma
 std::shared_ptr<ObjectDefinition>
 lone_triangle(Session& session, std::shared_ptr<TriangleDefinition> triangle, const Location& where);
 void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,
+                  const Location& where);
+std::shared_ptr<TriangleDefinition> flat_triangle(const Quantity& a, const Quantity& b, const Quantity& c);
+std::shared_ptr<TriangleDefinition> smooth_triangle(const std::array<Quantity, 3>& corners,
+                                                    const std::array<Quantity, 3>& normals);
+/// Of a mesh2; fails unless there are as many as announced.
+void set_textures(Session& session, Mesh2Definition& mesh, double count, std::vector<TexturePtr> textures,
                   const Location& where);
 /// Fails unless they are three.
 void set_textures(Session& session, TriangleDefinition& triangle, const std::vector<TexturePtr>& textures,

@@ -26,6 +26,12 @@ Names::Names() {
     entry.detail = word.detail;
     entry.is_unsupported = word.is_unsupported;
   }
+  for (const BlockWord& word : block_words()) {
+    Entry& entry = entries_[intern(word.text)];
+    entry.in_blocks.resize(kBlocks);
+    Meaning& meaning = entry.in_blocks[static_cast<std::size_t>(word.block)];
+    if (meaning.token == 0) meaning = {word.token, word.detail};
+  }
 }
 
 bool Names::is_reserved(std::string_view text) const {

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
+#include "pov/block.hpp"
 #include "pov/token.hpp"
 
 namespace celltrace::pov {
@@ -50,6 +52,11 @@ bool opens_block(Directive directive);
 
 class Names {
 public:
+  /// What a word is in a block; token 0: nothing of the block's own.
+  struct Meaning {
+    int token = 0;
+    int detail = 0;
+  };
   struct Entry {
     std::string text;
     int token = 0;      ///< the grammar's token for a reserved word, 0 for a free one
@@ -57,6 +64,11 @@ public:
     int component = -1; ///< what it means behind a dot: 0 to 4, 5 for grey, -1 nothing
     bool is_unsupported = false; ///< reserved for what this program lacks
     Directive directive = Directive::none;
+    std::vector<Meaning> in_blocks = {}; ///< by Block; empty: nothing in any
+
+    Meaning in(Block block) const {
+      return in_blocks.empty() ? Meaning() : in_blocks[static_cast<std::size_t>(block)];
+    }
   };
 
   /// Knows the reserved words.

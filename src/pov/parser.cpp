@@ -53,10 +53,15 @@ struct Deliver {
     case token::T_PATTERN:
     case token::T_ARGUED_PATTERN:
     case token::T_LIST_PATTERN:
-    case token::T_PATTERN_OPTION:
-    case token::T_PATTERN_FLAG:
-    case token::T_WAVE:
     case token::T_CAMERA_KIND:
+    case token::T_WORD_ITEM:
+    case token::T_VALUE_ITEM:
+    case token::T_OPTION_ITEM:
+    case token::T_PAIR_ITEM:
+    case token::T_SHARE_ITEM:
+    case token::T_COLOUR_ITEM:
+    case token::T_COLOUR_OR_BLACK_ITEM:
+    case token::T_LIST_ITEM:
       target.emplace<int>(terminal.detail);
       break;
     case token::T_UNSUPPORTED:

@@ -16,6 +16,17 @@ struct ReservedWord {
 };
 std::vector<ReservedWord> reserved_words();
 
+/// What a word means in a block (items.hpp).
+struct BlockWord {
+  const char* text;
+  Block block;
+  int token;  ///< the grammar's
+  int detail; ///< Item::row
+  bool is_ignored;
+};
+/// All of them; of several for one word and block the first counts.
+std::vector<BlockWord> block_words();
+
 /// What a word means behind a dot: 0 to 4 a component, 5 the grey value, -1 nothing.
 int component_of(std::string_view word);
 /// What a word means behind a #.

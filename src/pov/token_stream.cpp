@@ -73,6 +73,65 @@ bool ends_operand(int terminal) {
   }
 }
 
+/// The block that a brace behind a terminal opens.
+Block block_behind(int terminal) {
+  switch (terminal) {
+  case tokens::T_GLOBAL_SETTINGS:
+    return Block::settings;
+  case tokens::T_FINISH:
+    return Block::finish;
+  case tokens::T_REFLECTION:
+    return Block::reflection;
+  case tokens::T_IRID:
+    return Block::irid;
+  case tokens::T_OLD_TEXTURE:
+    return Block::old_texture;
+  case tokens::T_INTERIOR:
+    return Block::interior;
+  case tokens::T_FOG:
+    return Block::fog;
+  case tokens::T_RAINBOW:
+    return Block::rainbow;
+  case tokens::T_SKY_SPHERE:
+    return Block::sky_sphere;
+  case tokens::T_CAMERA:
+    return Block::camera;
+  case tokens::T_LIGHT_SOURCE:
+    return Block::light_source;
+  case tokens::T_LIGHT_GROUP:
+    return Block::light_group;
+  case tokens::T_SHAPE:
+  case tokens::T_OPTION_SHAPE:
+  case tokens::T_CSG:
+  case tokens::T_OBJECT:
+  case tokens::T_MESH:
+  case tokens::T_TRIANGLE:
+  case tokens::T_SMOOTH_TRIANGLE:
+  case tokens::T_LOOKS_LIKE:
+  case tokens::T_PROJECTED_THROUGH:
+    return Block::object;
+  case tokens::T_MESH2:
+    return Block::mesh2;
+  case tokens::T_PHOTONS:
+    return Block::photons;
+  case tokens::T_TEXTURE:
+  case tokens::T_TEXTURE_MAP:
+  case tokens::T_INTERIOR_TEXTURE:
+    return Block::pattern;
+  case tokens::T_PIGMENT:
+  case tokens::T_PIGMENT_MAP:
+  case tokens::T_PIGMENT_PATTERN:
+    return Block::pigment;
+  case tokens::T_NORMAL:
+  case tokens::T_NORMAL_MAP:
+    return Block::normal;
+  case tokens::T_WARP:
+    return Block::warp;
+  default:
+    return Block::none;
+  }
+}
+
 /// Whether a terminal can be part of what stands behind a keyword; brackets aside.
 bool is_argument(int terminal) {
   switch (terminal) {
@@ -329,14 +388,24 @@ void TokenStream::deliver(const Token& token, Terminal& terminal) {
   level.any_delivered = true;
   level.after_operand = ends_operand(terminal.token);
   level.last_token = token;
+  level.last_terminal = terminal.token;
   terminal.where = token.where;
+}
+
+/// Whose items can stand here.
+Block TokenStream::block() const {
+  const Level& level = levels_.back();
+  if (!level.enclosing.empty()) return level.enclosing.back().block;
+  return level.start == Start::scene ? Block::scene : Block::none;
 }
 
 /// < and ? count until the bracket around them closes, because they may or may not have a partner.
 void TokenStream::count_brackets(const Token& token) {
   Level& level = levels_.back();
   if (opens(token)) {
-    level.enclosing.push_back({level.nesting, token.is('(')});
+    // An entry of a map is like what the map is for.
+    const Block inside = token.is('{') ? block_behind(level.last_terminal) : Block::none;
+    level.enclosing.push_back({level.nesting, token.is('('), token.is('[') ? block() : inside});
     ++level.nesting;
   } else if (token.is('<') || token.is('?')) {
     ++level.nesting;
@@ -399,8 +468,10 @@ void TokenStream::interpret(const Token& token, Terminal& terminal) const {
 bool TokenStream::look_up(const Token& word, Terminal& terminal) {
   const Names::Entry& name = session_.names[word.name];
   if (name.token != 0) {
-    terminal.token = name.token;
-    terminal.detail = name.detail;
+    const Names::Meaning item = name.in(block());
+    terminal.token = item.token != 0 ? item.token : name.token;
+    terminal.detail = item.token != 0 ? item.detail : name.detail;
+    if (item.token != 0) return true;
     if (name.token == tokens::T_CONSTANT) {
       terminal.value = value_of(static_cast<Constant>(name.detail), session_);
       terminal.token = std::visit(TokenOf{}, terminal.value);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "pov/block.hpp"
 #include "pov/input.hpp"
 #include "pov/literals.hpp"
 #include "pov/value.hpp"
@@ -114,6 +115,7 @@ private:
   struct Bracket {
     unsigned outside = 0; ///< the nesting around it
     bool is_parenthesis = false;
+    Block block = Block::none; ///< whose items are in it
   };
 
   /// One entry of the grammar.
@@ -126,6 +128,7 @@ private:
     unsigned nesting = 0; ///< open brackets, and < and ? which may or may not be brackets
     std::vector<Bracket> enclosing;
     Token last_token;
+    int last_terminal = 0;            ///< that last_token was made to
     std::optional<Terminal> put_back; ///< made of last_token; to be delivered again
     bool after_operand = false;       ///< the last terminal can end a value
     Value result;
@@ -142,6 +145,7 @@ private:
   const Location& here() const;
   void deliver(const Token& token, Terminal& terminal);
   void count_brackets(const Token& token);
+  Block block() const;
   void end_at(const Token& token, Terminal& terminal);
   bool look_up(const Token& token, Terminal& terminal);
   void interpret(const Token& token, Terminal& terminal) const;
