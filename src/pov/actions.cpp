@@ -239,6 +239,12 @@ TexturePtr with(Session& session, const TexturePtr& texture, const FinishPtr& fi
   return with_finish(texture, *finish);
 }
 
+TexturePtr with_named(const TexturePtr& texture, const Value& part) {
+  if (const auto* pigment = std::get_if<PigmentPtr>(&part)) return with_pigment(texture, **pigment);
+  if (const auto* normal = std::get_if<NormalPtr>(&part)) return with_normal(texture, *normal);
+  return with_finish(texture, *std::get<FinishPtr>(part));
+}
+
 void start_from(Session& session, const TexturePtr& texture) {
   session.base_texture = texture;
 }

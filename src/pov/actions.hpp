@@ -26,6 +26,11 @@ template <class T> std::shared_ptr<T> copy_of(const T& definition) {
   return std::make_shared<T>(definition);
 }
 
+/// A copy of what a name stands for, which is a T.
+template <class T> std::shared_ptr<T> copy_of_named(const Value& value) {
+  return copy_of(*std::get<std::shared_ptr<const T>>(value));
+}
+
 // ---- Numbers ----
 
 /// What stands in < >: at least two components.
@@ -85,6 +90,8 @@ TexturePtr with(Session& session, const TexturePtr& texture, const PigmentPtr& p
                 const Location& where);
 TexturePtr with(Session& session, const TexturePtr& texture, const NormalPtr& normal, const Location& where);
 TexturePtr with(Session& session, const TexturePtr& texture, const FinishPtr& finish, const Location& where);
+/// The texture with the pigment, normal or finish that a name stands for.
+TexturePtr with_named(const TexturePtr& texture, const Value& part);
 /// Has what is read next start from the parts of a texture.
 void start_from(Session& session, const TexturePtr& texture);
 /// The same for an object's texture.

@@ -15,6 +15,7 @@ enum class Block : std::uint8_t {
   irid,
   old_texture, ///< before version 3.0
   interior,
+  material,
   fog,
   rainbow,
   sky_sphere,

@@ -19,7 +19,7 @@
 %param { celltrace::pov::Session& session }
 
 %code requires {
-#include "pov/item_tables.hpp"
+#include "pov/modifiers.hpp"
 #include "pov/bounds_check.hpp"
 #include "pov/functions.hpp"
 #include "pov/light.hpp"
@@ -55,20 +55,12 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 
 %token <Quantity> QUANTITY
 %token <std::string> TEXT
-%token <PigmentPtr> PIGMENT_ID
-%token <NormalPtr> NORMAL_ID
 %token <PigmentMapPtr> PIGMENT_MAP_ID
 %token <NormalMapPtr> NORMAL_MAP_ID
 %token <TextureMapPtr> TEXTURE_MAP_ID
 %token <SlopeMapPtr> SLOPE_MAP_ID
-%token <SkySpherePtr> SKY_SPHERE_ID
-%token <FogPtr> FOG_ID
-%token <RainbowPtr> RAINBOW_ID
-%token <FinishPtr> FINISH_ID
 %token <TexturePtr> TEXTURE_ID
-%token <InteriorPtr> INTERIOR_ID
-%token <std::shared_ptr<const MaterialDefinition>> MATERIAL_ID
-%token <std::shared_ptr<const CameraDefinition>> CAMERA_ID
+%token <Value> NAMED // a pigment, finish, fog or the like
 %token <ObjectPtr> OBJECT_ID
 %token <Transform> TRANSFORM_ID
 %token <std::shared_ptr<Array>> ARRAY_ID
@@ -78,9 +70,9 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token UNDECLARED_ID
 %token ARGUMENTS // of a shape, which have been taken
 
-// The forms of items; ITEM: one that has no meaning where it stands.
+// The forms of items; MISPLACED: what has no meaning where it stands.
 %token <int> WORD_ITEM VALUE_ITEM OPTION_ITEM PAIR_ITEM SHARE_ITEM COLOUR_ITEM COLOUR_OR_BLACK_ITEM LIST_ITEM
-%token ITEM
+%token MISPLACED
 
 %token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE OPTION_SHAPE CSG CAMERA_KIND
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN
@@ -118,6 +110,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::vector<std::size_t>> dimensions
 %nterm <std::shared_ptr<Array>> elements
 %nterm <Item> item
+%nterm <Modifier> modifier
 %nterm <Transform> transformation
 %nterm <WrittenTransform> transform_items
 %nterm <std::shared_ptr<PigmentDefinition>> own_pigment pigment_base pigment_parts pigment_body
@@ -156,7 +149,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <NameId> variable
 %nterm <double> number number_or_0 component second_number entry_start
 %nterm <std::shared_ptr<Spline>> spline_head spline
-%nterm <UnsupportedPtr> unsupported unsupported_pattern unsupported_modifier
+%nterm <UnsupportedPtr> unsupported
 
 %start start
 
@@ -194,14 +187,13 @@ scene
 
 settings
   : %empty
-  | settings item                 { apply_setting(session, $2); }
+  | settings modifier { modify_settings(session, $2); }
   | settings ASSUMED_GAMMA number { set_assumed_gamma(session, $3, @3); }
   | settings ASSUMED_GAMMA SRGB   { set_assumed_gamma(session, std::nullopt, @2); }
   | settings CHARSET UNSUPPORTED_ARGUMENT
   | settings CHARSET UNDECLARED_ID
   | settings PHOTONS              { set_photons(session, @2); }
   | settings RADIOSITY            { refuse_radiosity(session, @2); }
-  | settings unsupported          { session.diagnostics.supports($2, @2); }
   ;
 
 defaults
@@ -437,6 +429,13 @@ item
   | COLOUR_OR_BLACK_ITEM colour_or_black { $$ = item($1, @1, $2, @2); }
   ;
 
+modifier
+  : item           { $$ = {$1, @1}; }
+  | warp           { $$ = {$1, @1}; }
+  | transformation { $$ = {$1, @1}; }
+  | unsupported    { $$ = {$1, @1}; }
+  ;
+
 albedo // the number is the share of light that is sent on in all
   : %empty { $$ = false; }
   | ALBEDO { $$ = true; }
@@ -480,7 +479,7 @@ own_finish
 
 pigment_base
   : %empty                  { $$ = copy_of(session.base_texture->pigment); }
-  | pigment_base PIGMENT_ID { $$ = copy_of(*$2); $$->uv_mapping = $1->uv_mapping; }
+  | pigment_base NAMED { $$ = copy_of_named<PigmentDefinition>($2); $$->uv_mapping = $1->uv_mapping; }
   | pigment_base UV_MAPPING { $$ = $1; $$->uv_mapping = true; }
   ;
 
@@ -494,10 +493,7 @@ pigment_parts // what it is, and then what changes that
   | pigment_base pattern_object pigments '}' { $$ = $1; set_list(session, *$$, $2, $3, @2); }
   | pigment_parts COLOUR_MAP colour_map   { $$ = $1; set_map(session, *$$, $3, @2); }
   | pigment_parts PIGMENT_MAP pigment_map { $$ = $1; set_map(session, *$$, $3, @2); }
-  | pigment_parts item                    { $$ = $1; apply(session, *$$, $2); }
-  | pigment_parts warp                    { $$ = $1; change(session, $$->pattern, $2); }
-  | pigment_parts transformation          { $$ = $1; move(session, $$->pattern, $2, @2); }
-  | pigment_parts unsupported_pattern     { $$ = $1; mark($$->pattern.unsupported, $2); }
+  | pigment_parts modifier { $$ = $1; modify(session, *$$, $2); }
   ;
 
 pigment_body
@@ -515,7 +511,7 @@ normal_base
   ;
 
 declared_normal
-  : normal_start NORMAL_ID { $$ = copy_of(*$2); $$->uv_mapping = $1->uv_mapping; }
+  : normal_start NAMED { $$ = copy_of_named<NormalDefinition>($2); $$->uv_mapping = $1->uv_mapping; }
   ;
 
 normal_parts
@@ -531,10 +527,7 @@ normal_parts
   | normal_base pattern_object normals '}'     { $$ = $1; set_list(session, *$$, $2, $3, @2); }
   | normal_parts NORMAL_MAP normal_map         { $$ = $1; set_map(session, *$$, $3, @2); }
   | normal_parts SLOPE_MAP slope_map           { $$ = $1; $$->slopes = ascending($3); }
-  | normal_parts item                          { $$ = $1; apply(session, *$$, $2); }
-  | normal_parts warp                          { $$ = $1; change(session, $$->pattern, $2); }
-  | normal_parts transformation                { $$ = $1; move(session, $$->pattern, $2, @2); }
-  | normal_parts unsupported_pattern           { $$ = $1; mark($$->pattern.unsupported, $2); }
+  | normal_parts modifier { $$ = $1; modify(session, *$$, $2); }
   ;
 
 normal_body
@@ -688,15 +681,14 @@ finish_body
 
 finish_parts
   : %empty                                  { $$ = std::make_shared<FinishDefinition>(session.base_texture->finish); }
-  | finish_parts FINISH_ID                  { $$ = copy_of(*$2); }
-  | finish_parts item                       { $$ = $1; apply(session, *$$, $2); }
+  | finish_parts NAMED { $$ = copy_of_named<FinishDefinition>($2); }
+  | finish_parts modifier { $$ = $1; modify(session, *$$, $2); }
   | finish_parts DIFFUSE albedo number_or_0 optional_comma { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
   | finish_parts DIFFUSE albedo number_or_0 optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
   | finish_parts REFLECTION colour_or_black { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
   | finish_parts REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
   | finish_parts IRID '{' number            { start_irid(session, *$1, $4); }
                           irid_items '}'    { $$ = $1; }
-  | finish_parts unsupported                { $$ = $1; mark($$->unsupported, $2); }
   ;
 
 irid_items // of the finish that is being read
@@ -724,9 +716,7 @@ old_texture_parts
   | old_texture_parts PIGMENT '{' { start_from(session, $1); } pigment_body '}' { $$ = with_pigment($1, *$5); }
   | old_texture_parts NORMAL '{' { start_from(session, $1); } normal_body '}' { $$ = with_normal($1, $5); }
   | old_texture_parts FINISH '{' { start_from(session, $1); } finish_body '}' { $$ = with_finish($1, *$5); }
-  | old_texture_parts PIGMENT_ID     { $$ = with_pigment($1, *$2); }
-  | old_texture_parts NORMAL_ID      { $$ = with_normal($1, $2); }
-  | old_texture_parts FINISH_ID      { $$ = with_finish($1, *$2); }
+  | old_texture_parts NAMED          { $$ = with_named($1, $2); }
   | old_texture_parts colour_value   { $$ = with_old_colour(session, $1, $2); }
   | old_texture_parts PATTERN        %prec SHORTER { $$ = with_old_pattern(session, $1, $2, std::nullopt); }
   | old_texture_parts PATTERN number { $$ = with_old_pattern(session, $1, $2, $3); }
@@ -735,10 +725,7 @@ old_texture_parts
   | old_texture_parts LIST_PATTERN textures { $$ = with_list(session, $1, $2, $3, @2); }
   | old_texture_parts TILES '{' layers TILE2 layers '}' { $$ = with_tiles(session, $1, $4, $6, @2); }
   | old_texture_parts COLOUR_MAP colour_map { $$ = with_old_map(session, $1, $3, @2); }
-  | old_texture_parts item           { $$ = with_old_item(session, $1, $2); }
-  | old_texture_parts warp           { $$ = with_old_pattern(session, $1, $2); }
-  | old_texture_parts transformation { $$ = transformed(session, $1, $2, @2); }
-  | old_texture_parts unsupported_pattern { $$ = with_pattern(session, $1, unsupported_change($2)); }
+  | old_texture_parts modifier { $$ = modified_old(session, $1, $2); }
   ;
 
 texture_parts
@@ -748,9 +735,7 @@ texture_parts
   | texture_parts PIGMENT '{' { start_from(session, $1); } pigment_body '}' { $$ = with(session, $1, $5, @2); }
   | texture_parts NORMAL '{' { start_from(session, $1); } normal_body '}' { $$ = with(session, $1, $5, @2); }
   | texture_parts FINISH '{' { start_from(session, $1); } finish_body '}' { $$ = with(session, $1, $5, @2); }
-  | texture_parts PIGMENT_ID     { $$ = with(session, $1, $2, @2); }
-  | texture_parts NORMAL_ID      { $$ = with(session, $1, $2, @2); }
-  | texture_parts FINISH_ID      { $$ = with(session, $1, $2, @2); }
+  | texture_parts NAMED          { require_plain(session, $1, @2); $$ = with_named($1, $2); }
   | texture_parts pattern        { $$ = with_pattern(session, $1, $2); }
   | texture_parts LIST_PATTERN textures { $$ = with_list(session, $1, $2, $3, @2); }
   | texture_parts pattern_object textures '}' { $$ = with_object(session, $1, $2, $3, @2); }
@@ -758,11 +743,8 @@ texture_parts
   | texture_parts TEXTURE_MAP texture_map { $$ = with_map(session, $1, $3, @2); }
   | texture_parts LIST_PATTERN   { $$ = with_list(session, $1, $2, {}, @2); }
   | texture_parts TILES '{' layers TILE2 layers '}' { $$ = with_tiles(session, $1, $4, $6, @2); }
-  | texture_parts item           { $$ = changed(session, $1, pattern_change(session, $2), @2); }
-  | texture_parts warp           { $$ = changed(session, $1, $2, @2); }
-  | texture_parts transformation { $$ = transformed(session, $1, $2, @2); }
+  | texture_parts modifier { $$ = modified(session, $1, $2); }
   | texture_parts UV_MAPPING     { $$ = with_uv_mapping($1); }
-  | texture_parts unsupported_pattern { $$ = with_pattern(session, $1, unsupported_change($2)); }
   ;
 
 texture_body
@@ -780,11 +762,9 @@ sky_sphere
 
 sky_sphere_body
   : %empty                         { $$ = std::make_shared<SkySphereDefinition>(); }
-  | sky_sphere_body SKY_SPHERE_ID  { $$ = copy_of(*$2); }
+  | sky_sphere_body NAMED { $$ = copy_of_named<SkySphereDefinition>($2); }
   | sky_sphere_body own_pigment    { $$ = $1; add_layer(session, *$$, *$2, @2); }
-  | sky_sphere_body transformation { $$ = $1; transform(session, *$$, $2, @2); }
-  | sky_sphere_body item           { $$ = $1; apply(session, *$$, $2); }
-  | sky_sphere_body unsupported    { $$ = $1; mark($$->unsupported, $2); }
+  | sky_sphere_body modifier { $$ = $1; modify(session, *$$, $2); }
   ;
 
 fog
@@ -793,12 +773,10 @@ fog
 
 fog_body
   : %empty                   { $$ = std::make_shared<FogDefinition>(); }
-  | fog_body FOG_ID          { $$ = copy_of(*$2); }
+  | fog_body NAMED { $$ = copy_of_named<FogDefinition>($2); }
   | fog_body colour_value    { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
   | fog_body repeated_colour %prec SHORTER { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
-  | fog_body item            { $$ = $1; apply(session, *$$, $2); }
-  | fog_body transformation  { $$ = $1; transform($$->value, $2); }
-  | fog_body unsupported     { $$ = $1; mark($$->unsupported, $2); }
+  | fog_body modifier { $$ = $1; modify(session, *$$, $2); }
   ;
 
 rainbow
@@ -807,10 +785,9 @@ rainbow
 
 rainbow_body
   : %empty                  { $$ = new_rainbow(); }
-  | rainbow_body RAINBOW_ID { $$ = copy_of(*$2); } // where POV-Ray 3.7 turns angles twice and forgets the colours
+  | rainbow_body NAMED { $$ = copy_of_named<RainbowDefinition>($2); } // where POV-Ray 3.7 turns angles twice and forgets the colours
   | rainbow_body COLOUR_MAP colour_map { $$ = $1; set_colours($$->value, $3); }
-  | rainbow_body item       { $$ = $1; apply(session, *$$, $2); }
-  | rainbow_body unsupported { $$ = $1; mark($$->unsupported, $2); }
+  | rainbow_body modifier { $$ = $1; modify(session, *$$, $2); }
   ;
 
 interior
@@ -819,9 +796,8 @@ interior
 
 interior_body // changes what is there
   : %empty                    { if (session.base_interior) $$ = *session.base_interior; }
-  | interior_body INTERIOR_ID { $$ = *$2; }
-  | interior_body item        { $$ = $1; apply(session, $$, $2); }
-  | interior_body unsupported { $$ = $1; mark($$.unsupported, $2); }
+  | interior_body NAMED { $$ = *copy_of_named<InteriorDefinition>($2); }
+  | interior_body modifier { $$ = $1; modify(session, $$, $2); }
   ;
 
 material
@@ -830,15 +806,14 @@ material
 
 material_body
   : %empty                       { }
-  | material_body MATERIAL_ID    { $$ = *$2; }
+  | material_body NAMED { $$ = *copy_of_named<MaterialDefinition>($2); }
   | material_body texture        { $$ = $1; $$.texture = layer(session, $$.texture, $2, @2); }
   | material_body INTERIOR_TEXTURE '{' texture_body '}' { $$ = $1; $$.inside = layer(session, $$.inside, $4, @2); }
   | material_body INTERIOR '{' { start_from(session, $1); } interior_body '}' {
       $$ = $1;
       $$.interior = copy_of($5);
     }
-  | material_body transformation { $$ = $1; transform(session, $$, $2, @2); }
-  | material_body unsupported    { $$ = $1; mark($$.unsupported, $2); }
+  | material_body modifier { $$ = $1; modify(session, $$, $2); }
   ;
 
 // ---- Camera ----
@@ -849,11 +824,11 @@ camera
 
 camera_body
   : %empty                      { $$ = start_camera(session, session.builder.default_camera, @$); }
-  | camera_body CAMERA_ID       { $$ = start_camera(session, *$2, @2); }
+  | camera_body NAMED           { $$ = start_camera(session, *copy_of_named<CameraDefinition>($2), @2); }
   | camera_body CAMERA_KIND     { $$ = $1; set_kind(*$$, $2); }
   | camera_body PATTERN         { $$ = $1; set_kind_by_pattern(session, *$$, $2, @2); }
   | camera_body SHAPE number    { $$ = $1; set_kind(session, *$$, $2, $3, @2); }
-  | camera_body item            { $$ = $1; apply(session, *$$, $2); }
+  | camera_body modifier { $$ = $1; modify(session, *$$, $2); }
   | camera_body ANGLE           { $$ = $1; set_no_angle(session, *$$, @2); }
   | camera_body ANGLE quantity  { $$ = $1; set_angle(session, *$$, session.any_number($3, @3), @2); }
   | camera_body ANGLE quantity optional_comma number {
@@ -862,9 +837,6 @@ camera_body
     }
   | camera_body BLUR_SAMPLES number { $$ = $1; $$->blur_samples = $3; }
   | camera_body BLUR_SAMPLES number optional_comma number { $$ = $1; $$->blur_samples = $5; }
-  | camera_body transformation  { $$ = $1; transform(*$$, $2); }
-  | camera_body NORMAL          { $$ = $1; mark($$->unsupported, unsupported_feature(session, "'normal'", @2)); }
-  | camera_body unsupported_modifier { $$ = $1; mark($$->unsupported, $2); }
   ;
 
 // ---- Objects ----
@@ -935,8 +907,7 @@ object_body
   | triangle_vertices            { $$ = lone_triangle(session, $1, @1); }
   | mesh_head                    { $$ = mesh(session, *$1, @1); }
   | mesh2_head                   { $$ = mesh2(session, *$1, @1); }
-  | object_body item             { $$ = $1; apply(session, *$$, $2); }
-  | object_body transformation   { $$ = $1; $$->apply($2); }
+  | object_body modifier { $$ = $1; modify(session, *$$, $2); }
   | object_body texture          { $$ = $1; add_layer(session, *$$, $2, @2); }
   | object_body PIGMENT '{' { start_from(session, *$1, @2); } pigment_body '}' { $$ = $1; dress(session, *$$, *$5); }
   | object_body NORMAL '{' { start_from(session, *$1, @2); } normal_body '}' { $$ = $1; dress(session, *$$, $5); }
@@ -955,7 +926,6 @@ object_body
   | object_body QUANTITY         { $$ = $1; ignore_colour_name(session, $2, @2); }
   | object_body photons          { $$ = $1; $$->is_photon_target = $2.is_target; }
   | object_body RADIOSITY        { $$ = $1; session.tokens.skip_group(); } // of radiosity
-  | object_body unsupported_modifier { $$ = $1; mark($$->unsupported, $2); }
   ;
 
 photons
@@ -981,14 +951,12 @@ light_body // what comes later applies to what is there by then
       $$ = light(session, $3.vec3(), session.light($5, @5).rgb);
     }
   | light_body SHAPE              { $$ = $1; set_kind(session, *$$, $2, @2); }
-  | light_body item               { $$ = $1; apply(session, *$$, $2); }
+  | light_body modifier { $$ = $1; modify_light(session, *$$, $2); }
   | light_body object_body '}'    { $$ = $1; add_object(session, *$$, $2, @2); }
   | light_body AREA_LIGHT quantity optional_comma quantity optional_comma number optional_comma number {
       $$ = $1;
       set_area(session, *$$, session.vector($3, @3), session.vector($5, @5), {$7, $9}, @2);
     }
-  | light_body transformation     { $$ = $1; transform(*$$, $2); }
-  | light_body unsupported        { $$ = $1; mark($$->unsupported, $2); }
   | light_body photons            { $$ = $1; }
   ;
 
@@ -1071,23 +1039,15 @@ declarable
   | SLOPE_MAP slope_map     { $$ = std::make_shared<const std::vector<SlopePoint>>($2); }
   | TEXTURE_MAP texture_map { $$ = std::make_shared<const TextureMap>($2); }
   | sky_sphere        { $$ = SkySpherePtr($1); }
-  | SKY_SPHERE_ID     { $$ = $1; }
   | fog               { $$ = FogPtr($1); }
-  | FOG_ID            { $$ = $1; }
   | rainbow           { $$ = RainbowPtr($1); }
-  | RAINBOW_ID        { $$ = $1; }
   | layers            %prec SHORTER { $$ = $1; }
   | TEXTURE_ID        { $$ = $1; }
-  | PIGMENT_ID        { $$ = $1; }
-  | NORMAL_ID         { $$ = $1; }
   | PIGMENT_MAP_ID    { $$ = $1; }
   | NORMAL_MAP_ID     { $$ = $1; }
   | TEXTURE_MAP_ID    { $$ = $1; }
   | SLOPE_MAP_ID      { $$ = $1; }
-  | FINISH_ID         { $$ = $1; }
-  | INTERIOR_ID       { $$ = $1; }
-  | MATERIAL_ID       { $$ = $1; }
-  | CAMERA_ID         { $$ = $1; }
+  | NAMED
   | TRANSFORM_ID      { $$ = $1; }
   | UNSUPPORTED_ID    { $$ = $1; }
   | USER_FUNCTION     { $$ = read_function(session, @1); }
@@ -1135,19 +1095,7 @@ element
 // ---- What is not supported: what belongs to it is passed over ----
 
 unsupported
-  : unsupported_pattern
-  | NORMAL             { $$ = unsupported_feature(session, "'normal'", @1); }
-  | PATTERN            { $$ = unsupported_feature(session, quoted_pattern($1), @1); }
-  ;
-
-unsupported_pattern // a pigment's, normal's or texture's
-  : unsupported_modifier
-  | UNSUPPORTED_OBJECT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
-  | USER_FUNCTION      { $$ = unsupported_feature(session, "'function'", @1); }
-  ;
-
-unsupported_modifier // an object's: in CSG an unsupported object is one of its parts
-  : UNSUPPORTED        { $$ = unsupported_feature(session, quoted(session, $1), @1); }
+  : UNSUPPORTED          { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   | UNSUPPORTED_ARGUMENT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
-  | UNSUPPORTED_BLOCK  { $$ = unsupported_block(session, $1, @1); session.tokens.skip_arguments(); }
+  | UNSUPPORTED_BLOCK    { $$ = unsupported_block(session, $1, @1); session.tokens.skip_arguments(); }
   ;

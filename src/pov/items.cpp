@@ -28,6 +28,7 @@ const BlockTable kTables[] = {
     {Block::irid, Block::none, irid_items},
     {Block::old_texture, Block::pattern, old_texture_items},
     {Block::interior, Block::none, interior_items},
+    {Block::material, Block::none, no_items},
     {Block::fog, Block::none, fog_items},
     {Block::rainbow, Block::none, rainbow_items},
     {Block::sky_sphere, Block::none, sky_sphere_items},

@@ -92,6 +92,10 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session) {
   *where = terminal.where;
   if (const auto* quantity = std::get_if<Quantity>(&terminal.value))
     value->emplace<Quantity>(*quantity); // the most frequent kind by far
+  else if (terminal.token == Parser::token::T_NAMED)
+    value->emplace<Value>(std::move(terminal.value));
+  else if (terminal.token == Parser::token::T_MISPLACED)
+    return terminal.token;
   else
     std::visit(Deliver{*value, terminal}, terminal.value);
   return terminal.token;

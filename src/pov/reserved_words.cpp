@@ -385,7 +385,7 @@ std::vector<ReservedWord> reserved_words() {
   for (const BlockWord& item : block_words()) {
     const auto is_item = [&](const ReservedWord& word) { return std::string_view(word.text) == item.text; };
     if (std::none_of(words.begin(), words.end(), is_item))
-      words.push_back({item.text, tokens::T_ITEM, 0, false});
+      words.push_back({item.text, tokens::T_MISPLACED, 0, false});
   }
   return words;
 }
@@ -428,7 +428,7 @@ std::vector<Keyword> keywords() {
     const std::string_view text = word.text;
     const auto means_something = [&](const BlockWord& item) { return item.text == text && !item.is_ignored; };
     const bool is_ignored =
-        word.token == tokens::T_ITEM && std::none_of(items.begin(), items.end(), means_something);
+        word.token == tokens::T_MISPLACED && std::none_of(items.begin(), items.end(), means_something);
     const bool is_refused = std::find(std::begin(kRefused), std::end(kRefused), text) != std::end(kRefused);
     const auto support = is_ignored ? Keyword::Support::ignored : Keyword::Support::full;
     result.push_back({word.text, word.is_unsupported || is_refused ? Keyword::Support::none : support});

@@ -6,6 +6,7 @@
 
 #include "celltrace/error.hpp"
 #include "memory/huge_pages.hpp"
+#include "pov/blocks.hpp"
 #include "pov/characters.hpp"
 #include "pov/constants.hpp"
 #include "pov/grammar.hpp"
@@ -42,23 +43,15 @@ bool ends_operand(int terminal) {
   switch (terminal) {
   case tokens::T_QUANTITY:
   case tokens::T_TEXT:
-  case tokens::T_PIGMENT_ID:
-  case tokens::T_NORMAL_ID:
+  case tokens::T_NAMED:
   case tokens::T_PIGMENT_MAP_ID:
   case tokens::T_NORMAL_MAP_ID:
   case tokens::T_TEXTURE_MAP_ID:
   case tokens::T_SLOPE_MAP_ID:
-  case tokens::T_SKY_SPHERE_ID:
-  case tokens::T_FOG_ID:
-  case tokens::T_RAINBOW_ID:
-  case tokens::T_FINISH_ID:
   case tokens::T_TEXTURE_ID:
   case tokens::T_OBJECT_ID:
   case tokens::T_TRANSFORM_ID:
   case tokens::T_ARRAY_ID:
-  case tokens::T_INTERIOR_ID:
-  case tokens::T_MATERIAL_ID:
-  case tokens::T_CAMERA_ID:
   case tokens::T_FUNCTION_ID:
   case tokens::T_SPLINE_ID:
   case tokens::T_UNSUPPORTED_ID:
@@ -70,65 +63,6 @@ bool ends_operand(int terminal) {
     return true;
   default:
     return false;
-  }
-}
-
-/// The block that a brace behind a terminal opens.
-Block block_behind(int terminal) {
-  switch (terminal) {
-  case tokens::T_GLOBAL_SETTINGS:
-    return Block::settings;
-  case tokens::T_FINISH:
-    return Block::finish;
-  case tokens::T_REFLECTION:
-    return Block::reflection;
-  case tokens::T_IRID:
-    return Block::irid;
-  case tokens::T_OLD_TEXTURE:
-    return Block::old_texture;
-  case tokens::T_INTERIOR:
-    return Block::interior;
-  case tokens::T_FOG:
-    return Block::fog;
-  case tokens::T_RAINBOW:
-    return Block::rainbow;
-  case tokens::T_SKY_SPHERE:
-    return Block::sky_sphere;
-  case tokens::T_CAMERA:
-    return Block::camera;
-  case tokens::T_LIGHT_SOURCE:
-    return Block::light_source;
-  case tokens::T_LIGHT_GROUP:
-    return Block::light_group;
-  case tokens::T_SHAPE:
-  case tokens::T_OPTION_SHAPE:
-  case tokens::T_CSG:
-  case tokens::T_OBJECT:
-  case tokens::T_MESH:
-  case tokens::T_TRIANGLE:
-  case tokens::T_SMOOTH_TRIANGLE:
-  case tokens::T_LOOKS_LIKE:
-  case tokens::T_PROJECTED_THROUGH:
-    return Block::object;
-  case tokens::T_MESH2:
-    return Block::mesh2;
-  case tokens::T_PHOTONS:
-    return Block::photons;
-  case tokens::T_TEXTURE:
-  case tokens::T_TEXTURE_MAP:
-  case tokens::T_INTERIOR_TEXTURE:
-    return Block::pattern;
-  case tokens::T_PIGMENT:
-  case tokens::T_PIGMENT_MAP:
-  case tokens::T_PIGMENT_PATTERN:
-    return Block::pigment;
-  case tokens::T_NORMAL:
-  case tokens::T_NORMAL_MAP:
-    return Block::normal;
-  case tokens::T_WARP:
-    return Block::warp;
-  default:
-    return Block::none;
   }
 }
 
@@ -213,20 +147,20 @@ struct TokenOf {
   int operator()(std::monostate) const { return tokens::T_UNDECLARED_ID; }
   int operator()(const Quantity&) const { return tokens::T_QUANTITY; }
   int operator()(const std::string&) const { return tokens::T_TEXT; }
-  int operator()(const PigmentPtr&) const { return tokens::T_PIGMENT_ID; }
-  int operator()(const NormalPtr&) const { return tokens::T_NORMAL_ID; }
+  int operator()(const PigmentPtr&) const { return tokens::T_NAMED; }
+  int operator()(const NormalPtr&) const { return tokens::T_NAMED; }
   int operator()(const PigmentMapPtr&) const { return tokens::T_PIGMENT_MAP_ID; }
   int operator()(const NormalMapPtr&) const { return tokens::T_NORMAL_MAP_ID; }
   int operator()(const TextureMapPtr&) const { return tokens::T_TEXTURE_MAP_ID; }
   int operator()(const SlopeMapPtr&) const { return tokens::T_SLOPE_MAP_ID; }
-  int operator()(const SkySpherePtr&) const { return tokens::T_SKY_SPHERE_ID; }
-  int operator()(const FogPtr&) const { return tokens::T_FOG_ID; }
-  int operator()(const RainbowPtr&) const { return tokens::T_RAINBOW_ID; }
-  int operator()(const FinishPtr&) const { return tokens::T_FINISH_ID; }
+  int operator()(const SkySpherePtr&) const { return tokens::T_NAMED; }
+  int operator()(const FogPtr&) const { return tokens::T_NAMED; }
+  int operator()(const RainbowPtr&) const { return tokens::T_NAMED; }
+  int operator()(const FinishPtr&) const { return tokens::T_NAMED; }
   int operator()(const TexturePtr&) const { return tokens::T_TEXTURE_ID; }
-  int operator()(const InteriorPtr&) const { return tokens::T_INTERIOR_ID; }
-  int operator()(const std::shared_ptr<const MaterialDefinition>&) const { return tokens::T_MATERIAL_ID; }
-  int operator()(const std::shared_ptr<const CameraDefinition>&) const { return tokens::T_CAMERA_ID; }
+  int operator()(const InteriorPtr&) const { return tokens::T_NAMED; }
+  int operator()(const std::shared_ptr<const MaterialDefinition>&) const { return tokens::T_NAMED; }
+  int operator()(const std::shared_ptr<const CameraDefinition>&) const { return tokens::T_NAMED; }
   int operator()(const ObjectPtr&) const { return tokens::T_OBJECT_ID; }
   int operator()(const Transform&) const { return tokens::T_TRANSFORM_ID; }
   int operator()(const std::shared_ptr<Array>&) const { return tokens::T_ARRAY_ID; }
@@ -469,7 +403,7 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
   const Names::Entry& name = session_.names[word.name];
   if (name.token != 0) {
     const Names::Meaning item = name.in(block());
-    terminal.token = item.token != 0 ? item.token : name.token;
+    terminal.token = item.token != 0 ? item.token : terminal_in(block(), name.token);
     terminal.detail = item.token != 0 ? item.detail : name.detail;
     if (item.token != 0) return true;
     if (name.token == tokens::T_CONSTANT) {
@@ -480,7 +414,7 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
       terminal.token = tokens::T_QUANTITY;
     } else if (name.token == tokens::T_TEXTURE && session_.builder.has_old_textures()) {
       terminal.token = tokens::T_OLD_TEXTURE;
-    } else if (name.is_unsupported) {
+    } else if (name.is_unsupported || terminal.token == tokens::T_UNSUPPORTED) {
       terminal.detail = static_cast<int>(word.name);
     }
     return true;
@@ -506,6 +440,8 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
     }
   }
   terminal.token = std::visit(TokenOf{}, terminal.value);
+  if (terminal.token == tokens::T_NAMED && !takes(block(), terminal.value))
+    terminal.token = tokens::T_MISPLACED;
   return true;
 }
 
