@@ -119,7 +119,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <pattern::Inside> pattern_inside
 %nterm <Limit> pattern_object
 %nterm <pattern::Slope> slope facing
-%nterm <SpaceStep> warp_items
+%nterm <SpaceStep> bend warp_items
 %nterm <std::vector<SlopePoint>> slope_map slope_entries
 %nterm <PigmentMap> colours pigments colour_entry colour_entries pigment_entries colour_map pigment_map
 %nterm <NormalMap> normals normal_entries normal_map
@@ -580,7 +580,11 @@ second_number // 0 if not there
   ;
 
 warp
-  : WARP '{' warp_items '}' { $$ = warp(session, $3, @3, @1); }
+  : WARP '{' bend '}' { $$ = warp(session, $3, @3, @1); }
+  ;
+
+bend // complete
+  : warp_items
   ;
 
 warp_items

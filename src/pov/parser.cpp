@@ -127,6 +127,8 @@ void Parser::report_syntax_error(const context& ctx) const {
   const std::string found = session.tokens.describe_last();
   switch (ctx.token()) {
   case symbol_kind::S_UNSUPPORTED:
+    if (!session.names[session.tokens.last_token().name].is_unsupported) break; // but for this block
+    session.fail(where, found + " is not supported yet");
   case symbol_kind::S_UNSUPPORTED_ARGUMENT:
   case symbol_kind::S_UNSUPPORTED_OBJECT:
   case symbol_kind::S_UNSUPPORTED_BLOCK:
