@@ -71,7 +71,6 @@ Block block_behind(int terminal) {
   case tokens::T_LIGHT_GROUP:
     return Block::light_group;
   case tokens::T_SHAPE:
-  case tokens::T_OPTION_SHAPE:
   case tokens::T_CSG:
   case tokens::T_OBJECT:
   case tokens::T_MESH:

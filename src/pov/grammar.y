@@ -74,7 +74,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token <int> WORD_ITEM VALUE_ITEM OPTION_ITEM PAIR_ITEM SHARE_ITEM COLOUR_ITEM COLOUR_OR_BLACK_ITEM LIST_ITEM
 %token MISPLACED
 
-%token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE OPTION_SHAPE CSG CAMERA_KIND
+%token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN
 %token <NameId> UNSUPPORTED UNSUPPORTED_ARGUMENT UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT READ_APART
@@ -137,7 +137,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::shared_ptr<CameraDefinition>> camera camera_body
 %nterm <ObjectPtr> object
 %nterm <std::shared_ptr<ObjectDefinition>> object_body light_body light_group
-%nterm <WrittenShape> shape_start shape_head option_shape_start option_shape_head
+%nterm <WrittenShape> shape_start shape_head shape_end
 %nterm <Compound> csg_head light_group_head
 %nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
@@ -283,13 +283,8 @@ logic
   ;
 
 comparison
-  : quantity                          %prec SHORTER
-  | comparison '<' quantity           { $$ = compare(Relation::less, $1, $3); }
-  | comparison LESS_EQUAL quantity    %prec SHORTER { $$ = compare(Relation::less_equal, $1, $3); }
-  | comparison '=' quantity           %prec SHORTER { $$ = compare(Relation::equal, $1, $3); }
-  | comparison NOT_EQUAL quantity     %prec SHORTER { $$ = compare(Relation::not_equal, $1, $3); }
-  | comparison GREATER_EQUAL quantity %prec SHORTER { $$ = compare(Relation::greater_equal, $1, $3); }
-  | comparison '>' quantity           %prec SHORTER { $$ = compare(Relation::greater, $1, $3); }
+  : quantity                     %prec SHORTER
+  | comparison relation quantity %prec SHORTER { $$ = compare($2, $1, $3); }
   | text '=' text                     { $$ = double($1 == $3); }
   | text NOT_EQUAL text               { $$ = double($1 != $3); }
   ;
@@ -691,13 +686,12 @@ finish_parts
   | finish_parts DIFFUSE albedo number_or_0 optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
   | finish_parts REFLECTION colour_or_black { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
   | finish_parts REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
-  | finish_parts IRID '{' number            { start_irid(session, *$1, $4); }
-                          irid_items '}'    { $$ = $1; }
+  | finish_parts IRID '{' number { start_irid(session, $1, $4); } irid_items '}' { $$ = kept<std::shared_ptr<FinishDefinition>>(session); }
   ;
 
 irid_items // of the finish that is being read
   : %empty
-  | irid_items item { apply(session, *session.irid, $2); }
+  | irid_items item { apply(session, irid(session), $2); }
   ;
 
 reflection_body
@@ -717,9 +711,9 @@ texture
 old_texture_parts
   : %empty                           { $$ = session.builder.default_texture; }
   | old_texture_parts TEXTURE_ID     { $$ = $2; }
-  | old_texture_parts PIGMENT '{' { start_from(session, $1); } pigment_body '}' { $$ = with_pigment($1, *$5); }
-  | old_texture_parts NORMAL '{' { start_from(session, $1); } normal_body '}' { $$ = with_normal($1, $5); }
-  | old_texture_parts FINISH '{' { start_from(session, $1); } finish_body '}' { $$ = with_finish($1, *$5); }
+  | old_texture_parts PIGMENT '{' { start_part(session, $1); } pigment_body '}' { $$ = with_pigment(kept<TexturePtr>(session), *$5); }
+  | old_texture_parts NORMAL '{' { start_part(session, $1); } normal_body '}' { $$ = with_normal(kept<TexturePtr>(session), $5); }
+  | old_texture_parts FINISH '{' { start_part(session, $1); } finish_body '}' { $$ = with_finish(kept<TexturePtr>(session), *$5); }
   | old_texture_parts NAMED          { $$ = with_named($1, $2); }
   | old_texture_parts colour_value   { $$ = with_old_colour(session, $1, $2); }
   | old_texture_parts PATTERN        %prec SHORTER { $$ = with_old_pattern(session, $1, $2, std::nullopt); }
@@ -736,10 +730,10 @@ texture_parts
   : %empty                       { $$ = session.builder.default_texture; }
   | TEXTURE_ID
   | texture_parts TEXTURE_ID     { $$ = with_texture($1, $2); }
-  | texture_parts PIGMENT '{' { start_from(session, $1); } pigment_body '}' { $$ = with(session, $1, $5, @2); }
-  | texture_parts NORMAL '{' { start_from(session, $1); } normal_body '}' { $$ = with(session, $1, $5, @2); }
-  | texture_parts FINISH '{' { start_from(session, $1); } finish_body '}' { $$ = with(session, $1, $5, @2); }
-  | texture_parts NAMED          { require_plain(session, $1, @2); $$ = with_named($1, $2); }
+  | texture_parts PIGMENT '{' { start_part(session, $1); } pigment_body '}' { $$ = with(session, kept<TexturePtr>(session), $5, @2); }
+  | texture_parts NORMAL '{' { start_part(session, $1); } normal_body '}' { $$ = with(session, kept<TexturePtr>(session), $5, @2); }
+  | texture_parts FINISH '{' { start_part(session, $1); } finish_body '}' { $$ = with(session, kept<TexturePtr>(session), $5, @2); }
+  | texture_parts NAMED          { $$ = with_named(session, $1, $2, @2); }
   | texture_parts pattern        { $$ = with_pattern(session, $1, $2); }
   | texture_parts LIST_PATTERN textures { $$ = with_list(session, $1, $2, $3, @2); }
   | texture_parts pattern_object textures '}' { $$ = with_object(session, $1, $2, $3, @2); }
@@ -813,8 +807,8 @@ material_body
   | material_body NAMED { $$ = *copy_of_named<MaterialDefinition>($2); }
   | material_body texture        { $$ = $1; $$.texture = layer(session, $$.texture, $2, @2); }
   | material_body INTERIOR_TEXTURE '{' texture_body '}' { $$ = $1; $$.inside = layer(session, $$.inside, $4, @2); }
-  | material_body INTERIOR '{' { start_from(session, $1); } interior_body '}' {
-      $$ = $1;
+  | material_body INTERIOR '{' { start_part(session, $1); } interior_body '}' {
+      $$ = kept<MaterialDefinition>(session);
       $$.interior = copy_of($5);
     }
   | material_body modifier { $$ = $1; modify(session, $$, $2); }
@@ -865,16 +859,12 @@ shape_head
   | shape_head ',' quantity  %prec SHORTER { $$ = $1; append(session, $$.arguments, {$3, @3}, @3); }
   ;
 
-// Of what may be left out behind them the comma may be there.
-option_shape_start
-  : OPTION_SHAPE '{'         { $$.number = $1; $$.where = @1; session.tokens.take_arguments($$.arguments); }
-  ;
-
-option_shape_head
-  : option_shape_start ARGUMENTS   { $$ = $1; }
-  | option_shape_start quantity    %prec SHORTER { $$ = $1; $$.arguments.push_back({$2, @2}); }
-  | option_shape_head quantity     %prec SHORTER { $$ = $1; append_argument(session, $$, {$2, @2}); }
-  | option_shape_head ',' quantity %prec SHORTER { $$ = $1; append(session, $$.arguments, {$3, @3}, @3); }
+shape_end // the comma belongs to what may be left out behind it
+  : shape_head ',' %prec SHORTER {
+      $$ = $1;
+      $$.comma = @2;
+      if (!has_option($$.number)) report_syntax_error(context(*this, yyla));
+    }
   ;
 
 csg_head
@@ -902,9 +892,7 @@ object_body
   | MESH2 '{' OBJECT_ID          { $$ = copy_of(*$3); }
   | shape_head                   %prec SHORTER { $$ = shape(session, $1); }
   | shape_head OPEN              { $$ = open_shape(session, $1); }
-  | option_shape_start OBJECT_ID { $$ = copy_of(*$2); }
-  | option_shape_head            %prec SHORTER { $$ = shape(session, $1); }
-  | option_shape_head ','        %prec SHORTER { $$ = shape_with_comma(session, $1, @2); }
+  | shape_end                    { $$ = shape(session, $1); }
   | LOOKS_LIKE '{' object        { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
   | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }
   | csg_head                     { $$ = csg(session, $1, @1); }
@@ -913,13 +901,10 @@ object_body
   | mesh2_head                   { $$ = mesh2(session, *$1, @1); }
   | object_body modifier { $$ = $1; modify(session, *$$, $2); }
   | object_body texture          { $$ = $1; add_layer(session, *$$, $2, @2); }
-  | object_body PIGMENT '{' { start_from(session, *$1, @2); } pigment_body '}' { $$ = $1; dress(session, *$$, *$5); }
-  | object_body NORMAL '{' { start_from(session, *$1, @2); } normal_body '}' { $$ = $1; dress(session, *$$, $5); }
-  | object_body FINISH '{' { start_from(session, *$1, @2); } finish_body '}' { $$ = $1; dress(session, *$$, *$5); }
-  | object_body INTERIOR '{' { start_interior(session, *$1); } interior_body '}' {
-      $$ = $1;
-      $$->interior = copy_of($5);
-    }
+  | object_body PIGMENT '{' { start_part(session, $1, @2); } pigment_body '}' { $$ = dressed(session, *$5); }
+  | object_body NORMAL '{' { start_part(session, $1, @2); } normal_body '}' { $$ = dressed(session, $5); }
+  | object_body FINISH '{' { start_part(session, $1, @2); } finish_body '}' { $$ = dressed(session, *$5); }
+  | object_body INTERIOR '{' { start_interior(session, $1); } interior_body '}' { $$ = with_interior(session, $5); }
   | object_body material         { $$ = $1; apply(session, $2, *$$, @2); }
   | object_body INTERIOR_TEXTURE '{' texture_body '}' { $$ = $1; set_inside(session, *$$, $4, @2); }
   | object_body CLIPPED_BY '{' limits '}'     { $$ = $1; limit(session, *$$, $$->clipped_by, $4, @2); }

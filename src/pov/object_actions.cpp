@@ -127,12 +127,6 @@ std::shared_ptr<ObjectDefinition> open_shape(Session& session, WrittenShape writ
   return shape(session, written);
 }
 
-std::shared_ptr<ObjectDefinition> shape_with_comma(Session& session, WrittenShape written,
-                                                   const Location& comma) {
-  written.comma = comma;
-  return shape(session, written);
-}
-
 /// Whether a union is nothing but its parts, placed with it.
 bool is_mere_union(const ObjectDefinition& object) {
   const auto* const compound = std::get_if<std::shared_ptr<const Compound>>(&object.shape);

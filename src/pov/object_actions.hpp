@@ -37,10 +37,8 @@ void ignore_colour_name(Session& session, const Quantity& value, const Location&
 /// such a modifier where the shape is complete.
 void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
-/// The same with `open` behind the arguments, or with a comma.
+/// The same with `open` behind the arguments.
 std::shared_ptr<ObjectDefinition> open_shape(Session& session, WrittenShape written);
-std::shared_ptr<ObjectDefinition> shape_with_comma(Session& session, WrittenShape written,
-                                                   const Location& comma);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
 /// Of a light group.
 void set_global_lights(ObjectDefinition& object, bool are_on);

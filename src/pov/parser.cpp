@@ -48,7 +48,6 @@ struct Deliver {
     case token::T_SRGB_MODEL:
     case token::T_CHANNEL:
     case token::T_SHAPE:
-    case token::T_OPTION_SHAPE:
     case token::T_CSG:
     case token::T_PATTERN:
     case token::T_ARGUED_PATTERN:

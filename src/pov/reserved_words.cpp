@@ -363,10 +363,8 @@ std::vector<ReservedWord> reserved_words() {
     words.push_back(
         {function.name, function.gives_text ? tokens::T_TEXT_FUNCTION : tokens::T_FUNCTION, number++, false});
   number = 0;
-  for (const char* shape : shape_names()) {
-    words.push_back({shape, has_option(number) ? tokens::T_OPTION_SHAPE : tokens::T_SHAPE, number, false});
-    ++number;
-  }
+  for (const char* shape : shape_names())
+    words.push_back({shape, tokens::T_SHAPE, number++, false});
   number = 0;
   const std::vector<PatternWord> patterns = pattern_words();
   for (const PatternWord& pattern : patterns) {

@@ -3,11 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "celltrace/pov.hpp"
-#include "pov/diagnostics.hpp"
 #include "geometry/function_machine.hpp"
+#include "pov/diagnostics.hpp"
 #include "pov/input.hpp"
 #include "pov/memory.hpp"
 #include "pov/names.hpp"
@@ -45,7 +46,10 @@ struct Session {
   std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
   TexturePtr base_texture;        ///< what the pigment or finish being read starts from
   InteriorPtr base_interior;      ///< the same for an interior
-  Finish* irid = nullptr;         ///< the finish whose irid { } is being read
+  /// What has a part in braces that is being read, from the outermost inwards.
+  std::vector<std::variant<TexturePtr, std::shared_ptr<ObjectDefinition>, std::shared_ptr<FinishDefinition>,
+                           MaterialDefinition>>
+      unfinished;
   std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< being read, in each other
   std::vector<std::shared_ptr<Parser>> parsers; ///< one for each entry of the grammar, made when first needed
 

@@ -26,32 +26,62 @@ TexturePtr with_named(const TexturePtr& texture, const Value& part) {
   return with_finish(texture, *std::get<FinishPtr>(part));
 }
 
-void start_from(Session& session, const TexturePtr& texture) {
+TexturePtr with_named(Session& session, const TexturePtr& texture, const Value& part, const Location& where) {
+  require_plain(session, texture, where);
+  return with_named(texture, part);
+}
+
+void start_part(Session& session, TexturePtr texture) {
   session.base_texture = texture;
+  session.unfinished.emplace_back(std::move(texture));
 }
 
-void start_from(Session& session, const ObjectDefinition& object, const Location& where) {
-  session.base_texture = plain_texture_of(session, object, where);
+void start_part(Session& session, std::shared_ptr<ObjectDefinition> object, const Location& where) {
+  session.base_texture = plain_texture_of(session, *object, where);
+  session.unfinished.emplace_back(std::move(object));
 }
 
-void start_interior(Session& session, const ObjectDefinition& object) {
-  session.base_interior = object.interior;
-}
-
-void start_from(Session& session, const MaterialDefinition& material) {
+void start_part(Session& session, MaterialDefinition material) {
   session.base_interior = material.interior;
+  session.unfinished.emplace_back(std::move(material));
 }
 
-void dress(Session& session, ObjectDefinition& object, const PigmentDefinition& pigment) {
-  set_texture(object, with_pigment(texture_of(session, object), pigment));
+void start_interior(Session& session, std::shared_ptr<ObjectDefinition> object) {
+  session.base_interior = object->interior;
+  session.unfinished.emplace_back(std::move(object));
 }
 
-void dress(Session& session, ObjectDefinition& object, const NormalPtr& normal) {
-  set_texture(object, with_normal(texture_of(session, object), normal));
+void start_irid(Session& session, std::shared_ptr<FinishDefinition> finish, double amount) {
+  finish->value.irid = amount;
+  session.unfinished.emplace_back(std::move(finish));
 }
 
-void dress(Session& session, ObjectDefinition& object, const FinishDefinition& finish) {
-  set_texture(object, with_finish(texture_of(session, object), finish));
+Finish& irid(Session& session) {
+  return std::get<std::shared_ptr<FinishDefinition>>(session.unfinished.back())->value;
+}
+
+std::shared_ptr<ObjectDefinition> dressed(Session& session, const PigmentDefinition& pigment) {
+  auto object = kept<std::shared_ptr<ObjectDefinition>>(session);
+  set_texture(*object, with_pigment(texture_of(session, *object), pigment));
+  return object;
+}
+
+std::shared_ptr<ObjectDefinition> dressed(Session& session, const NormalPtr& normal) {
+  auto object = kept<std::shared_ptr<ObjectDefinition>>(session);
+  set_texture(*object, with_normal(texture_of(session, *object), normal));
+  return object;
+}
+
+std::shared_ptr<ObjectDefinition> dressed(Session& session, const FinishDefinition& finish) {
+  auto object = kept<std::shared_ptr<ObjectDefinition>>(session);
+  set_texture(*object, with_finish(texture_of(session, *object), finish));
+  return object;
+}
+
+std::shared_ptr<ObjectDefinition> with_interior(Session& session, const InteriorDefinition& interior) {
+  auto object = kept<std::shared_ptr<ObjectDefinition>>(session);
+  object->interior = copy_of(interior);
+  return object;
 }
 
 std::shared_ptr<NormalDefinition> copy_of_normal(const NormalPtr& normal) {
@@ -65,11 +95,6 @@ TexturePtr with_texture(const TexturePtr& before, const TexturePtr& declared) {
 TexturePtr finished_texture(Session& session, const TexturePtr& texture, const Location& where) {
   check(session, texture, where);
   return with_finished_uv_mapping(texture);
-}
-
-void start_irid(Session& session, FinishDefinition& finish, double amount) {
-  finish.value.irid = amount;
-  session.irid = &finish.value;
 }
 
 void transform(Session& session, MaterialDefinition& material, const Transform& next, const Location& where) {

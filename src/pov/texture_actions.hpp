@@ -107,25 +107,38 @@ TexturePtr with(Session& session, const TexturePtr& texture, const NormalPtr& no
 TexturePtr with(Session& session, const TexturePtr& texture, const FinishPtr& finish, const Location& where);
 /// The texture with the pigment, normal or finish that a name stands for.
 TexturePtr with_named(const TexturePtr& texture, const Value& part);
-/// Has what is read next start from the parts of a texture.
-void start_from(Session& session, const TexturePtr& texture);
+/// The same; fails if the texture has none of its own.
+TexturePtr with_named(Session& session, const TexturePtr& texture, const Value& part, const Location& where);
+// While a part in braces is read, what it is a part of is kept in session.unfinished.
+
+/// Takes back what was kept last, which is a T.
+template <class T> T kept(Session& session) {
+  T last = std::get<T>(std::move(session.unfinished.back()));
+  session.unfinished.pop_back();
+  return last;
+}
+/// Keeps a texture, whose pigment, normal or finish is read next and starts from the one that it has.
+void start_part(Session& session, TexturePtr texture);
 /// The same for an object's texture.
-void start_from(Session& session, const ObjectDefinition& object, const Location& where);
-/// Has the interior that is read next start from an object's or a material's.
-void start_interior(Session& session, const ObjectDefinition& object);
-void start_from(Session& session, const MaterialDefinition& material);
-/// Gives an object's texture a pigment, normal or finish.
-void dress(Session& session, ObjectDefinition& object, const PigmentDefinition& pigment);
-void dress(Session& session, ObjectDefinition& object, const NormalPtr& normal);
-void dress(Session& session, ObjectDefinition& object, const FinishDefinition& finish);
+void start_part(Session& session, std::shared_ptr<ObjectDefinition> object, const Location& where);
+/// The same for the interior of a material, or of an object.
+void start_part(Session& session, MaterialDefinition material);
+void start_interior(Session& session, std::shared_ptr<ObjectDefinition> object);
+/// The same for what says how a finish is iridescent.
+void start_irid(Session& session, std::shared_ptr<FinishDefinition> finish, double amount);
+/// The kept finish, which is iridescent.
+Finish& irid(Session& session);
+// The kept object with a pigment, normal, finish or interior.
+std::shared_ptr<ObjectDefinition> dressed(Session& session, const PigmentDefinition& pigment);
+std::shared_ptr<ObjectDefinition> dressed(Session& session, const NormalPtr& normal);
+std::shared_ptr<ObjectDefinition> dressed(Session& session, const FinishDefinition& finish);
+std::shared_ptr<ObjectDefinition> with_interior(Session& session, const InteriorDefinition& interior);
 /// A copy to change; a new one of null.
 std::shared_ptr<NormalDefinition> copy_of_normal(const NormalPtr& normal);
 /// The declared texture in place of `before`, on surface coordinates if that was to be.
 TexturePtr with_texture(const TexturePtr& before, const TexturePtr& declared);
 /// What has been read, complete.
 TexturePtr finished_texture(Session& session, const TexturePtr& texture, const Location& where);
-/// Has what is read next say how a finish is iridescent.
-void start_irid(Session& session, FinishDefinition& finish, double amount);
 void transform(Session& session, MaterialDefinition& material, const Transform& next, const Location& where);
 
 } // namespace celltrace::pov
