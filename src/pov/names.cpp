@@ -25,12 +25,7 @@ Names::Names() {
     entry.token = word.token;
     entry.detail = word.detail;
     entry.is_unsupported = word.is_unsupported;
-  }
-  for (const BlockWord& word : block_words()) {
-    Entry& entry = entries_[intern(word.text)];
-    entry.in_blocks.resize(kBlocks);
-    Meaning& meaning = entry.in_blocks[static_cast<std::size_t>(word.block)];
-    if (meaning.token == 0) meaning = {word.token, word.detail};
+    entry.in_blocks = &meanings_of(word);
   }
 }
 

@@ -1,12 +1,12 @@
 // The words of a scene, numbered, with what the language means by them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "pov/block.hpp"
 #include "pov/token.hpp"
@@ -52,11 +52,12 @@ bool opens_block(Directive directive);
 
 class Names {
 public:
-  /// What a word is in a block; token 0: nothing of the block's own.
+  /// What a reserved word is in a block.
   struct Meaning {
     int token = 0;
-    int detail = 0;
+    int detail = 0; ///< what the token says apart from its kind: which function, constant or colour model
   };
+  using Meanings = std::array<Meaning, kBlocks>; ///< by Block
   struct Entry {
     std::string text;
     int token = 0;      ///< the grammar's token for a reserved word, 0 for a free one
@@ -64,11 +65,9 @@ public:
     int component = -1; ///< what it means behind a dot: 0 to 4, 5 for grey, -1 nothing
     bool is_unsupported = false; ///< reserved for what this program lacks
     Directive directive = Directive::none;
-    std::vector<Meaning> in_blocks = {}; ///< by Block; empty: nothing in any
+    const Meanings* in_blocks = nullptr; ///< of a reserved word
 
-    Meaning in(Block block) const {
-      return in_blocks.empty() ? Meaning() : in_blocks[static_cast<std::size_t>(block)];
-    }
+    const Meaning& in(Block block) const { return (*in_blocks)[static_cast<std::size_t>(block)]; }
   };
 
   /// Knows the reserved words.

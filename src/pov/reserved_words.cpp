@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <unordered_map>
 
 #include "celltrace/pov.hpp"
+#include "pov/blocks.hpp"
 #include "pov/camera.hpp"
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
@@ -340,9 +342,7 @@ int token_of(PatternForm form) {
   return tokens::T_PATTERN;
 }
 
-} // namespace
-
-std::vector<ReservedWord> reserved_words() {
+std::vector<ReservedWord> make_reserved_words() {
   std::vector<ReservedWord> words;
   for (const Word& word : kWords)
     words.push_back({word.text, word.token, 0, false});
@@ -388,7 +388,7 @@ std::vector<ReservedWord> reserved_words() {
   return words;
 }
 
-std::vector<BlockWord> block_words() {
+std::vector<BlockWord> make_block_words() {
   std::vector<BlockWord> words;
   for (int i = 0; i < kBlocks; ++i) {
     const auto block = static_cast<Block>(i);
@@ -400,6 +400,40 @@ std::vector<BlockWord> block_words() {
     }
   }
   return words;
+}
+
+using AllMeanings = std::unordered_map<std::string_view, Names::Meanings>;
+
+AllMeanings make_meanings() {
+  AllMeanings all;
+  for (const BlockWord& word : block_words()) {
+    Names::Meaning& meaning = all[word.text][static_cast<std::size_t>(word.block)];
+    if (meaning.token == 0) meaning = {word.token, word.detail};
+  }
+  for (const ReservedWord& word : reserved_words()) {
+    Names::Meanings& meanings = all[word.text];
+    for (std::size_t block = 0; block < meanings.size(); ++block)
+      if (meanings[block].token == 0)
+        meanings[block] = {terminal_in(static_cast<Block>(block), word.token), word.detail};
+  }
+  return all;
+}
+
+} // namespace
+
+const std::vector<ReservedWord>& reserved_words() {
+  static const std::vector<ReservedWord> kAll = make_reserved_words();
+  return kAll;
+}
+
+const std::vector<BlockWord>& block_words() {
+  static const std::vector<BlockWord> kAll = make_block_words();
+  return kAll;
+}
+
+const Names::Meanings& meanings_of(const ReservedWord& word) {
+  static const AllMeanings kAll = make_meanings();
+  return kAll.at(word.text);
 }
 
 int component_of(std::string_view word) {
@@ -420,7 +454,7 @@ namespace celltrace {
 
 std::vector<Keyword> keywords() {
   using namespace pov;
-  const std::vector<BlockWord> items = block_words();
+  const std::vector<BlockWord>& items = block_words();
   std::vector<Keyword> result;
   for (const ReservedWord& word : reserved_words()) {
     const std::string_view text = word.text;

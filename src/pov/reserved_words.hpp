@@ -14,9 +14,11 @@ struct ReservedWord {
   int detail;
   bool is_unsupported;
 };
-std::vector<ReservedWord> reserved_words();
+const std::vector<ReservedWord>& reserved_words();
+/// What a reserved word is in each Block.
+const Names::Meanings& meanings_of(const ReservedWord& word);
 
-/// What a word means in a block (items.hpp).
+/// An item's word (items.hpp).
 struct BlockWord {
   const char* text;
   Block block;
@@ -25,7 +27,7 @@ struct BlockWord {
   bool is_ignored;
 };
 /// All of them; of several for one word and block the first counts.
-std::vector<BlockWord> block_words();
+const std::vector<BlockWord>& block_words();
 
 /// What a word means behind a dot: 0 to 4 a component, 5 the grey value, -1 nothing.
 int component_of(std::string_view word);

@@ -402,17 +402,16 @@ void TokenStream::interpret(const Token& token, Terminal& terminal) const {
 bool TokenStream::look_up(const Token& word, Terminal& terminal) {
   const Names::Entry& name = session_.names[word.name];
   if (name.token != 0) {
-    const Names::Meaning item = name.in(block());
-    terminal.token = item.token != 0 ? item.token : terminal_in(block(), name.token);
-    terminal.detail = item.token != 0 ? item.detail : name.detail;
-    if (item.token != 0) return true;
-    if (name.token == tokens::T_CONSTANT) {
+    const Names::Meaning& meaning = name.in(block());
+    terminal.token = meaning.token;
+    terminal.detail = meaning.detail;
+    if (meaning.token == tokens::T_CONSTANT) {
       terminal.value = value_of(static_cast<Constant>(name.detail), session_);
       terminal.token = std::visit(TokenOf{}, terminal.value);
-    } else if (name.token == tokens::T_DEFINED) {
+    } else if (meaning.token == tokens::T_DEFINED) {
       terminal.value = Quantity(is_defined() ? 1 : 0);
       terminal.token = tokens::T_QUANTITY;
-    } else if (name.token == tokens::T_TEXTURE && session_.builder.has_old_textures()) {
+    } else if (meaning.token == tokens::T_TEXTURE && session_.builder.has_old_textures()) {
       terminal.token = tokens::T_OLD_TEXTURE;
     } else if (name.is_unsupported || terminal.token == tokens::T_UNSUPPORTED) {
       terminal.detail = static_cast<int>(word.name);
