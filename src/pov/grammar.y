@@ -195,7 +195,7 @@ scene
 
 settings
   : %empty
-  | settings modifier { modify_settings(session, $2); }
+  | settings modifier { modify_settings(session, $2, @2); }
   | settings ASSUMED_GAMMA number { set_assumed_gamma(session, $3, @3); }
   | settings ASSUMED_GAMMA SRGB   { set_assumed_gamma(session, std::nullopt, @2); }
   | settings CHARSET UNSUPPORTED_ARGUMENT
@@ -426,17 +426,17 @@ item
   | VALUE_ITEM quantity                  %prec SHORTER { $$ = item($1, @1, $2, @2); }
   | OPTION_ITEM                          %prec SHORTER { $$ = item($1, @1); }
   | OPTION_ITEM quantity                 %prec SHORTER { $$ = item($1, @1, $2, @2); }
-  | PAIR_ITEM quantity optional_comma quantity %prec SHORTER { $$ = item($1, @1, $2, @2); $$.add($4, @4); }
+  | PAIR_ITEM quantity optional_comma quantity %prec SHORTER { $$ = item($1, @1, {$2, @2}, {$4, @4}); }
   | SHARE_ITEM albedo quantity           %prec SHORTER { $$ = item($1, @1, $3, @3); $$.is_albedo = $2; }
   | COLOUR_ITEM colour_value             { $$ = item($1, @1, $2, @2); }
   | COLOUR_OR_BLACK_ITEM colour_or_black { $$ = item($1, @1, $2, @2); }
   ;
 
 modifier
-  : item           { $$ = {$1, @1}; }
-  | warp           { $$ = {$1, @1}; }
-  | transformation { $$ = {$1, @1}; }
-  | unsupported    { $$ = {$1, @1}; }
+  : item           { $$ = $1; }
+  | warp           { $$ = $1; }
+  | transformation { $$ = $1; }
+  | unsupported    { $$ = $1; }
   ;
 
 albedo // the number is the share of light that is sent on in all

@@ -12,7 +12,7 @@ camera_body
   | camera_body CAMERA_KIND     { $$ = $1; set_kind(*$$, $2); }
   | camera_body PATTERN         { $$ = $1; set_kind_by_pattern(session, *$$, $2, @2); }
   | camera_body SHAPE number    { $$ = $1; set_kind(session, *$$, $2, $3, @2); }
-  | camera_body modifier { $$ = $1; modify(session, *$$, $2); }
+  | camera_body modifier { $$ = $1; modify(session, *$$, $2, @2); }
   | camera_body ANGLE           { $$ = $1; set_no_angle(session, *$$, @2); }
   | camera_body ANGLE quantity  { $$ = $1; set_angle(session, *$$, session.any_number($3, @3), @2); }
   | camera_body ANGLE quantity optional_comma number {
@@ -85,7 +85,7 @@ object_body
   | triangle_vertices            { $$ = lone_triangle(session, $1, @1); }
   | mesh_head                    { $$ = mesh(session, *$1, @1); }
   | mesh2_head                   { $$ = mesh2(session, *$1, @1); }
-  | object_body modifier { $$ = $1; modify(session, *$$, $2); }
+  | object_body modifier { $$ = $1; modify(session, *$$, $2, @2); }
   | object_body texture          { $$ = $1; add_layer(session, *$$, $2, @2); }
   | object_body PIGMENT '{' { start_part(session, $1, @2); } pigment_body '}' { $$ = dressed(session, *$5); }
   | object_body NORMAL '{' { start_part(session, $1, @2); } normal_body '}' { $$ = dressed(session, $5); }
@@ -126,7 +126,7 @@ light_body // what comes later applies to what is there by then
       $$ = light(session, $3.vec3(), session.light($5, @5).rgb);
     }
   | light_body SHAPE              { $$ = $1; set_kind(session, *$$, $2, @2); }
-  | light_body modifier { $$ = $1; modify_light(session, *$$, $2); }
+  | light_body modifier { $$ = $1; modify_light(session, *$$, $2, @2); }
   | light_body object_body '}'    { $$ = $1; add_object(session, *$$, $2, @2); }
   | light_body AREA_LIGHT quantity optional_comma quantity optional_comma number optional_comma number {
       $$ = $1;

@@ -34,7 +34,7 @@ pigment_parts // what it is, and then what changes that
   | pigment_base pattern_object pigments '}' { $$ = $1; set_list(session, *$$, $2, $3, @2); }
   | pigment_parts COLOUR_MAP colour_map   { $$ = $1; set_map(session, *$$, $3, @2); }
   | pigment_parts PIGMENT_MAP pigment_map { $$ = $1; set_map(session, *$$, $3, @2); }
-  | pigment_parts modifier { $$ = $1; modify(session, *$$, $2); }
+  | pigment_parts modifier { $$ = $1; modify(session, *$$, $2, @2); }
   ;
 
 pigment_body
@@ -68,7 +68,7 @@ normal_parts
   | normal_base pattern_object normals '}'     { $$ = $1; set_list(session, *$$, $2, $3, @2); }
   | normal_parts NORMAL_MAP normal_map         { $$ = $1; set_map(session, *$$, $3, @2); }
   | normal_parts SLOPE_MAP slope_map           { $$ = $1; $$->slopes = ascending($3); }
-  | normal_parts modifier { $$ = $1; modify(session, *$$, $2); }
+  | normal_parts modifier { $$ = $1; modify(session, *$$, $2, @2); }
   ;
 
 normal_body
@@ -227,7 +227,7 @@ finish_body
 finish_parts
   : %empty                                  { $$ = std::make_shared<FinishDefinition>(session.base_texture->finish); }
   | finish_parts NAMED { $$ = copy_of_named<FinishDefinition>($2); }
-  | finish_parts modifier { $$ = $1; modify(session, *$$, $2); }
+  | finish_parts modifier { $$ = $1; modify(session, *$$, $2, @2); }
   | finish_parts DIFFUSE albedo number_or_0 optional_comma { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
   | finish_parts DIFFUSE albedo number_or_0 optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
   | finish_parts REFLECTION colour_or_black { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
@@ -269,7 +269,7 @@ old_texture_parts
   | old_texture_parts LIST_PATTERN textures { $$ = with_list(session, $1, $2, $3, @2); }
   | old_texture_parts TILES '{' layers TILE2 layers '}' { $$ = with_tiles(session, $1, $4, $6, @2); }
   | old_texture_parts COLOUR_MAP colour_map { $$ = with_old_map(session, $1, $3, @2); }
-  | old_texture_parts modifier { $$ = modified_old(session, $1, $2); }
+  | old_texture_parts modifier { $$ = modified_old(session, $1, $2, @2); }
   ;
 
 texture_parts
@@ -287,7 +287,7 @@ texture_parts
   | texture_parts TEXTURE_MAP texture_map { $$ = with_map(session, $1, $3, @2); }
   | texture_parts LIST_PATTERN   { $$ = with_list(session, $1, $2, {}, @2); }
   | texture_parts TILES '{' layers TILE2 layers '}' { $$ = with_tiles(session, $1, $4, $6, @2); }
-  | texture_parts modifier { $$ = modified(session, $1, $2); }
+  | texture_parts modifier { $$ = modified(session, $1, $2, @2); }
   | texture_parts UV_MAPPING     { $$ = with_uv_mapping($1); }
   ;
 
@@ -308,7 +308,7 @@ sky_sphere_body
   : %empty                         { $$ = std::make_shared<SkySphereDefinition>(); }
   | sky_sphere_body NAMED { $$ = copy_of_named<SkySphereDefinition>($2); }
   | sky_sphere_body own_pigment    { $$ = $1; add_layer(session, *$$, *$2, @2); }
-  | sky_sphere_body modifier { $$ = $1; modify(session, *$$, $2); }
+  | sky_sphere_body modifier { $$ = $1; modify(session, *$$, $2, @2); }
   ;
 
 fog
@@ -320,7 +320,7 @@ fog_body
   | fog_body NAMED { $$ = copy_of_named<FogDefinition>($2); }
   | fog_body colour_value    { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
   | fog_body repeated_colour %prec SHORTER { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
-  | fog_body modifier { $$ = $1; modify(session, *$$, $2); }
+  | fog_body modifier { $$ = $1; modify(session, *$$, $2, @2); }
   ;
 
 rainbow
@@ -331,7 +331,7 @@ rainbow_body
   : %empty                  { $$ = new_rainbow(); }
   | rainbow_body NAMED { $$ = copy_of_named<RainbowDefinition>($2); } // where POV-Ray 3.7 turns angles twice and forgets the colours
   | rainbow_body COLOUR_MAP colour_map { $$ = $1; set_colours($$->value, $3); }
-  | rainbow_body modifier { $$ = $1; modify(session, *$$, $2); }
+  | rainbow_body modifier { $$ = $1; modify(session, *$$, $2, @2); }
   ;
 
 interior
@@ -341,7 +341,7 @@ interior
 interior_body // changes what is there
   : %empty                    { if (session.base_interior) $$ = *session.base_interior; }
   | interior_body NAMED { $$ = *copy_of_named<InteriorDefinition>($2); }
-  | interior_body modifier { $$ = $1; modify(session, $$, $2); }
+  | interior_body modifier { $$ = $1; modify(session, $$, $2, @2); }
   ;
 
 material
@@ -357,5 +357,5 @@ material_body
       $$ = kept<MaterialDefinition>(session);
       $$.interior = copy_of($5);
     }
-  | material_body modifier { $$ = $1; modify(session, $$, $2); }
+  | material_body modifier { $$ = $1; modify(session, $$, $2, @2); }
   ;

@@ -68,8 +68,14 @@ Item item(int row, const Location& where) {
 
 Item item(int row, const Location& where, const Quantity& value, const Location& value_where) {
   Item result = item(row, where);
-  result.count = 1;
-  result.values[0] = {value, value_where};
+  result.has_value = true;
+  result.value = {value, value_where};
+  return result;
+}
+
+Item item(int row, const Location& where, const ShapeArgument& first, const ShapeArgument& second) {
+  Item result = item(row, where, first.value, first.where);
+  result.second = std::make_shared<const ShapeArgument>(second);
   return result;
 }
 

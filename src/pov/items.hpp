@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "pov/block.hpp"
@@ -37,15 +38,15 @@ std::vector<ItemWord> item_words(Block block);
 /// The block whose table a block has besides its own; Block::none: no other.
 Block base_of(Block block);
 
-/// An item as written.
+/// An item as written. Small, because the grammar's stack has room for one everywhere.
 struct Item {
   int row = 0; ///< row_of()
   Location where;
-  int count = 0; ///< of values
-  ShapeArgument values[2] = {};
+  bool has_value = false;
   bool is_albedo = false;
+  ShapeArgument value = {};
+  std::shared_ptr<const ShapeArgument> second = nullptr; ///< of a pair
 
-  void add(const Quantity& value, const Location& value_where) { values[count++] = {value, value_where}; }
   Block block() const { return static_cast<Block>(row / kRows); }
   std::size_t number() const { return static_cast<std::size_t>(row % kRows); }
 
@@ -54,6 +55,7 @@ struct Item {
 };
 Item item(int row, const Location& where);
 Item item(int row, const Location& where, const Quantity& value, const Location& value_where);
+Item item(int row, const Location& where, const ShapeArgument& first, const ShapeArgument& second);
 
 /// The values of an item, checked as its setter wants them.
 class ItemValues {
@@ -62,15 +64,14 @@ public:
 
   Session& session() const { return session_; }
   const Location& where() const { return item_.where; }
-  const Location& value_where() const { return item_.values[0].where; }
-  const Quantity& quantity() const { return item_.values[0].value; }
+  const Location& value_where() const { return item_.value.where; }
+  const Quantity& quantity() const { return item_.value.value; }
   bool is_albedo() const { return item_.is_albedo; }
 
-  double number(int which = 0) const {
-    return session_.number(item_.values[which].value, item_.values[which].where);
-  }
+  double number() const { return session_.number(quantity(), value_where()); }
+  double second_number() const { return session_.number(item_.second->value, item_.second->where); }
   double number_or_0() const { return session_.number_or_0(quantity(), value_where()); }
-  double option() const { return item_.count == 0 ? 1 : number(); }
+  double option() const { return item_.has_value ? number() : 1; }
   bool flag() const { return is_true(option()); }
   Vec3 vector() const { return session_.vector(quantity(), value_where()); }
   Vec3 colour() const { return session_.colour(quantity(), value_where()).rgb; }

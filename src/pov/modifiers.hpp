@@ -8,27 +8,27 @@
 
 namespace celltrace::pov {
 
-struct Modifier {
-  std::variant<Item, PatternChange, Transform, UnsupportedPtr> what; ///< PatternChange: a warp
-  Location where;
-};
+/// PatternChange: a warp.
+using Modifier = std::variant<Item, PatternChange, Transform, UnsupportedPtr>;
 
 // Each does what a modifier says.
-void modify(Session& session, PigmentDefinition& pigment, const Modifier& modifier);
-void modify(Session& session, NormalDefinition& normal, const Modifier& modifier);
-void modify(Session& session, FinishDefinition& finish, const Modifier& modifier);
-void modify(Session& session, InteriorDefinition& interior, const Modifier& modifier);
-void modify(Session& session, MaterialDefinition& material, const Modifier& modifier);
-void modify(Session& session, FogDefinition& fog, const Modifier& modifier);
-void modify(Session& session, RainbowDefinition& rainbow, const Modifier& modifier);
-void modify(Session& session, SkySphereDefinition& sky, const Modifier& modifier);
-void modify(Session& session, CameraDefinition& camera, const Modifier& modifier);
-void modify(Session& session, ObjectDefinition& object, const Modifier& modifier);
-void modify_light(Session& session, ObjectDefinition& light, const Modifier& modifier);
+void modify(Session& session, PigmentDefinition& pigment, const Modifier& modifier, const Location& where);
+void modify(Session& session, NormalDefinition& normal, const Modifier& modifier, const Location& where);
+void modify(Session& session, FinishDefinition& finish, const Modifier& modifier, const Location& where);
+void modify(Session& session, InteriorDefinition& interior, const Modifier& modifier, const Location& where);
+void modify(Session& session, MaterialDefinition& material, const Modifier& modifier, const Location& where);
+void modify(Session& session, FogDefinition& fog, const Modifier& modifier, const Location& where);
+void modify(Session& session, RainbowDefinition& rainbow, const Modifier& modifier, const Location& where);
+void modify(Session& session, SkySphereDefinition& sky, const Modifier& modifier, const Location& where);
+void modify(Session& session, CameraDefinition& camera, const Modifier& modifier, const Location& where);
+void modify(Session& session, ObjectDefinition& object, const Modifier& modifier, const Location& where);
+void modify_light(Session& session, ObjectDefinition& light, const Modifier& modifier, const Location& where);
 /// Of global_settings.
-void modify_settings(Session& session, const Modifier& modifier);
-TexturePtr modified(Session& session, const TexturePtr& texture, const Modifier& modifier);
+void modify_settings(Session& session, const Modifier& modifier, const Location& where);
+TexturePtr modified(Session& session, const TexturePtr& texture, const Modifier& modifier,
+                    const Location& where);
 /// The same before version 3.0.
-TexturePtr modified_old(Session& session, const TexturePtr& texture, const Modifier& modifier);
+TexturePtr modified_old(Session& session, const TexturePtr& texture, const Modifier& modifier,
+                        const Location& where);
 
 } // namespace celltrace::pov

@@ -61,14 +61,14 @@ void ignore_colour(Session& session, const Location& where) {
   session.diagnostics.warn_once(where, "this colour is ignored: what gives an object one is its 'pigment'");
 }
 
-ObjectPtr complete(Session& session, const std::shared_ptr<ObjectDefinition>& object, const Location& where) {
+ObjectPtr complete(Session& session, std::shared_ptr<ObjectDefinition> object, const Location& where) {
   object->where = where;
   check(session, *object, where);
   object->reaches_out_of_bounds = reaches_out_of_bounds(session, *object, where);
-  return own_object(session, object, where);
+  return own_object(session, std::move(object), where);
 }
 
-ObjectPtr located(const std::shared_ptr<ObjectDefinition>& object, const Location& where) {
+ObjectPtr located(std::shared_ptr<ObjectDefinition> object, const Location& where) {
   object->where = where;
   return object;
 }

@@ -26,9 +26,9 @@ void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& to
 /// What an object has to have when it ends.
 void check(Session& session, const ObjectDefinition& object, const Location& where);
 /// The object, which has been read to its end.
-ObjectPtr complete(Session& session, const std::shared_ptr<ObjectDefinition>& object, const Location& where);
+ObjectPtr complete(Session& session, std::shared_ptr<ObjectDefinition> object, const Location& where);
 /// The same for what has nothing to be checked.
-ObjectPtr located(const std::shared_ptr<ObjectDefinition>& object, const Location& where);
+ObjectPtr located(std::shared_ptr<ObjectDefinition> object, const Location& where);
 /// What POV-Ray makes of a colour among an object's modifiers.
 void ignore_colour(Session& session, const Location& where);
 /// The same of a name; fails if that is no colour's. Must come before the next token.

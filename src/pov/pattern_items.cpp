@@ -47,11 +47,11 @@ const ItemRow<PatternChange> kPatternItems[] = {
      }},
     {"exterior", Form::pair,
      [](PatternChange& change, const Values& values) {
-       change = exterior(values.number(), values.number(1), values.where());
+       change = exterior(values.number(), values.second_number(), values.where());
      }},
     {"interior", Form::pair,
      [](PatternChange& change, const Values& values) {
-       change = interior(values.number(), values.number(1), values.where());
+       change = interior(values.number(), values.second_number(), values.where());
      }},
 };
 constexpr std::size_t kOwnItems = std::size(kPatternItems); // the options of some patterns follow
@@ -97,7 +97,7 @@ template <class Warp, class T> bool set_in(SpaceStep& step, T Warp::*member, con
 bool start_black_hole(SpaceStep& step, const Values& values) {
   warp::BlackHole hole;
   hole.centre = values.vector();
-  hole.radius = values.number(1);
+  hole.radius = values.second_number();
   step = hole;
   return true;
 }
@@ -201,7 +201,7 @@ std::vector<ItemWord> warp_items() {
 
 PatternChange pattern_change(Session& session, const Item& item) {
   if (item.number() >= kOwnItems)
-    return option(static_cast<int>(item.number() - kOwnItems), item.values[0].value, item.where);
+    return option(static_cast<int>(item.number() - kOwnItems), item.value.value, item.where);
   PatternChange change;
   apply(kPatternItems, session, change, item);
   return change;
@@ -238,9 +238,9 @@ void apply(Session& session, SpaceStep& warp, const Item& item) {
     return;
   }
   auto* repeat = std::get_if<warp::Repeat>(&warp);
-  if (repeat == nullptr || item.count == 0) refuse(session, item);
+  if (repeat == nullptr || !item.has_value) refuse(session, item);
   repeat->offset =
-      offset(session, static_cast<int>(item.number() - kOwnWarpItems), item.values[0].value, item.where);
+      offset(session, static_cast<int>(item.number() - kOwnWarpItems), item.value.value, item.where);
 }
 
 } // namespace celltrace::pov

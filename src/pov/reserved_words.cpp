@@ -431,9 +431,15 @@ const std::vector<BlockWord>& block_words() {
   return kAll;
 }
 
-const Names::Meanings& meanings_of(const ReservedWord& word) {
+const std::vector<const Names::Meanings*>& reserved_meanings() {
   static const AllMeanings kAll = make_meanings();
-  return kAll.at(word.text);
+  static const std::vector<const Names::Meanings*> kInOrder = [] {
+    std::vector<const Names::Meanings*> in_order;
+    for (const ReservedWord& word : reserved_words())
+      in_order.push_back(&kAll.at(word.text));
+    return in_order;
+  }();
+  return kInOrder;
 }
 
 int component_of(std::string_view word) {

@@ -15,8 +15,8 @@ struct ReservedWord {
   bool is_unsupported;
 };
 const std::vector<ReservedWord>& reserved_words();
-/// What a reserved word is in each Block.
-const Names::Meanings& meanings_of(const ReservedWord& word);
+/// What they are in each Block, in their order.
+const std::vector<const Names::Meanings*>& reserved_meanings();
 
 /// An item's word (items.hpp).
 struct BlockWord {
