@@ -1,4 +1,4 @@
-// What the grammar's rules do, where it takes more than a line.
+// Functions that the grammar's rules call.
 #pragma once
 
 #include "pov/atmosphere.hpp"

@@ -6,7 +6,7 @@
 
 namespace celltrace::pov {
 
-/// What a sky_sphere has to have.
+/// Fails unless a sky_sphere has a pigment.
 void check(Session& session, const SkySphereDefinition& sky, const Location& where);
 void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
                const Location& where);

@@ -1,4 +1,4 @@
-// What fog { }, rainbow { }, sky_sphere { } and interior { } consist of.
+// Tables of the items of fog { }, rainbow { }, sky_sphere { } and interior { }.
 #include "pov/item_tables.hpp"
 
 namespace celltrace::pov {

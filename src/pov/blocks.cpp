@@ -18,7 +18,7 @@ bool is_of_textures(Block block) {
          block == Block::old_texture;
 }
 
-/// A texture's part, or what stands by itself.
+/// Tells blocks in which POV-Ray has patterns and objects that this program does not.
 bool is_definition(Block block) {
   switch (block) {
   case Block::settings:

@@ -1,4 +1,4 @@
-// What camera { } consists of, besides its kinds.
+// Table of the items of camera { }.
 #include "pov/camera.hpp"
 #include "pov/item_tables.hpp"
 

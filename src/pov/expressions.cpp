@@ -1,4 +1,4 @@
-// What numbers, vectors, transformations, functions and splines come to.
+// Values of numbers, vectors, transformations, functions and splines.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// What numbers, vectors, transformations, arrays, functions and splines come to.
+// Values of numbers, vectors, transformations, arrays, functions and splines.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ template <class T> std::shared_ptr<T> copy_of_named(const Value& value) {
   return copy_of(*std::get<std::shared_ptr<const T>>(value));
 }
 
-/// What stands in < >: at least two components.
+/// Fails unless a vector has at least two components.
 Quantity vector(Session& session, const Quantity& components, const Location& where);
 /// Whether there is a component of this number (Names::Entry::component).
 bool has_component(const Quantity& quantity, int which);

@@ -1,4 +1,4 @@
-// What finish { }, and textures before version 3.0, consist of.
+// Tables of the items of finish { } and of textures before version 3.0.
 #include <algorithm>
 
 #include "pov/item_tables.hpp"

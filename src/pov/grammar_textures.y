@@ -253,7 +253,7 @@ texture
   | OLD_TEXTURE '{' old_texture_parts '}' { $$ = $3; check(session, $$, @1); }
   ;
 
-// What pigment, normal and finish consist of may stand in a texture without their braces before version 3.0.
+// Before version 3.0 the parts of pigment, normal and finish may stand in a texture without their braces.
 old_texture_parts
   : %empty                           { $$ = session.builder.default_texture; }
   | old_texture_parts TEXTURE_ID     { $$ = $2; }

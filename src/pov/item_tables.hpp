@@ -15,10 +15,11 @@ std::vector<ItemWord> reflection_items();
 std::vector<ItemWord> irid_items();
 void apply(Session& session, FinishDefinition& finish, const Item& item);
 void apply(Session& session, ReflectionDefinition& reflection, const Item& item);
-/// What irid { } says of a finish.
+/// Sets what irid { } says of a finish.
 void apply(Session& session, Finish& finish, const Item& item);
 
-/// What finishes and pigments consist of, as textures before version 3.0 have it without a block around it.
+/// Lists the parts of finishes and pigments that textures before version 3.0 have without a block around
+/// them.
 std::vector<ItemWord> old_texture_items();
 TexturePtr with_old_item(Session& session, const TexturePtr& texture, const Item& item);
 
@@ -38,7 +39,7 @@ void apply(Session& session, CameraDefinition& camera, const Item& item);
 std::vector<ItemWord> light_source_items();
 std::vector<ItemWord> light_group_items();
 std::vector<ItemWord> object_items();
-/// Of any of these.
+/// Takes items of any of these three tables.
 void apply(Session& session, ObjectDefinition& object, const Item& item);
 
 struct PhotonsDefinition {
@@ -57,14 +58,14 @@ std::vector<ItemWord> normal_items();
 std::vector<ItemWord> warp_items();
 void apply(Session& session, PigmentDefinition& pigment, const Item& item);
 void apply(Session& session, NormalDefinition& normal, const Item& item);
-/// What an item of any pattern changes.
+/// Returns the change that an item makes to any pattern.
 PatternChange pattern_change(Session& session, const Item& item);
-/// Of `frequency` and `phase`, which are a normal's waves before version 3.0.
+/// Tells `frequency` and `phase`, which belong to a normal's waves before version 3.0.
 bool is_of_waves(const Item& item);
 
-/// The warp that its first item makes; fails if that is none.
+/// Makes the warp that its first item stands for; fails if that makes none.
 SpaceStep warp_of(Session& session, const Item& item);
-/// Sets what another one says; fails if that means nothing to this warp.
+/// Sets what a later item says; fails if that means nothing to this warp.
 void apply(Session& session, SpaceStep& warp, const Item& item);
 
 } // namespace celltrace::pov

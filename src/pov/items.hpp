@@ -15,7 +15,7 @@
 
 namespace celltrace::pov {
 
-/// What stands behind an item's word.
+/// Forms of the values behind an item's word.
 enum class ItemForm : std::uint8_t {
   word,            ///< nothing
   value,           ///< a number or a vector
@@ -33,9 +33,9 @@ struct ItemWord {
   bool is_ignored; ///< its values change nothing
 };
 
-/// The rows of a block's own table; a row's place is the item's number.
+/// Lists the rows of a block's own table; a row's place is the item's number.
 std::vector<ItemWord> item_words(Block block);
-/// The block whose table a block has besides its own; Block::none: no other.
+/// Returns the block whose table a block has besides its own; Block::none: no other.
 Block base_of(Block block);
 
 /// An item as written. Small, because the grammar's stack has room for one everywhere.
@@ -92,7 +92,7 @@ template <class T> struct ItemRow {
 /// For rows without effect: POV-Ray takes the word.
 template <class T> void ignore(T&, const ItemValues&) {
 }
-/// The same, where the value must be a number.
+/// For rows without effect whose value must be a number.
 template <class T> void ignore_number(T&, const ItemValues& values) {
   values.option();
 }

@@ -13,7 +13,7 @@ void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefiniti
 std::shared_ptr<TriangleDefinition> flat_triangle(const Quantity& a, const Quantity& b, const Quantity& c);
 std::shared_ptr<TriangleDefinition> smooth_triangle(const std::array<Quantity, 3>& corners,
                                                     const std::array<Quantity, 3>& normals);
-/// Of a mesh2; fails unless there are as many as announced.
+/// Sets the textures of a mesh2; fails unless there are as many as announced.
 void set_textures(Session& session, Mesh2Definition& mesh, double count, std::vector<TexturePtr> textures,
                   const Location& where);
 /// Fails unless they are three.

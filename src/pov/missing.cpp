@@ -1,4 +1,4 @@
-// What this program lacks.
+// Features that this program lacks.
 #include "pov/actions.hpp"
 
 namespace celltrace::pov {

@@ -1,4 +1,4 @@
-// What this program lacks, where the grammar comes upon it.
+// Features that this program lacks, where the grammar comes upon them.
 #pragma once
 
 #include <string>

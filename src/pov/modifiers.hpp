@@ -1,5 +1,5 @@
-// What can stand in most blocks besides what they consist of: items, transformations, warps of patterns and
-// what is not supported.
+// Modifiers, which stand in most blocks: items, transformations, warps of patterns, and words for features
+// that are not supported.
 #pragma once
 
 #include <variant>
@@ -8,7 +8,7 @@
 
 namespace celltrace::pov {
 
-/// PatternChange: a warp.
+/// Modifier as it has been read; a PatternChange is a warp.
 using Modifier = std::variant<Item, PatternChange, Transform, UnsupportedPtr>;
 
 // Each does what a modifier says.
@@ -23,11 +23,11 @@ void modify(Session& session, SkySphereDefinition& sky, const Modifier& modifier
 void modify(Session& session, CameraDefinition& camera, const Modifier& modifier, const Location& where);
 void modify(Session& session, ObjectDefinition& object, const Modifier& modifier, const Location& where);
 void modify_light(Session& session, ObjectDefinition& light, const Modifier& modifier, const Location& where);
-/// Of global_settings.
+/// Sets one of the global_settings.
 void modify_settings(Session& session, const Modifier& modifier, const Location& where);
 TexturePtr modified(Session& session, const TexturePtr& texture, const Modifier& modifier,
                     const Location& where);
-/// The same before version 3.0.
+/// Modifies a texture as before version 3.0.
 TexturePtr modified_old(Session& session, const TexturePtr& texture, const Modifier& modifier,
                         const Location& where);
 

@@ -52,7 +52,7 @@ bool opens_block(Directive directive);
 
 class Names {
 public:
-  /// What a reserved word is in a block.
+  /// Token and detail of a reserved word in a block.
   struct Meaning {
     int token = 0;
     int detail = 0; ///< what the token says apart from its kind: which function, constant or colour model

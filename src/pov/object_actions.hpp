@@ -25,19 +25,19 @@ void set_cutaway_textures(Session& session, ObjectDefinition& object, const Loca
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 /// What an object has to have when it ends.
 void check(Session& session, const ObjectDefinition& object, const Location& where);
-/// The object, which has been read to its end.
+/// Checks an object that has been read to its end.
 ObjectPtr complete(Session& session, std::shared_ptr<ObjectDefinition> object, const Location& where);
-/// The same for what has nothing to be checked.
+/// Notes where an object stands that needs no checks.
 ObjectPtr located(std::shared_ptr<ObjectDefinition> object, const Location& where);
 /// What POV-Ray makes of a colour among an object's modifiers.
 void ignore_colour(Session& session, const Location& where);
-/// The same of a name; fails if that is no colour's. Must come before the next token.
+/// Ignores a name likewise, and fails if that is no colour's. Must come before the next token is read.
 void ignore_colour_name(Session& session, const Quantity& value, const Location& where);
 /// Adds what stands behind other arguments without a comma: that may also be the name of a colour, which is
 /// such a modifier where the shape is complete.
 void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
-/// The same with `open` behind the arguments.
+/// Makes a shape with `open` behind the arguments.
 std::shared_ptr<ObjectDefinition> open_shape(Session& session, WrittenShape written);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
 /// Of a light group.

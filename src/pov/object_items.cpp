@@ -1,4 +1,4 @@
-// What objects, light sources and light groups have besides transformations and textures.
+// Tables of the items of objects, light sources, light groups and meshes.
 #include "pov/item_tables.hpp"
 #include "pov/light.hpp"
 

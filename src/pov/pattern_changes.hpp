@@ -1,4 +1,4 @@
-// What changes a pattern, and the warps of its space.
+// Changes of a pattern, and the warps of its space.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What patterns, pigments, normals and warps consist of.
+// Tables of the items of patterns, pigments, normals and warps.
 #include <cmath>
 
 #include "pov/item_tables.hpp"
@@ -74,8 +74,8 @@ const ItemRow<NormalDefinition> kNormalItems[] = {
 
 // ---- Warps ----
 
-/// How a warp's item makes one, and how it changes one that is there. Either returns false where it means
-/// nothing.
+/// Row of a warp's item: `start` makes a warp, `change` sets what it says of one. Either returns false where
+/// the item means nothing.
 struct WarpRow {
   const char* word;
   ItemForm form;
@@ -165,7 +165,7 @@ const WarpRow kWarpItems[] = {
 };
 constexpr std::size_t kOwnWarpItems = std::size(kWarpItems); // the options of patterns follow
 
-/// The options that have a value, or all of them, as items.
+/// Appends the options of all patterns as items.
 void append_options(std::vector<ItemWord>& words) {
   for (const PatternOption& option : pattern_options())
     words.push_back({option.word, option.has_value ? Form::value : Form::word, false});

@@ -15,7 +15,7 @@ struct ReservedWord {
   bool is_unsupported;
 };
 const std::vector<ReservedWord>& reserved_words();
-/// What they are in each Block, in their order.
+/// Lists their meanings in each Block, in their order.
 const std::vector<const Names::Meanings*>& reserved_meanings();
 
 /// An item's word (items.hpp).

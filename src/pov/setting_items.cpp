@@ -1,4 +1,4 @@
-// What global_settings { } says, and what says it without one.
+// Tables of the items of global_settings { } and of the scene itself.
 #include "pov/item_tables.hpp"
 
 namespace celltrace::pov {

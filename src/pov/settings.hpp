@@ -1,4 +1,4 @@
-// What global_settings { } and the scene itself say.
+// Settings that global_settings { } and the scene itself make.
 #pragma once
 
 #include <optional>

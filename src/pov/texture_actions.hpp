@@ -76,7 +76,7 @@ void set_colours(Session& session, PigmentDefinition& pigment, int pattern, Pigm
 void set_list(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
               const Location& where);
 void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap list, const Location& where);
-// The same for the pattern of an object.
+// Each also takes the pattern of an object.
 void set_colours(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
                  const Location& where);
 void set_list(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
@@ -100,14 +100,14 @@ void check(Session& session, const PigmentDefinition& pigment, const Location& w
 void check(Session& session, NormalDefinition& normal, const Location& where);
 void check(Session& session, const TexturePtr& texture, const Location& where);
 
-// The texture with another pigment, normal or finish. Fail if it has none of its own.
+// Each returns the texture with another pigment, normal or finish, and fails if it has none of its own.
 TexturePtr with(Session& session, const TexturePtr& texture, const PigmentPtr& pigment,
                 const Location& where);
 TexturePtr with(Session& session, const TexturePtr& texture, const NormalPtr& normal, const Location& where);
 TexturePtr with(Session& session, const TexturePtr& texture, const FinishPtr& finish, const Location& where);
-/// The texture with the pigment, normal or finish that a name stands for.
+/// Returns the texture with the pigment, normal or finish that a name stands for.
 TexturePtr with_named(const TexturePtr& texture, const Value& part);
-/// The same; fails if the texture has none of its own.
+/// Fails, besides, if the texture has none of its own.
 TexturePtr with_named(Session& session, const TexturePtr& texture, const Value& part, const Location& where);
 // While a part in braces is read, what it is a part of is kept in session.unfinished.
 
@@ -119,25 +119,25 @@ template <class T> T kept(Session& session) {
 }
 /// Keeps a texture, whose pigment, normal or finish is read next and starts from the one that it has.
 void start_part(Session& session, TexturePtr texture);
-/// The same for an object's texture.
+/// Keeps an object, whose texture's part is read next.
 void start_part(Session& session, std::shared_ptr<ObjectDefinition> object, const Location& where);
-/// The same for the interior of a material, or of an object.
+/// Keeps a material or an object, whose interior is read next.
 void start_part(Session& session, MaterialDefinition material);
 void start_interior(Session& session, std::shared_ptr<ObjectDefinition> object);
-/// The same for what says how a finish is iridescent.
+/// Keeps a finish, of which irid { } is read next.
 void start_irid(Session& session, std::shared_ptr<FinishDefinition> finish, double amount);
-/// The kept finish, which is iridescent.
+/// Returns the kept finish.
 Finish& irid(Session& session);
-// The kept object with a pigment, normal, finish or interior.
+// Each returns the kept object with a pigment, normal, finish or interior.
 std::shared_ptr<ObjectDefinition> dressed(Session& session, const PigmentDefinition& pigment);
 std::shared_ptr<ObjectDefinition> dressed(Session& session, const NormalPtr& normal);
 std::shared_ptr<ObjectDefinition> dressed(Session& session, const FinishDefinition& finish);
 std::shared_ptr<ObjectDefinition> with_interior(Session& session, const InteriorDefinition& interior);
-/// A copy to change; a new one of null.
+/// Returns a copy to change, or a new one for null.
 std::shared_ptr<NormalDefinition> copy_of_normal(const NormalPtr& normal);
 /// The declared texture in place of `before`, on surface coordinates if that was to be.
 TexturePtr with_texture(const TexturePtr& before, const TexturePtr& declared);
-/// What has been read, complete.
+/// Checks and completes the texture that has been read.
 TexturePtr finished_texture(Session& session, const TexturePtr& texture, const Location& where);
 void transform(Session& session, MaterialDefinition& material, const Transform& next, const Location& where);
 

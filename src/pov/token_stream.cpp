@@ -326,7 +326,7 @@ void TokenStream::deliver(const Token& token, Terminal& terminal) {
   terminal.where = token.where;
 }
 
-/// Whose items can stand here.
+/// Returns the block whose items can stand here.
 Block TokenStream::block() const {
   const Level& level = levels_.back();
   if (!level.enclosing.empty()) return level.enclosing.back().block;
