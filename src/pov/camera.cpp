@@ -162,6 +162,7 @@ void set_kind_by_pattern(Session& session, CameraDefinition& camera, int pattern
 
 void set_kind(Session& session, CameraDefinition& camera, int shape, double number, const Location& where) {
   const std::string_view name = shape_names()[static_cast<std::size_t>(shape)];
+  if (has_option(shape)) session.fail(where, "unexpected '" + std::string(name) + '\'');
   if (name != "cylinder") session.fail(where, "there is no camera of this shape");
   if (!(number >= 1 && number < 1 + std::size(kCylinders)))
     session.fail(where, "cameras on a cylinder are of type 1, 2, 3 or 4");

@@ -105,6 +105,7 @@ void set_shadowless(ObjectDefinition& object) {
 
 void set_kind(Session& session, ObjectDefinition& object, int shape, const Location& where) {
   const std::string_view name = shape_names()[static_cast<std::size_t>(shape)];
+  if (has_option(shape)) session.fail(where, "unexpected '" + std::string(name) + '\'');
   if (name != "cylinder") session.fail(where, "there is no light source of this shape");
   set_kind(object, Light::Kind::cylinder);
 }

@@ -234,6 +234,27 @@ void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap
   normal.map = list_for(session, normal.pattern, std::move(list), where);
 }
 
+void set_colours(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
+                 const Location& where) {
+  const pattern::Inside inside = inside_of(session, object, where);
+  set_colours(session, pigment, number_of(inside), std::move(list), where);
+  choose(pigment.pattern, inside);
+}
+
+void set_list(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
+              const Location& where) {
+  const pattern::Inside inside = inside_of(session, object, where);
+  set_list(session, pigment, number_of(inside), std::move(list), where);
+  choose(pigment.pattern, inside);
+}
+
+void set_list(Session& session, NormalDefinition& normal, const Limit& object, NormalMap list,
+              const Location& where) {
+  const pattern::Inside inside = inside_of(session, object, where);
+  set_list(session, normal, number_of(inside), std::move(list), where);
+  choose(normal.pattern, inside);
+}
+
 TexturePtr with_pattern(Session& session, const TexturePtr& texture, const PatternChange& pattern) {
   auto changed = std::make_shared<TextureDefinition>(*texture);
   pattern(session, changed->pattern);

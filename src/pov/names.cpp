@@ -20,11 +20,13 @@ bool opens_block(Directive directive) {
 }
 
 Names::Names() {
+  const Meanings* const* meanings = reserved_meanings().data();
   for (const ReservedWord& word : reserved_words()) {
     Entry& entry = entries_[intern(word.text)];
     entry.token = word.token;
     entry.detail = word.detail;
     entry.is_unsupported = word.is_unsupported;
+    entry.in_blocks = *meanings++;
   }
 }
 

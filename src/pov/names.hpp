@@ -1,12 +1,14 @@
 // The words of a scene, numbered, with their meaning in the language.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 
+#include "pov/block.hpp"
 #include "pov/token.hpp"
 
 namespace celltrace::pov {
@@ -50,6 +52,12 @@ bool opens_block(Directive directive);
 
 class Names {
 public:
+  /// Token and detail of a reserved word in a block.
+  struct Meaning {
+    int token = 0;
+    int detail = 0; ///< what the token says apart from its kind: which function, constant or colour model
+  };
+  using Meanings = std::array<Meaning, kBlocks>; ///< by Block
   struct Entry {
     std::string text;
     int token = 0;      ///< the grammar's token for a reserved word, 0 for a free one
@@ -57,6 +65,9 @@ public:
     int component = -1; ///< meaning behind a dot: component 0 to 4, 5 for grey, -1 for none
     bool is_unsupported = false; ///< reserved for a feature that this program lacks
     Directive directive = Directive::none;
+    const Meanings* in_blocks = nullptr; ///< of a reserved word
+
+    const Meaning& in(Block block) const { return (*in_blocks)[static_cast<std::size_t>(block)]; }
   };
 
   /// Adds the reserved words.

@@ -65,6 +65,20 @@ TexturePtr with_old_pattern(Session& session, const TexturePtr& texture, const P
   return with_pigment(texture, pigment);
 }
 
+TexturePtr with_old_colours(Session& session, const TexturePtr& texture, int pattern, const PigmentMap& list,
+                            const Location& where) {
+  PigmentDefinition pigment = texture->pigment;
+  set_colours(session, pigment, pattern, list, where);
+  return with_pigment(texture, pigment);
+}
+
+TexturePtr with_old_map(Session& session, const TexturePtr& texture, const PigmentMap& map,
+                        const Location& where) {
+  PigmentDefinition pigment = texture->pigment;
+  set_old_map(session, pigment, map, where);
+  return with_pigment(texture, pigment);
+}
+
 TexturePtr with_old_waves(Session& session, const TexturePtr& texture, const PatternChange& change) {
   const auto normal = normal_of(*texture);
   change(session, normal->pattern);

@@ -32,43 +32,49 @@ int start_token(Start start) {
   return token::T_START_SCENE;
 }
 
+/// Gives the parser what a word says apart from its kind.
+void deliver_word(Parser::semantic_type& target, const Terminal& terminal) {
+  using token = Parser::token;
+  switch (terminal.token) {
+  case token::T_SPLINE_KIND:
+  case token::T_FUNCTION:
+  case token::T_TEXT_FUNCTION:
+  case token::T_COMPONENT:
+  case token::T_COLOUR_MODEL:
+  case token::T_SRGB_MODEL:
+  case token::T_CHANNEL:
+  case token::T_SHAPE:
+  case token::T_CSG:
+  case token::T_PATTERN:
+  case token::T_ARGUED_PATTERN:
+  case token::T_LIST_PATTERN:
+  case token::T_CAMERA_KIND:
+  case token::T_WORD_ITEM:
+  case token::T_VALUE_ITEM:
+  case token::T_OPTION_ITEM:
+  case token::T_PAIR_ITEM:
+  case token::T_SHARE_ITEM:
+  case token::T_COLOUR_ITEM:
+  case token::T_COLOUR_OR_BLACK_ITEM:
+  case token::T_LIST_ITEM:
+    target.emplace<int>(terminal.detail);
+    break;
+  case token::T_UNSUPPORTED:
+  case token::T_UNSUPPORTED_ARGUMENT:
+  case token::T_UNSUPPORTED_OBJECT:
+  case token::T_UNSUPPORTED_BLOCK:
+    target.emplace<NameId>(static_cast<NameId>(terminal.detail));
+    break;
+  default:
+    break;
+  }
+}
+
 /// Moves a terminal's value, of whatever type its token has, to the parser.
 struct Deliver {
   Parser::semantic_type& target;
-  const Terminal& terminal;
 
-  void operator()(std::monostate) const {
-    using token = Parser::token;
-    switch (terminal.token) {
-    case token::T_SPLINE_KIND:
-    case token::T_FUNCTION:
-    case token::T_TEXT_FUNCTION:
-    case token::T_COMPONENT:
-    case token::T_COLOUR_MODEL:
-    case token::T_SRGB_MODEL:
-    case token::T_CHANNEL:
-    case token::T_SHAPE:
-    case token::T_OPTION_SHAPE:
-    case token::T_CSG:
-    case token::T_PATTERN:
-    case token::T_ARGUED_PATTERN:
-    case token::T_LIST_PATTERN:
-    case token::T_PATTERN_OPTION:
-    case token::T_PATTERN_FLAG:
-    case token::T_WAVE:
-    case token::T_CAMERA_KIND:
-      target.emplace<int>(terminal.detail);
-      break;
-    case token::T_UNSUPPORTED:
-    case token::T_UNSUPPORTED_ARGUMENT:
-    case token::T_UNSUPPORTED_OBJECT:
-    case token::T_UNSUPPORTED_BLOCK:
-      target.emplace<NameId>(static_cast<NameId>(terminal.detail));
-      break;
-    default:
-      break;
-    }
-  }
+  void operator()(std::monostate) const {}
   void operator()(std::shared_ptr<const Macro>&) const {}
   void operator()(std::shared_ptr<DataFile>&) const {}
   template <class T> void operator()(T& value) const { target.emplace<T>(std::move(value)); }
@@ -87,8 +93,16 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session) {
   *where = terminal.where;
   if (const auto* quantity = std::get_if<Quantity>(&terminal.value))
     value->emplace<Quantity>(*quantity); // the most frequent kind by far
+  else if (std::holds_alternative<std::monostate>(terminal.value))
+    deliver_word(*value, terminal);
+  else if (auto* texture = std::get_if<TexturePtr>(&terminal.value)) // that of most objects
+    value->emplace<TexturePtr>(std::move(*texture));
+  else if (terminal.token == Parser::token::T_NAMED)
+    value->emplace<Value>(std::move(terminal.value));
+  else if (terminal.token == Parser::token::T_MISPLACED)
+    return terminal.token;
   else
-    std::visit(Deliver{*value, terminal}, terminal.value);
+    std::visit(Deliver{*value}, terminal.value);
   return terminal.token;
 }
 
@@ -118,6 +132,8 @@ void Parser::report_syntax_error(const context& ctx) const {
   const std::string found = session.tokens.describe_last();
   switch (ctx.token()) {
   case symbol_kind::S_UNSUPPORTED:
+    if (!session.names[session.tokens.last_token().name].is_unsupported) break; // but for this block
+    session.fail(where, found + " is not supported yet");
   case symbol_kind::S_UNSUPPORTED_ARGUMENT:
   case symbol_kind::S_UNSUPPORTED_OBJECT:
   case symbol_kind::S_UNSUPPORTED_BLOCK:

@@ -15,6 +15,7 @@
 #include "pov/finite.hpp"
 #include "pov/light.hpp"
 #include "pov/mesh.hpp"
+#include "pov/scene_room.hpp"
 #include "pov/shapes.hpp"
 #include "scene_image/single_precision.hpp"
 
@@ -23,16 +24,6 @@ namespace celltrace::pov {
 namespace {
 
 using Operation = Csg::Operation;
-
-/// Replaces a mesh's own material indices by the scene's.
-void replace_materials(Mesh& mesh, const std::vector<Index>& materials, TokenStream& tokens) {
-  if (materials.empty()) return; // no triangle has a material
-  for (Mesh::Triangle& triangle : mesh.triangles) {
-    tokens.spend(1);
-    for (Index& material : triangle.material)
-      if (material != kNoIndex) material = materials[material];
-  }
-}
 
 const Compound* compound(const ObjectDefinition& object) {
   const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&object.shape);
@@ -77,64 +68,12 @@ bool has_shapes(const Object& object) {
   return !csg || std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_shapes);
 }
 
-/// The length in bytes of the shortest object in a scene's text, "object{A}".
-constexpr std::size_t kShortestObject = 9;
-
-/// Reserves as much room as a list will need if the rest of the scene is like what has been read, before the
-/// list has to grow. In a large scene of small objects, moving them each time that their number has doubled
-/// takes an eighth of the time, and memory for both copies. The list grows by a limited factor at a time: the
-/// rest may be a comment.
-template <class T> void make_room(std::vector<T>& list, const TokenStream& tokens) {
-  constexpr std::size_t kFewest = 1024;
-  if (list.size() < list.capacity() || list.size() < kFewest) return;
-  const auto [read, left] = tokens.read_and_left();
-  const double expected =
-      static_cast<double>(list.size()) * static_cast<double>(left) / static_cast<double>(read);
-  const double most = static_cast<double>(left) / kShortestObject;
-  constexpr double kMargin = 1.03, kMostTimes = 16;
-  const auto more = static_cast<std::size_t>(
-      std::min(kMargin * std::min(expected, most), kMostTimes * static_cast<double>(list.size())));
-  list.reserve(std::max(2 * list.size(), list.size() + more));
-}
-
-/// Returns the radius of a disc, limited to the distance that rays can reach.
+/// The radius of a disc, or one that is as good: no ray goes that far.
 double seen_radius(const Disc& disc, const Transform& transform) {
   constexpr double kFarthest = 1e15;
   const double scale = std::max(
       {glm::length(transform.rows[0]), glm::length(transform.rows[1]), glm::length(transform.rows[2])});
   return disc.radius * scale > kFarthest ? kFarthest / scale : disc.radius;
-}
-
-/// Returns a point near a triangle if the triangle is so far from the origin, compared with its size, that
-/// single precision is not enough for its vertices; else 0.
-Vec3 far_base_of(const TriangleDefinition& triangle) {
-  constexpr double kNear = 2048, kFar = 256;
-  const auto& [a, b, c] = triangle.vertices;
-  const auto largest = [](const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
-  const double size = std::max(largest(b - a), largest(c - a)), distance = largest(a);
-  if (!triangle.is_finite() || !(size > 0) || distance <= std::max(kNear, kFar * size)) return Vec3(0);
-  // A point with few digits, so that the vertices lose none of theirs.
-  const double step = std::exp2(std::floor(std::log2(size)));
-  return glm::round(a / step) * step;
-}
-
-/// Orders the corners so that the triangle's outside in a Mesh is POV-Ray's: the side of its normals or, if
-/// it has none, -x, +y or -z, by the axis along which it faces most.
-void turn_outside(TriangleDefinition& triangle) {
-  const auto& v = triangle.vertices;
-  const Vec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
-  const Vec3 size = glm::abs(normal);
-  bool is_turned;
-  if (triangle.is_smooth)
-    is_turned = glm::dot(normal, triangle.normals[0] + triangle.normals[1] + triangle.normals[2]) > 0;
-  else if (size.x >= size.y && size.x >= size.z)
-    is_turned = normal.x < 0;
-  else
-    is_turned = size.y >= size.z ? normal.y > 0 : normal.z < 0;
-  if (!is_turned) return;
-  std::swap(triangle.vertices[1], triangle.vertices[2]);
-  std::swap(triangle.normals[1], triangle.normals[2]);
-  std::swap(triangle.coordinates[1], triangle.coordinates[2]);
 }
 
 } // namespace
@@ -523,199 +462,6 @@ void SceneBuilder::warn_of_size(const ObjectDefinition& object) {
 
 void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& object, const Location& where) {
   diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
-}
-
-/// Returns a triangle as a mesh; `base` becomes the origin of its vertices. Vertices of meshes are single
-/// precision in POV-Ray, too.
-std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
-                                                          const Inherited& own, const Location& where,
-                                                          Vec3& base) {
-  MeshBuilder builder;
-  TriangleDefinition placed = triangle.transformed(own.transform);
-  if (!triangle.is_finite())
-    diagnostics_.warn_once(where, "this triangle is left out: a number of it is not finite");
-  if (own.inner_texture) turn_outside(placed);
-  // Surface coordinates are the position, as for all shapes without coordinates of their own.
-  if (own.texture && (own.uv_mapping || own.texture->asks_for_surface())) {
-    placed.is_mapped = true;
-    for (std::size_t i = 0; i < 3; ++i)
-      placed.coordinates[i] = Vec2f(placed.vertices[i]);
-  }
-  base = far_base_of(placed);
-  for (Vec3& vertex : placed.vertices)
-    vertex -= base;
-  try {
-    if (triangle.is_shown_alone())
-      builder.add(placed);
-    else
-      diagnostics_.warn_once(where,
-                             "a smooth_triangle is left out whose normals are on both sides of it, or zero");
-  } catch (const InputError& error) {
-    diagnostics_.fail(where, error.what());
-  }
-  return std::make_shared<const Mesh>(std::move(builder.finish()->mesh));
-}
-
-/// Returns the object's own interior, or else the inherited one. POV-Ray 3.1's ior in a finish creates an
-/// interior if there is none, and changes an existing one even if it is inherited.
-Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherited,
-                                   const TextureDefinition& texture, const Location& where) {
-  const FinishDefinition& finish = texture.finish;
-  Index index = inherited;
-  if (object.interior) {
-    const InteriorDefinition& interior = *object.interior;
-    diagnostics_.supports(interior.unsupported, where);
-    Interior made;
-    made.ior = interior.ior;
-    made.fade_distance = interior.fade_distance;
-    made.fade_power = interior.fade_power;
-    made.fade_colour = interior.fade_colour;
-    made.caustics = interior.caustics;
-    index = scene_.add(made);
-  }
-  if (finish.ior || finish.caustics || finish.fade_distance || finish.fade_power) {
-    if (index == kNoIndex) index = scene_.add(Interior{});
-    Interior& made = scene_.interiors[index];
-    made.ior = finish.ior.value_or(made.ior);
-    constexpr double kInteriorsUnit = 45; // as in POV-Ray
-    if (finish.caustics) made.caustics = *finish.caustics / kInteriorsUnit;
-    made.fade_distance = finish.fade_distance.value_or(made.fade_distance);
-    made.fade_power = finish.fade_power.value_or(made.fade_power);
-  }
-  // The refraction always has a value, but a pattern of textures has no finish.
-  if (!texture.map) {
-    if (index == kNoIndex && finish.refraction != 1) index = scene_.add(Interior{});
-    if (index != kNoIndex) scene_.interiors[index].refraction = finish.refraction;
-  }
-  return index;
-}
-
-bool SceneBuilder::PlacedTexture::operator<(const PlacedTexture& other) const {
-  if (texture != other.texture) return texture < other.texture;
-  return std::memcmp(&transform, &other.transform, sizeof transform) < 0;
-}
-
-/// Returns a texture on surface coordinates, after it has been moved.
-TexturePtr SceneBuilder::mapped_texture(const TexturePtr& texture, const Transform& transform) {
-  const bool is_constant = texture->is_constant();
-  const PlacedTexture placed =
-      is_constant ? PlacedTexture{original(texture), Transform()} : PlacedTexture{texture, transform};
-  const auto [known, is_new] = mapped_textures_.try_emplace(placed);
-  if (is_new) known->second = on_surface(transformed(placed.texture, placed.transform));
-  return known->second;
-}
-
-Index SceneBuilder::material_index(const TexturePtr& texture, const Transform& transform,
-                                   const Location& where) {
-  if (texture->is_constant()) {
-    Index& known = original(texture)->built.index;
-    if (known == kNoIndex) known = add_material(*texture, where);
-    return known;
-  }
-  const auto [known, is_new] = placed_material_indices_.try_emplace(PlacedTexture{texture, transform});
-  if (is_new) known->second = add_material(*transformed(texture, transform), where);
-  return known->second;
-}
-
-Index SceneBuilder::add_material(const TextureDefinition& texture, const Location& where) {
-  Material material = make_material(texture, where);
-  make_room(scene_.materials, tokens_);
-  scene_.materials.push_back(std::move(material));
-  return static_cast<Index>(scene_.materials.size() - 1);
-}
-
-Material SceneBuilder::make_material(const TextureDefinition& texture, const Location& where) {
-  diagnostics_.supports(texture.first_unsupported(), where);
-  Material material;
-  if (texture.normal && texture.normal->is_undefined) return material;
-  if (texture.map) {
-    auto map = std::make_shared<PatternMap<Material>>();
-    map->pattern = texture.pattern.value();
-    map->is_average = texture.pattern.is_average();
-    for (const auto& [position, entry] : texture.map->entries)
-      map->entries.push_back({position, *shared_material(entry, where)});
-    check_pattern(map->pattern, map->entries.size(), where);
-    material.map = std::move(map);
-    return material;
-  }
-  material.pigment = texture.pigment.finish();
-  if (const auto& map = material.pigment.map) check_pattern(map->pattern, map->entries.size(), where);
-  material.finish = texture.finish->value;
-  if (texture.normal && !texture.normal->is_smooth()) {
-    material.normal = std::make_shared<const Normal>(texture.normal->finish());
-    const auto& map = material.normal->map;
-    check_pattern(map ? map->pattern : material.normal->pattern, map ? map->entries.size() : 0, where);
-  }
-  if (texture.below) material.below = shared_material(texture.below, where);
-  return material;
-}
-
-std::shared_ptr<const Material> SceneBuilder::shared_material(const TexturePtr& texture,
-                                                              const Location& where) {
-  const TexturePtr& key = original(texture);
-  if (const auto known = shared_materials_.find(key); known != shared_materials_.end()) return known->second;
-  return shared_materials_[key] = std::make_shared<const Material>(make_material(*texture, where));
-}
-
-/// Checks the size of a map in one place: each place of a texture has its own copy of the maps, and its own
-/// transformations.
-void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, const Location& where) {
-  for (const SpaceStep& step : pattern.space)
-    if (const auto* transform = std::get_if<Transform>(&step); transform && is_singular(*transform))
-      diagnostics_.fail(where, "the transformation of this object's texture is singular: it has no inverse");
-  map_entries_ += entries;
-  if (map_entries_ > limits_.map_entries)
-    diagnostics_.exceed(where, &ParseLimits::map_entries, "the maps of all textures have", "entries");
-}
-
-/// Returns a mesh, which instances share unless its own textures depend on the place.
-std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
-                                                      const Transform& transform, bool uv_mapping,
-                                                      const Location& where) {
-  const std::vector<TexturePtr>& textures = definition->textures;
-  const bool is_constant = std::all_of(textures.begin(), textures.end(),
-                                       [](const TexturePtr& texture) { return texture->is_constant(); });
-  if (is_constant)
-    if (const auto known = meshes_.find(definition); known != meshes_.end()) return known->second;
-  std::vector<Index> materials;
-  for (const TexturePtr& texture : textures)
-    materials.push_back(uv_mapping && !is_constant
-                            ? material_index(mapped_texture(texture, transform), {}, where)
-                            : material_index(texture, transform, where));
-  if (!is_constant) count_triangles(definition->mesh.triangles.size(), where);
-  auto mesh = is_constant ? std::make_shared<Mesh>(std::move(definition->mesh))
-                          : std::make_shared<Mesh>(definition->mesh);
-  replace_materials(*mesh, materials, tokens_);
-  if (is_constant) meshes_[definition] = mesh;
-  return mesh;
-}
-
-/// Applies the object's interior_texture to triangles with textures of their own. `inside` is a copy: the
-/// scene's materials, which it may be part of, move when more are added.
-std::shared_ptr<const Mesh> SceneBuilder::with_inside(const std::shared_ptr<const Mesh>& mesh,
-                                                      std::shared_ptr<const Material> inside,
-                                                      const Location& where) {
-  const auto has_material = [](const Mesh::Triangle& triangle) { return triangle.material[0] != kNoIndex; };
-  if (std::none_of(mesh->triangles.begin(), mesh->triangles.end(), has_material)) return mesh;
-  std::shared_ptr<const Mesh>& known = meshes_with_insides_[{mesh, inside}];
-  if (known) return known;
-  count_triangles(mesh->triangles.size(), where);
-  const auto copy = std::make_shared<Mesh>(*mesh);
-  std::unordered_map<Index, Index> changed;
-  for (Mesh::Triangle& triangle : copy->triangles) {
-    tokens_.spend(1);
-    for (Index& index : triangle.material) {
-      if (index == kNoIndex) continue;
-      const auto [entry, is_new] = changed.try_emplace(index, kNoIndex);
-      if (is_new) {
-        Material material = scene_.materials[index];
-        material.inside = inside;
-        entry->second = scene_.add(material);
-      }
-      index = entry->second;
-    }
-  }
-  return known = copy;
 }
 
 } // namespace celltrace::pov

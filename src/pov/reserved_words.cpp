@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <unordered_map>
 
 #include "celltrace/pov.hpp"
+#include "pov/blocks.hpp"
 #include "pov/camera.hpp"
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
+#include "pov/items.hpp"
 #include "pov/patterns.hpp"
 #include "pov/shapes.hpp"
 
@@ -30,182 +33,79 @@ struct DetailedWord {
 };
 
 const Word kWords[] = {
-    {"accuracy", tokens::T_ACCURACY},
-    {"adaptive", tokens::T_ADAPTIVE},
-    {"adc_bailout", tokens::T_ADC_BAILOUT},
     {"albedo", tokens::T_ALBEDO},
     {"altitude", tokens::T_ALTITUDE},
-    {"ambient", tokens::T_AMBIENT},
-    {"ambient_light", tokens::T_AMBIENT_LIGHT},
     {"angle", tokens::T_ANGLE},
-    {"aperture", tokens::T_APERTURE},
-    {"arc_angle", tokens::T_ARC_ANGLE},
-    {"area_illumination", tokens::T_AREA_ILLUMINATION},
     {"area_light", tokens::T_AREA_LIGHT},
     {"array", tokens::T_ARRAY},
     {"assumed_gamma", tokens::T_ASSUMED_GAMMA},
     {"background", tokens::T_BACKGROUND},
-    {"black_hole", tokens::T_BLACK_HOLE},
     {"blur_samples", tokens::T_BLUR_SAMPLES},
     {"bounded_by", tokens::T_BOUNDED_BY},
-    {"brilliance", tokens::T_BRILLIANCE},
-    {"bump_size", tokens::T_BUMP_SIZE},
     {"camera", tokens::T_CAMERA},
-    {"caustics", tokens::T_CAUSTICS},
     {"charset", tokens::T_CHARSET},
-    {"circular", tokens::T_CIRCULAR},
     {"clipped_by", tokens::T_CLIPPED_BY},
-    {"collect", tokens::T_COLLECT},
     {"color", tokens::T_COLOUR},
     {"color_map", tokens::T_COLOUR_MAP},
     {"colour", tokens::T_COLOUR},
     {"colour_map", tokens::T_COLOUR_MAP},
-    {"confidence", tokens::T_IGNORED_NUMBER},
-    {"conserve_energy", tokens::T_CONSERVE_ENERGY},
-    {"crand", tokens::T_CRAND},
-    {"cutaway_textures", tokens::T_CUTAWAY_TEXTURES},
     {"defined", tokens::T_DEFINED},
     {"diffuse", tokens::T_DIFFUSE},
     {"dimension_size", tokens::T_DIMENSION_SIZE},
     {"dimensions", tokens::T_DIMENSIONS},
-    {"direction", tokens::T_DIRECTION},
-    {"dispersion", tokens::T_DISPERSION},
-    {"dispersion_samples", tokens::T_IGNORED_NUMBER},
-    {"distance", tokens::T_DISTANCE},
-    {"dist_exp", tokens::T_DIST_EXP},
-    {"double_illuminate", tokens::T_DOUBLE_ILLUMINATE},
-    {"emission", tokens::T_EMISSION},
-    {"exponent", tokens::T_EXPONENT},
-    {"exterior", tokens::T_EXTERIOR},
-    {"face_indices", tokens::T_FACE_INDICES},
-    {"fade_color", tokens::T_FADE_COLOUR},
-    {"fade_colour", tokens::T_FADE_COLOUR},
-    {"fade_distance", tokens::T_FADE_DISTANCE},
-    {"fade_power", tokens::T_FADE_POWER},
-    {"falloff", tokens::T_FALLOFF},
     {"finish", tokens::T_FINISH},
-    {"flip", tokens::T_FLIP},
-    {"focal_point", tokens::T_IGNORED_NUMBER},
-    {"falloff_angle", tokens::T_FALLOFF_ANGLE},
     {"fog", tokens::T_FOG},
-    {"fog_alt", tokens::T_FOG_ALT},
-    {"fog_offset", tokens::T_FOG_OFFSET},
-    {"fog_type", tokens::T_FOG_TYPE},
-    {"frequency", tokens::T_FREQUENCY},
-    {"fresnel", tokens::T_FRESNEL},
     {"function", tokens::T_USER_FUNCTION},
-    {"global_lights", tokens::T_GLOBAL_LIGHTS},
     {"global_settings", tokens::T_GLOBAL_SETTINGS},
-    {"hf_gray_16", tokens::T_IGNORED_FLAG},
-    {"hierarchy", tokens::T_IGNORED_FLAG},
-    {"hollow", tokens::T_HOLLOW},
     {"inside", tokens::T_INSIDE},
     {"inside_vector", tokens::T_INSIDE_VECTOR},
     {"interior", tokens::T_INTERIOR},
     {"interior_texture", tokens::T_INTERIOR_TEXTURE},
     {"inverse", tokens::T_INVERSE},
-    {"ior", tokens::T_IOR},
     {"irid", tokens::T_IRID},
-    {"irid_wavelength", tokens::T_IRID_WAVELENGTH},
-    {"jitter", tokens::T_JITTER},
     {"julia", tokens::T_JULIA},
-    {"lambda", tokens::T_LAMBDA},
     {"light_group", tokens::T_LIGHT_GROUP},
     {"light_source", tokens::T_LIGHT_SOURCE},
-    {"location", tokens::T_LOCATION},
-    {"look_at", tokens::T_LOOK_AT},
     {"looks_like", tokens::T_LOOKS_LIKE},
     {"magnet", tokens::T_MAGNET},
-    {"major_radius", tokens::T_MAJOR_RADIUS},
     {"material", tokens::T_MATERIAL},
     {"matrix", tokens::T_MATRIX},
     {"max_extent", tokens::T_MAX_EXTENT},
-    {"max_intersections", tokens::T_MAX_INTERSECTIONS},
-    {"max_trace_level", tokens::T_MAX_TRACE_LEVEL},
-    {"media_attenuation", tokens::T_MEDIA_ATTENUATION},
-    {"media_interaction", tokens::T_MEDIA_INTERACTION},
     {"mesh", tokens::T_MESH},
     {"mesh2", tokens::T_MESH2},
-    {"metallic", tokens::T_METALLIC},
     {"min_extent", tokens::T_MIN_EXTENT},
-    {"mm_per_unit", tokens::T_IGNORED_NUMBER},
-    {"no_image", tokens::T_NO_IMAGE},
-    {"no_radiosity", tokens::T_IGNORED_FLAG},
-    {"no_reflection", tokens::T_NO_REFLECTION},
-    {"no_shadow", tokens::T_NO_SHADOW},
-    {"noise_generator", tokens::T_NOISE_GENERATOR},
     {"normal", tokens::T_NORMAL},
-    {"normal_indices", tokens::T_NORMAL_INDICES},
     {"normal_map", tokens::T_NORMAL_MAP},
-    {"normal_vectors", tokens::T_NORMAL_VECTORS},
-    {"number_of_waves", tokens::T_NUMBER_OF_WAVES},
     {"object", tokens::T_OBJECT},
-    {"octaves", tokens::T_OCTAVES},
-    {"omega", tokens::T_OMEGA},
     {"open", tokens::T_OPEN},
-    {"orient", tokens::T_ORIENT},
-    {"orientation", tokens::T_ORIENTATION},
-    {"parallel", tokens::T_PARALLEL},
-    {"pass_through", tokens::T_PASS_THROUGH},
-    {"phase", tokens::T_PHASE},
-    {"phong", tokens::T_PHONG},
-    {"phong_size", tokens::T_PHONG_SIZE},
     {"photons", tokens::T_PHOTONS},
     {"pigment", tokens::T_PIGMENT},
     {"pigment_map", tokens::T_PIGMENT_MAP},
     {"pigment_pattern", tokens::T_PIGMENT_PATTERN},
-    {"point_at", tokens::T_POINT_AT},
-    {"poly_wave", tokens::T_POLY_WAVE},
-    {"quick_color", tokens::T_QUICK_COLOUR},
-    {"quick_colour", tokens::T_QUICK_COLOUR},
     {"projected_through", tokens::T_PROJECTED_THROUGH},
     {"radiosity", tokens::T_RADIOSITY},
-    {"radius", tokens::T_RADIUS},
     {"rainbow", tokens::T_RAINBOW},
     {"reflection", tokens::T_REFLECTION},
-    {"reflection_exponent", tokens::T_REFLECTION_EXPONENT},
-    {"refraction", tokens::T_REFRACTION},
-    {"repeat", tokens::T_REPEAT},
-    {"right", tokens::T_RIGHT},
     {"rotate", tokens::T_ROTATE},
-    {"roughness", tokens::T_ROUGHNESS},
     {"scale", tokens::T_SCALE},
-    {"shadowless", tokens::T_SHADOWLESS},
-    {"sky", tokens::T_SKY},
     {"sky_sphere", tokens::T_SKY_SPHERE},
     {"slope", tokens::T_SLOPE},
     {"slope_map", tokens::T_SLOPE_MAP},
     {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
-    {"specular", tokens::T_SPECULAR},
     {"spline", tokens::T_SPLINE},
-    {"split_union", tokens::T_IGNORED_FLAG},
-    {"spotlight", tokens::T_SPOTLIGHT},
     {"srgb", tokens::T_SRGB},
-    {"strength", tokens::T_STRENGTH},
-    {"sturm", tokens::T_IGNORED_FLAG},
-    {"target", tokens::T_TARGET},
     {"texture", tokens::T_TEXTURE},
     {"texture_list", tokens::T_TEXTURE_LIST},
     {"texture_map", tokens::T_TEXTURE_MAP},
-    {"thickness", tokens::T_THICKNESS},
-    {"tightness", tokens::T_TIGHTNESS},
     {"tile2", tokens::T_TILE2},
     {"tiles", tokens::T_TILES},
     {"trace", tokens::T_TRACE},
-    {"toroidal", tokens::T_TOROIDAL},
     {"transform", tokens::T_TRANSFORM},
     {"translate", tokens::T_TRANSLATE},
     {"triangle", tokens::T_TRIANGLE},
-    {"turb_depth", tokens::T_TURB_DEPTH},
-    {"turbulence", tokens::T_TURBULENCE},
-    {"up", tokens::T_UP},
-    {"uv_indices", tokens::T_UV_INDICES},
     {"uv_mapping", tokens::T_UV_MAPPING},
     {"uv_vectors", tokens::T_UV_VECTORS},
-    {"variance", tokens::T_IGNORED_NUMBER},
-    {"vertex_vectors", tokens::T_VERTEX_VECTORS},
     {"warp", tokens::T_WARP},
-    {"width", tokens::T_WIDTH},
 };
 
 constexpr int detail(Constant constant) {
@@ -216,9 +116,6 @@ constexpr int detail(ColourModel model) {
 }
 constexpr int detail(Channel channel) {
   return static_cast<int>(channel);
-}
-constexpr int detail(Pattern::Wave wave) {
-  return static_cast<int>(wave);
 }
 constexpr int detail(Csg::Operation operation) {
   return static_cast<int>(operation);
@@ -255,11 +152,6 @@ const DetailedWord kDetailedWords[] = {
     {"filter", tokens::T_CHANNEL, detail(Channel::filter)},
     {"alpha", tokens::T_CHANNEL, detail(Channel::filter)}, // name before version 3
     {"transmit", tokens::T_CHANNEL, detail(Channel::transmit)},
-    {"ramp_wave", tokens::T_WAVE, detail(Pattern::Wave::ramp)},
-    {"triangle_wave", tokens::T_WAVE, detail(Pattern::Wave::triangle)},
-    {"sine_wave", tokens::T_WAVE, detail(Pattern::Wave::sine)},
-    {"scallop_wave", tokens::T_WAVE, detail(Pattern::Wave::scallop)},
-    {"cubic_wave", tokens::T_WAVE, detail(Pattern::Wave::cubic)},
     {"linear_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::linear)},
     {"quadratic_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::quadratic)},
     {"cubic_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::cubic)},
@@ -409,10 +301,32 @@ const char* const kUnsupportedArguments[] = {
 // Words that directives and functions handle themselves.
 const char* const kWordsReadApart[] = {"append", "prod", "sum"};
 
-/// Tokens of words with grammar rules of their own, which mark the feature as unsupported.
-constexpr int kRefused[] = {
-    tokens::T_APERTURE, tokens::T_BLUR_SAMPLES, tokens::T_DISPERSION, tokens::T_PHOTONS, tokens::T_RADIOSITY,
+/// Words that are taken for what is not supported.
+constexpr std::string_view kRefused[] = {
+    "aperture", "blur_samples", "dispersion", "photons", "radiosity",
 };
+
+int token_of(ItemForm form) {
+  switch (form) {
+  case ItemForm::word:
+    return tokens::T_WORD_ITEM;
+  case ItemForm::value:
+    return tokens::T_VALUE_ITEM;
+  case ItemForm::option:
+    return tokens::T_OPTION_ITEM;
+  case ItemForm::pair:
+    return tokens::T_PAIR_ITEM;
+  case ItemForm::share:
+    return tokens::T_SHARE_ITEM;
+  case ItemForm::colour:
+    return tokens::T_COLOUR_ITEM;
+  case ItemForm::colour_or_black:
+    return tokens::T_COLOUR_OR_BLACK_ITEM;
+  case ItemForm::list:
+    break;
+  }
+  return tokens::T_LIST_ITEM;
+}
 
 int token_of(PatternForm form) {
   switch (form) {
@@ -428,9 +342,7 @@ int token_of(PatternForm form) {
   return tokens::T_PATTERN;
 }
 
-} // namespace
-
-std::vector<ReservedWord> reserved_words() {
+std::vector<ReservedWord> make_reserved_words() {
   std::vector<ReservedWord> words;
   for (const Word& word : kWords)
     words.push_back({word.text, word.token, 0, false});
@@ -451,10 +363,8 @@ std::vector<ReservedWord> reserved_words() {
     words.push_back(
         {function.name, function.gives_text ? tokens::T_TEXT_FUNCTION : tokens::T_FUNCTION, number++, false});
   number = 0;
-  for (const char* shape : shape_names()) {
-    words.push_back({shape, has_option(number) ? tokens::T_OPTION_SHAPE : tokens::T_SHAPE, number, false});
-    ++number;
-  }
+  for (const char* shape : shape_names())
+    words.push_back({shape, tokens::T_SHAPE, number++, false});
   number = 0;
   const std::vector<PatternWord> patterns = pattern_words();
   for (const PatternWord& pattern : patterns) {
@@ -463,10 +373,6 @@ std::vector<ReservedWord> reserved_words() {
     ++number;
   }
   number = 0;
-  for (const PatternOption& option : pattern_options())
-    words.push_back(
-        {option.word, option.has_value ? tokens::T_PATTERN_OPTION : tokens::T_PATTERN_FLAG, number++, false});
-  number = 0;
   for (const char* kind : camera_kind_names()) {
     // A word that also stands for a pattern is the pattern's token.
     const auto is_kind = [&](const PatternWord& pattern) { return std::string_view(pattern.word) == kind; };
@@ -474,7 +380,66 @@ std::vector<ReservedWord> reserved_words() {
       words.push_back({kind, tokens::T_CAMERA_KIND, number, false});
     ++number;
   }
+  for (const BlockWord& item : block_words()) {
+    const auto is_item = [&](const ReservedWord& word) { return std::string_view(word.text) == item.text; };
+    if (std::none_of(words.begin(), words.end(), is_item))
+      words.push_back({item.text, tokens::T_MISPLACED, 0, false});
+  }
   return words;
+}
+
+std::vector<BlockWord> make_block_words() {
+  std::vector<BlockWord> words;
+  for (int i = 0; i < kBlocks; ++i) {
+    const auto block = static_cast<Block>(i);
+    for (Block table = block; table != Block::none; table = base_of(table)) {
+      int number = 0;
+      for (const ItemWord& item : item_words(table))
+        words.push_back(
+            {item.word, block, token_of(item.form), Item::row_of(table, number++), item.is_ignored});
+    }
+  }
+  return words;
+}
+
+using AllMeanings = std::unordered_map<std::string_view, Names::Meanings>;
+
+AllMeanings make_meanings() {
+  AllMeanings all;
+  for (const BlockWord& word : block_words()) {
+    Names::Meaning& meaning = all[word.text][static_cast<std::size_t>(word.block)];
+    if (meaning.token == 0) meaning = {word.token, word.detail};
+  }
+  for (const ReservedWord& word : reserved_words()) {
+    Names::Meanings& meanings = all[word.text];
+    for (std::size_t block = 0; block < meanings.size(); ++block)
+      if (meanings[block].token == 0)
+        meanings[block] = {terminal_in(static_cast<Block>(block), word.token), word.detail};
+  }
+  return all;
+}
+
+} // namespace
+
+const std::vector<ReservedWord>& reserved_words() {
+  static const std::vector<ReservedWord> kAll = make_reserved_words();
+  return kAll;
+}
+
+const std::vector<BlockWord>& block_words() {
+  static const std::vector<BlockWord> kAll = make_block_words();
+  return kAll;
+}
+
+const std::vector<const Names::Meanings*>& reserved_meanings() {
+  static const AllMeanings kAll = make_meanings();
+  static const std::vector<const Names::Meanings*> kInOrder = [] {
+    std::vector<const Names::Meanings*> in_order;
+    for (const ReservedWord& word : reserved_words())
+      in_order.push_back(&kAll.at(word.text));
+    return in_order;
+  }();
+  return kInOrder;
 }
 
 int component_of(std::string_view word) {
@@ -495,12 +460,14 @@ namespace celltrace {
 
 std::vector<Keyword> keywords() {
   using namespace pov;
+  const std::vector<BlockWord>& items = block_words();
   std::vector<Keyword> result;
   for (const ReservedWord& word : reserved_words()) {
-    const bool is_ignored = word.token == tokens::T_IGNORED_FLAG || word.token == tokens::T_IGNORED_NUMBER ||
-                            word.token == tokens::T_MAX_INTERSECTIONS;
-    const bool is_refused =
-        std::find(std::begin(kRefused), std::end(kRefused), word.token) != std::end(kRefused);
+    const std::string_view text = word.text;
+    const auto means_something = [&](const BlockWord& item) { return item.text == text && !item.is_ignored; };
+    const bool is_ignored =
+        word.token == tokens::T_MISPLACED && std::none_of(items.begin(), items.end(), means_something);
+    const bool is_refused = std::find(std::begin(kRefused), std::end(kRefused), text) != std::end(kRefused);
     const auto support = is_ignored ? Keyword::Support::ignored : Keyword::Support::full;
     result.push_back({word.text, word.is_unsupported || is_refused ? Keyword::Support::none : support});
   }

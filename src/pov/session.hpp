@@ -3,11 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "celltrace/pov.hpp"
-#include "pov/diagnostics.hpp"
 #include "geometry/function_machine.hpp"
+#include "pov/diagnostics.hpp"
 #include "pov/input.hpp"
 #include "pov/memory.hpp"
 #include "pov/names.hpp"
@@ -39,15 +40,18 @@ struct Session {
   FunctionMachine functions;
   std::vector<std::uint32_t> random_streams; ///< states of seed()'s streams
   std::uint64_t text_bytes = 0;
-  std::uint64_t written_bytes = 0;                   ///< written by #write
-  std::vector<std::shared_ptr<DataFile>> data_files; ///< opened by #fopen and not closed
-  std::uint64_t shape_tests = 0;                     ///< of trace() and similar functions
-  std::uint64_t bounds_tests = 0; ///< such tests of objects that are compared with their bounds
-  TexturePtr base_texture;        ///< start of the pigment or finish being read
-  InteriorPtr base_interior;      ///< start of the interior being read
-  Finish* irid = nullptr;         ///< finish whose irid { } is being read
-  std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< lights being read, nested
-  std::vector<std::shared_ptr<Parser>> parsers; ///< one per entry of the grammar, made when first needed
+  std::uint64_t written_bytes = 0;                   ///< by #write
+  std::vector<std::shared_ptr<DataFile>> data_files; ///< that #fopen has opened and nothing closed
+  std::uint64_t shape_tests = 0;                     ///< of trace() and the like
+  std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
+  TexturePtr base_texture;        ///< what the pigment or finish being read starts from
+  InteriorPtr base_interior;      ///< the same for an interior
+  /// What has a part in braces that is being read, from the outermost inwards.
+  std::vector<std::variant<TexturePtr, std::shared_ptr<ObjectDefinition>, std::shared_ptr<FinishDefinition>,
+                           MaterialDefinition>>
+      unfinished;
+  std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< being read, in each other
+  std::vector<std::shared_ptr<Parser>> parsers; ///< one for each entry of the grammar, made when first needed
 
   [[noreturn]] void fail(const Location& where, const std::string& what) const {
     diagnostics.fail(where, what);

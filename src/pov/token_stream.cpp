@@ -6,6 +6,7 @@
 
 #include "celltrace/error.hpp"
 #include "memory/huge_pages.hpp"
+#include "pov/blocks.hpp"
 #include "pov/characters.hpp"
 #include "pov/constants.hpp"
 #include "pov/grammar.hpp"
@@ -41,23 +42,15 @@ bool ends_operand(int terminal) {
   switch (terminal) {
   case tokens::T_QUANTITY:
   case tokens::T_TEXT:
-  case tokens::T_PIGMENT_ID:
-  case tokens::T_NORMAL_ID:
+  case tokens::T_NAMED:
   case tokens::T_PIGMENT_MAP_ID:
   case tokens::T_NORMAL_MAP_ID:
   case tokens::T_TEXTURE_MAP_ID:
   case tokens::T_SLOPE_MAP_ID:
-  case tokens::T_SKY_SPHERE_ID:
-  case tokens::T_FOG_ID:
-  case tokens::T_RAINBOW_ID:
-  case tokens::T_FINISH_ID:
   case tokens::T_TEXTURE_ID:
   case tokens::T_OBJECT_ID:
   case tokens::T_TRANSFORM_ID:
   case tokens::T_ARRAY_ID:
-  case tokens::T_INTERIOR_ID:
-  case tokens::T_MATERIAL_ID:
-  case tokens::T_CAMERA_ID:
   case tokens::T_FUNCTION_ID:
   case tokens::T_SPLINE_ID:
   case tokens::T_UNSUPPORTED_ID:
@@ -153,20 +146,20 @@ struct TokenOf {
   int operator()(std::monostate) const { return tokens::T_UNDECLARED_ID; }
   int operator()(const Quantity&) const { return tokens::T_QUANTITY; }
   int operator()(const std::string&) const { return tokens::T_TEXT; }
-  int operator()(const PigmentPtr&) const { return tokens::T_PIGMENT_ID; }
-  int operator()(const NormalPtr&) const { return tokens::T_NORMAL_ID; }
+  int operator()(const PigmentPtr&) const { return tokens::T_NAMED; }
+  int operator()(const NormalPtr&) const { return tokens::T_NAMED; }
   int operator()(const PigmentMapPtr&) const { return tokens::T_PIGMENT_MAP_ID; }
   int operator()(const NormalMapPtr&) const { return tokens::T_NORMAL_MAP_ID; }
   int operator()(const TextureMapPtr&) const { return tokens::T_TEXTURE_MAP_ID; }
   int operator()(const SlopeMapPtr&) const { return tokens::T_SLOPE_MAP_ID; }
-  int operator()(const SkySpherePtr&) const { return tokens::T_SKY_SPHERE_ID; }
-  int operator()(const FogPtr&) const { return tokens::T_FOG_ID; }
-  int operator()(const RainbowPtr&) const { return tokens::T_RAINBOW_ID; }
-  int operator()(const FinishPtr&) const { return tokens::T_FINISH_ID; }
+  int operator()(const SkySpherePtr&) const { return tokens::T_NAMED; }
+  int operator()(const FogPtr&) const { return tokens::T_NAMED; }
+  int operator()(const RainbowPtr&) const { return tokens::T_NAMED; }
+  int operator()(const FinishPtr&) const { return tokens::T_NAMED; }
   int operator()(const TexturePtr&) const { return tokens::T_TEXTURE_ID; }
-  int operator()(const InteriorPtr&) const { return tokens::T_INTERIOR_ID; }
-  int operator()(const std::shared_ptr<const MaterialDefinition>&) const { return tokens::T_MATERIAL_ID; }
-  int operator()(const std::shared_ptr<const CameraDefinition>&) const { return tokens::T_CAMERA_ID; }
+  int operator()(const InteriorPtr&) const { return tokens::T_NAMED; }
+  int operator()(const std::shared_ptr<const MaterialDefinition>&) const { return tokens::T_NAMED; }
+  int operator()(const std::shared_ptr<const CameraDefinition>&) const { return tokens::T_NAMED; }
   int operator()(const ObjectPtr&) const { return tokens::T_OBJECT_ID; }
   int operator()(const Transform&) const { return tokens::T_TRANSFORM_ID; }
   int operator()(const std::shared_ptr<Array>&) const { return tokens::T_ARRAY_ID; }
@@ -328,15 +321,24 @@ void TokenStream::deliver(const Token& token, Terminal& terminal) {
   level.any_delivered = true;
   level.after_operand = ends_operand(terminal.token);
   level.last_token = token;
+  level.last_terminal = terminal.token;
   terminal.where = token.where;
 }
 
-/// Counts open brackets. < and ? count until the bracket around them closes, because they may or may not have
-/// a partner.
+/// Returns the block whose items can stand here.
+Block TokenStream::block() const {
+  const Level& level = levels_.back();
+  if (!level.enclosing.empty()) return level.enclosing.back().block;
+  return level.start == Start::scene ? Block::scene : Block::none;
+}
+
+/// < and ? count until the bracket around them closes, because they may or may not have a partner.
 void TokenStream::count_brackets(const Token& token) {
   Level& level = levels_.back();
   if (opens(token)) {
-    level.enclosing.push_back({level.nesting, token.is('(')});
+    // An entry of a map is like what the map is for.
+    const Block inside = token.is('{') ? block_behind(level.last_terminal) : Block::none;
+    level.enclosing.push_back({level.nesting, token.is('('), token.is('[') ? block() : inside});
     ++level.nesting;
   } else if (token.is('<') || token.is('?')) {
     ++level.nesting;
@@ -401,17 +403,18 @@ void TokenStream::interpret(const Token& token, Terminal& terminal) const {
 bool TokenStream::look_up(const Token& word, Terminal& terminal) {
   const Names::Entry& name = session_.names[word.name];
   if (name.token != 0) {
-    terminal.token = name.token;
-    terminal.detail = name.detail;
-    if (name.token == tokens::T_CONSTANT) {
+    const Names::Meaning& meaning = name.in(block());
+    terminal.token = meaning.token;
+    terminal.detail = meaning.detail;
+    if (meaning.token == tokens::T_CONSTANT) {
       terminal.value = value_of(static_cast<Constant>(name.detail), session_);
       terminal.token = std::visit(TokenOf{}, terminal.value);
-    } else if (name.token == tokens::T_DEFINED) {
+    } else if (meaning.token == tokens::T_DEFINED) {
       terminal.value = Quantity(is_defined() ? 1 : 0);
       terminal.token = tokens::T_QUANTITY;
-    } else if (name.token == tokens::T_TEXTURE && session_.builder.has_old_textures()) {
+    } else if (meaning.token == tokens::T_TEXTURE && session_.builder.has_old_textures()) {
       terminal.token = tokens::T_OLD_TEXTURE;
-    } else if (name.is_unsupported) {
+    } else if (name.is_unsupported || terminal.token == tokens::T_UNSUPPORTED) {
       terminal.detail = static_cast<int>(word.name);
     }
     return true;
@@ -437,6 +440,8 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
     }
   }
   terminal.token = std::visit(TokenOf{}, terminal.value);
+  if (terminal.token == tokens::T_NAMED && !takes(block(), terminal.value))
+    terminal.token = tokens::T_MISPLACED;
   return true;
 }
 

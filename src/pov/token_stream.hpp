@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "pov/block.hpp"
 #include "pov/input.hpp"
 #include "pov/literals.hpp"
 #include "pov/value.hpp"
@@ -113,6 +114,7 @@ private:
   struct Bracket {
     unsigned outside = 0; ///< nesting around it
     bool is_parenthesis = false;
+    Block block = Block::none; ///< whose items are in it
   };
 
   /// One entry of the grammar.
@@ -125,7 +127,8 @@ private:
     unsigned nesting = 0; ///< number of open brackets, and of < and ? that may be brackets
     std::vector<Bracket> enclosing;
     Token last_token;
-    std::optional<Terminal> put_back; ///< made from last_token; delivered again
+    int last_terminal = 0;            ///< that last_token was made to
+    std::optional<Terminal> put_back; ///< made of last_token; to be delivered again
     bool after_operand = false;       ///< the last terminal can end a value
     Value result;
     bool hands_back = false;
@@ -141,6 +144,7 @@ private:
   const Location& here() const;
   void deliver(const Token& token, Terminal& terminal);
   void count_brackets(const Token& token);
+  Block block() const;
   void end_at(const Token& token, Terminal& terminal);
   bool look_up(const Token& token, Terminal& terminal);
   void interpret(const Token& token, Terminal& terminal) const;

@@ -1,0 +1,159 @@
+// Tables of the items of objects, light sources, light groups and meshes.
+#include "pov/item_tables.hpp"
+#include "pov/light.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+using Form = ItemForm;
+using Values = ItemValues;
+
+const ItemRow<ObjectDefinition> kObjectItems[] = {
+    {"no_image", Form::word, [](ObjectDefinition& object, const Values&) { object.no_image = true; }},
+    {"no_reflection", Form::word,
+     [](ObjectDefinition& object, const Values&) { object.no_reflection = true; }},
+    {"no_shadow", Form::word, [](ObjectDefinition& object, const Values&) { object.no_shadow = true; }},
+    {"inverse", Form::word,
+     [](ObjectDefinition& object, const Values&) { object.inverse = !object.inverse; }},
+    {"hollow", Form::option,
+     [](ObjectDefinition& object, const Values& values) { object.hollow = values.flag(); }},
+    {"double_illuminate", Form::option,
+     [](ObjectDefinition& object, const Values& values) { object.is_lit_through = values.flag(); }},
+    {"uv_mapping", Form::word,
+     [](ObjectDefinition& object, const Values& values) {
+       set_uv_mapping(values.session(), object, values.where());
+     }},
+    {"cutaway_textures", Form::option,
+     [](ObjectDefinition& object, const Values& values) {
+       if (values.flag()) set_cutaway_textures(values.session(), object, values.where());
+     }},
+    {"hf_gray_16", Form::option, ignore_number},
+    {"hierarchy", Form::option, ignore_number},
+    {"no_radiosity", Form::option, ignore_number},
+    {"split_union", Form::option, ignore_number},
+    {"sturm", Form::option, ignore_number},
+};
+
+template <double Light::*number> void set_beam(ObjectDefinition& light, const Values& values) {
+  set_beam(values.session(), light, number, values.number(), values.where());
+}
+
+const ItemRow<ObjectDefinition> kLightSourceItems[] = {
+    {"spotlight", Form::word,
+     [](ObjectDefinition& light, const Values&) { set_kind(light, Light::Kind::spotlight); }},
+    {"parallel", Form::word, [](ObjectDefinition& light, const Values&) { light_of(light).parallel = true; }},
+    {"shadowless", Form::word, [](ObjectDefinition& light, const Values&) { set_shadowless(light); }},
+    {"point_at", Form::value,
+     [](ObjectDefinition& light, const Values& values) {
+       set_point_at(values.session(), light, values.quantity(), values.where());
+     }},
+    {"radius", Form::value, set_beam<&Light::radius>},
+    {"falloff", Form::value, set_beam<&Light::falloff>},
+    {"tightness", Form::value, set_beam<&Light::tightness>},
+    {"fade_distance", Form::value,
+     [](ObjectDefinition& light, const Values& values) {
+       light_of(light).fade_distance = values.number_or_0();
+     }},
+    {"fade_power", Form::value,
+     [](ObjectDefinition& light, const Values& values) {
+       light_of(light).fade_power = values.number_or_0();
+     }},
+    {"adaptive", Form::value,
+     [](ObjectDefinition& light, const Values& values) { set_adaptive(light, values.number()); }},
+    {"area_illumination", Form::option,
+     [](ObjectDefinition& light, const Values& values) {
+       definition_of(light).shines_from_places = values.flag();
+     }},
+    {"jitter", Form::word, [](ObjectDefinition& light, const Values&) { area_of(light).jitter = true; }},
+    {"circular", Form::word, [](ObjectDefinition& light, const Values&) { area_of(light).circular = true; }},
+    {"orient", Form::word, [](ObjectDefinition& light, const Values&) { area_of(light).orient = true; }},
+    {"media_attenuation", Form::option,
+     [](ObjectDefinition& light, const Values& values) {
+       definition_of(light).media_attenuation = values.flag();
+     }},
+    {"media_interaction", Form::option,
+     [](ObjectDefinition& light, const Values& values) {
+       definition_of(light).media_interaction = values.flag();
+     }},
+};
+
+const ItemRow<ObjectDefinition> kLightGroupItems[] = {
+    {"global_lights", Form::option,
+     [](ObjectDefinition& group, const Values& values) { set_global_lights(group, values.flag()); }},
+};
+
+const ItemRow<PhotonsDefinition> kPhotonsItems[] = {
+    {"target", Form::option,
+     [](PhotonsDefinition& photons, const Values& values) { photons.is_target = values.flag(); }},
+    {"refraction", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
+    {"reflection", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
+    {"collect", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
+    {"pass_through", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
+    {"area_light", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
+};
+
+struct ListRow {
+  const char* word;
+  void (*set)(Session&, Mesh2Definition&, std::vector<ListEntry>&, const Location&);
+};
+
+template <CountedList Mesh2Definition::*member,
+          CountedList (*read)(Session&, std::vector<ListEntry>&, const Location&)>
+void set_list(Session& session, Mesh2Definition& mesh, std::vector<ListEntry>& list, const Location& where) {
+  mesh.*member = read(session, list, where);
+}
+
+const ListRow kMesh2Lists[] = {
+    {"vertex_vectors", set_list<&Mesh2Definition::vertex_vectors, vectors>},
+    {"normal_vectors", set_list<&Mesh2Definition::normal_vectors, vectors>},
+    {"uv_vectors", set_list<&Mesh2Definition::uv_vectors, vectors>},
+    {"face_indices", set_list<&Mesh2Definition::face_indices, faces>},
+    {"normal_indices", set_list<&Mesh2Definition::normal_indices, counted>},
+    {"uv_indices", set_list<&Mesh2Definition::uv_indices, counted>},
+};
+
+} // namespace
+
+std::vector<ItemWord> object_items() {
+  return words_of(kObjectItems);
+}
+
+std::vector<ItemWord> light_source_items() {
+  return words_of(kLightSourceItems);
+}
+
+std::vector<ItemWord> light_group_items() {
+  return words_of(kLightGroupItems);
+}
+
+std::vector<ItemWord> photons_items() {
+  return words_of(kPhotonsItems);
+}
+
+std::vector<ItemWord> mesh2_items() {
+  std::vector<ItemWord> words;
+  for (const ListRow& row : kMesh2Lists)
+    words.push_back({row.word, Form::list, false});
+  return words;
+}
+
+void apply(Session& session, ObjectDefinition& object, const Item& item) {
+  if (item.block() == Block::light_source)
+    apply(kLightSourceItems, session, object, item);
+  else if (item.block() == Block::light_group)
+    apply(kLightGroupItems, session, object, item);
+  else
+    apply(kObjectItems, session, object, item);
+}
+
+void apply(Session& session, PhotonsDefinition& photons, const Item& item) {
+  apply(kPhotonsItems, session, photons, item);
+}
+
+void apply(Session& session, Mesh2Definition& mesh, int row, std::vector<ListEntry> list,
+           const Location& where) {
+  kMesh2Lists[item(row, where).number()].set(session, mesh, list, where);
+}
+
+} // namespace celltrace::pov
