@@ -27,7 +27,7 @@ void settle(Session& session, Fog& fog, const Location& where);
 /// With POV-Ray's defaults: no direction, as far away as can be, and an arc without an end.
 std::shared_ptr<RainbowDefinition> new_rainbow();
 void set_colours(Rainbow& rainbow, const PigmentMap& map);
-/// What a rainbow has to have.
+/// Fails unless a rainbow has all that it needs.
 void check(Session& session, const Rainbow& rainbow, const Location& where);
 
 } // namespace celltrace::pov

@@ -37,7 +37,7 @@ double component(Session& session, const Quantity& quantity, int which, const Lo
 void append_component(Session& session, Quantity& vector, double component, const Location& where);
 Transform scale(Session& session, const Quantity& factors, const Location& where);
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where);
-/// What stands in transform { }.
+/// A block transform { } while it is read.
 struct WrittenTransform {
   Transform items;
   bool is_inverse = false;
@@ -59,7 +59,7 @@ std::size_t array_size(Session& session, double size, const Location& where);
 /// An array of the given dimensions from `level` on, without values.
 std::shared_ptr<Array> make_array(Session& session, const std::vector<std::size_t>& dimensions,
                                   std::size_t level, const Location& where);
-/// The same with the given elements, which must fit it.
+/// Returns an array with the given elements, which must fit it.
 std::shared_ptr<Array> filled_array(Session& session, const std::vector<std::size_t>& dimensions,
                                     const std::shared_ptr<Array>& elements, const Location& where);
 int dimensions(const Array& array);

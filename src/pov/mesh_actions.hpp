@@ -28,11 +28,11 @@ std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, c
 std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& definition, const Location& where);
 /// Checks the count that leads a list of mesh2.
 void check_count(Session& session, double announced, std::size_t found, const Location& where);
-/// The list without the count that leads it, which must be right.
+/// Returns a list without the count that leads it, which must be right.
 CountedList counted(Session& session, std::vector<ListEntry>& list, const Location& where);
-/// The same for face_indices, where only the vectors count.
+/// Returns a list of face_indices likewise, counting its vectors alone.
 CountedList faces(Session& session, std::vector<ListEntry>& list, const Location& where);
-/// The same where every entry must be finite.
+/// Returns a list likewise, each entry of which must be finite.
 CountedList vectors(Session& session, std::vector<ListEntry>& list, const Location& where);
 
 } // namespace celltrace::pov

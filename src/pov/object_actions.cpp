@@ -10,7 +10,8 @@ namespace celltrace::pov {
 
 namespace {
 
-/// Of objects inside one another, as loops make them that add to a union. A level takes 1.3 KB of the stack.
+/// Most objects inside one another, as loops make them that add to a union. A level takes 1.3 KB of the
+/// stack.
 constexpr int kDeepestObject = 1000;
 
 } // namespace

@@ -23,13 +23,13 @@ void set_uv_mapping(Session& session, ObjectDefinition& object, const Location& 
 void set_cutaway_textures(Session& session, ObjectDefinition& object, const Location& where);
 /// Adds a layer to what the object looks like from inside.
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
-/// What an object has to have when it ends.
+/// Fails unless an object has all that it needs when it ends.
 void check(Session& session, const ObjectDefinition& object, const Location& where);
 /// Checks an object that has been read to its end.
 ObjectPtr complete(Session& session, std::shared_ptr<ObjectDefinition> object, const Location& where);
 /// Notes where an object stands that needs no checks.
 ObjectPtr located(std::shared_ptr<ObjectDefinition> object, const Location& where);
-/// What POV-Ray makes of a colour among an object's modifiers.
+/// Ignores a colour among an object's modifiers, as POV-Ray does.
 void ignore_colour(Session& session, const Location& where);
 /// Ignores a name likewise, and fails if that is no colour's. Must come before the next token is read.
 void ignore_colour_name(Session& session, const Quantity& value, const Location& where);
@@ -40,13 +40,13 @@ std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& wr
 /// Makes a shape with `open` behind the arguments.
 std::shared_ptr<ObjectDefinition> open_shape(Session& session, WrittenShape written);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
-/// Of a light group.
+/// Says whether the lights of the scene light a light group.
 void set_global_lights(ObjectDefinition& object, bool are_on);
-/// What a name stands for that is given to an object.
+/// Returns the object that a name stands for.
 ObjectPtr declared(const ObjectPtr& object);
 /// An object that other ones can be limited by.
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where);
-/// What a pattern takes the inside of; `object` has been moved.
+/// Returns the inside that a pattern is of; `object` has been moved.
 pattern::Inside inside_of(Session& session, const Limit& object, const Location& where);
 /// Adds to one of the object's own lists of limits.
 void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,

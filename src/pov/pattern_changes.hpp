@@ -8,7 +8,7 @@
 
 namespace celltrace::pov {
 
-/// What a pattern's word or a modifier such as `frequency 2` does to a pattern.
+/// Change that a word or a modifier such as `frequency 2` makes to a pattern.
 using PatternChange = std::function<void(Session&, PatternDefinition&)>;
 
 PatternChange chosen(int number);
@@ -27,14 +27,14 @@ PatternChange julia(Session& session, double magnet, const Quantity& constant, d
 /// Gives a fractal as many iterations as can be counted. With less than 0 POV-Ray has 0.55
 /// everywhere.
 void set_iterations(Session& session, pattern::Fractal& fractal, double number, const Location& where);
-/// Of the magnet's kind, `pattern` being the Mandelbrot set.
+/// Makes the Mandelbrot set, which is `pattern`, one of the magnet's kind.
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
                      const Location& where);
 /// Fails if it has neither a direction nor an altitude.
 PatternChange slope(Session& session, const pattern::Slope& slope, const Location& where);
 /// Sets a range of a slope; without a width it stays the one from 0 to 1.
 void set_range(double& from, double& to, double least, double most);
-/// What only fractals understand; fails unless the number is one of 0 to `most`.
+/// Sets a number that only fractals understand; fails unless the number is one of 0 to `most`.
 PatternChange set_fractal(int pattern::Fractal::*member, double value, int most, const Location& where);
 /// The power of a fractal: 2, as in POV-Ray, if it is none of 2 to 33.
 PatternChange fractal_exponent(double value, const Location& where);
@@ -51,7 +51,7 @@ void keep_apart(Session& session, warp::BlackHole& hole, const Location& where);
 warp::Repeat repeat(Session& session, const Vec3& width, const Location& where);
 /// `option`: the word, which has to be "offset".
 Vec3 offset(Session& session, int option, const Quantity& value, const Location& where);
-/// Of a pattern's word.
+/// Returns the mapping that a pattern's word stands for.
 warp::Mapping mapping(Session& session, int pattern, const Location& where);
 warp::Mapping mapping(Session& session, int pattern, const Vec3& orientation, double distance,
                       const Location& where);

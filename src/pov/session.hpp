@@ -46,7 +46,7 @@ struct Session {
   std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
   TexturePtr base_texture;        ///< what the pigment or finish being read starts from
   InteriorPtr base_interior;      ///< the same for an interior
-  /// What has a part in braces that is being read, from the outermost inwards.
+  /// Textures, objects and the like whose braces are still open, from the outermost inwards.
   std::vector<std::variant<TexturePtr, std::shared_ptr<ObjectDefinition>, std::shared_ptr<FinishDefinition>,
                            MaterialDefinition>>
       unfinished;

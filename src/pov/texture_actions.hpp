@@ -22,7 +22,7 @@ TexturePtr transformed(Session& session, const TexturePtr& texture, const Transf
                        const Location& where);
 
 void set_colour(PigmentDefinition& pigment, const Pigment& colour);
-/// What counts alone where the picture is of a quality that low.
+/// Sets the colour that stands for the pigment in pictures of low quality.
 void set_quick_colour(Session& session, PigmentDefinition& pigment, const Pigment& colour);
 
 /// Fails if the pigment depends on a surface: a sky has none.
@@ -86,11 +86,11 @@ void set_list(Session& session, NormalDefinition& normal, const Limit& object, N
 TexturePtr with_pattern(Session& session, const TexturePtr& texture, const PatternChange& pattern);
 TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, TextureMap list,
                      const Location& where);
-/// Of the checker pattern: where that has its first colour, `second` is, as in POV-Ray.
+/// Returns a texture of tiles: as in POV-Ray, `second` is where the checker pattern has its first colour.
 TexturePtr with_tiles(Session& session, const TexturePtr& texture, const TexturePtr& first,
                       const TexturePtr& second, const Location& where);
 
-/// Of the pattern of an object.
+/// Returns a texture by the pattern of an object.
 TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit& object, TextureMap list,
                        const Location& where);
 
