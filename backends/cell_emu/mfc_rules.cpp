@@ -124,4 +124,10 @@ std::string describe(const MfcCommand& command) {
   return text;
 }
 
+std::string to_hex(std::uint32_t value) {
+  char text[9];
+  std::snprintf(text, sizeof text, "%x", static_cast<unsigned>(value));
+  return text;
+}
+
 } // namespace celltrace::cell_emu

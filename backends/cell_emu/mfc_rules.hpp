@@ -51,6 +51,15 @@ Rule broken_proxy_rule(const MfcCommand& command);
 /// Checks the rules of all commands: the opcode exists, the tag is 0..31.
 Rule broken_common_rule(const MfcCommand& command);
 
+/// Returns whether a command that broke a rule, whose action is not to stop, can still be carried out.
+constexpr bool can_be_carried_out(Rule rule) {
+  return rule == Rule::none || rule == Rule::zero_size || rule == Rule::line_alignment ||
+         rule == Rule::program_overwritten || rule == Rule::allocation_bounds || rule == Rule::object_bounds;
+}
+
+/// Returns a number's hexadecimal digits, without "0x".
+std::string to_hex(std::uint32_t value);
+
 /// Returns the command in one line: "get 20 bytes, LS 0x18010 <- EA 0x7f0010, tag 5".
 std::string describe(const MfcCommand& command);
 
