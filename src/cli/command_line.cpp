@@ -14,10 +14,9 @@
 #include "cli/option_errors.hpp"
 #include "cli/output_options.hpp"
 #include "cli/pov_numbers.hpp"
+#include "cli/sampling_options.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -32,8 +31,6 @@ bool is_folder(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::is_directory(path, ignored);
 }
-
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 /// Returns the texts before and after the first `separator`; the whole text and "" if there is none.
 std::pair<std::string, std::string> split(const std::string& text, char separator) {
@@ -83,10 +80,7 @@ struct RenderTexts {
   std::vector<std::string> declares;
   std::vector<std::string> limits;
   MessageTexts messages;
-  std::optional<double> antialias; ///< the threshold
-  int antialias_method = 1;
-  Antialiasing antialiasing; ///< everything but method and threshold
-  double start_column = 0, end_column = 1, start_row = 0, end_row = 1;
+  SamplingTexts sampling;
   std::string verbose, povray = "off";
   OutputTexts output;
   AnimationTexts animation;
@@ -140,42 +134,6 @@ void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& t
       .add_option("--adc", options.adc_bailout,
                   "Contribution below which a ray is cut; default: the scene's adc_bailout")
       ->check(number_range(0, 1));
-}
-
-void add_region_options(CLI::App& command, RenderTexts& texts) {
-  const auto add = [&](const std::string& name, double& value, const std::string& what) {
-    command.add_option(name, value, what)->check(number_range(0, kNoLimit))->type_name("N|FRACTION");
-  };
-  add("--start-column", texts.start_column, "The first column to render, from 1 on, or a part of the width");
-  add("--end-column", texts.end_column, "The last column to render; 1 and less is a part of the width");
-  add("--start-row", texts.start_row, "The first row to render, from 1 on, or a part of the height");
-  add("--end-row", texts.end_row, "The last row to render; 1 and less is a part of the height");
-}
-
-void add_antialiasing_options(CLI::App& command, RenderTexts& texts) {
-  command
-      .add_option("--antialias", texts.antialias,
-                  "Sample pixels by more rays where colours differ by so much or more")
-      ->check(number_range(0, 3))
-      ->type_name("THRESHOLD");
-  command
-      .add_option("--antialias-method", texts.antialias_method,
-                  "1: as many samples for each such pixel; 2: more where colours differ more")
-      ->check(CLI::Range(1, 2))
-      ->capture_default_str();
-  command
-      .add_option("--antialias-depth", texts.antialiasing.depth,
-                  "Samples a row and rows of a pixel, or how often it is divided")
-      ->check(CLI::Range(1, 9))
-      ->capture_default_str();
-  command
-      .add_option("--antialias-jitter", texts.antialiasing.jitter,
-                  "Move samples at random: 0 not at all, 1 as far as to the next one's place")
-      ->check(number_range(0, 1))
-      ->capture_default_str();
-  command.add_option("--antialias-gamma", texts.antialiasing.gamma, "Of the colours when they are compared")
-      ->check(number_range(0.01, 100))
-      ->capture_default_str();
 }
 
 void add_report_options(CLI::App& command, RenderRequest& request) {
@@ -293,52 +251,11 @@ void add_study_options(CLI::App& command, StudyRequest& request, std::string& ba
   command.add_flag("--quiet", request.quiet, "No progress, and no tables on stdout");
 }
 
-/// Returns how many columns or rows a fraction of the whole is. POV-Ray stores fractions in single precision.
-double part_of(double part, int size) {
-  return std::floor(double{static_cast<float>(part)} * size);
-}
-/// Returns the first column or row, counted as POV-Ray does: from 1, and below 1 as a fraction of the whole.
-int first_of(double start, int size) {
-  return static_cast<int>(std::min(start < 1 ? part_of(start, size) : std::floor(start) - 1, 1e9));
-}
-int end_of(double end, int size) {
-  return static_cast<int>(std::min(end <= 1 ? part_of(end, size) : std::floor(end), 1e9));
-}
-void check_part(int first, int end, int size, const char* what) {
-  if (end > size || first >= size)
-    throw InputError(std::string("the ") + what + " to render are not all in the picture, which has " +
-                     std::to_string(size));
-  if (first >= end) throw InputError(std::string("there are no ") + what + " to render");
-}
-std::optional<PictureRegion> region_of(const RenderTexts& texts, const RenderOptions& options) {
-  check_number(texts.start_column, "--start-column");
-  check_number(texts.end_column, "--end-column");
-  check_number(texts.start_row, "--start-row");
-  check_number(texts.end_row, "--end-row");
-  const PictureRegion region = {
-      first_of(texts.start_column, options.width), end_of(texts.end_column, options.width),
-      first_of(texts.start_row, options.height), end_of(texts.end_row, options.height)};
-  check_part(region.left, region.right, options.width, "columns");
-  check_part(region.top, region.bottom, options.height, "rows");
-  if (region.right - region.left == options.width && region.bottom - region.top == options.height)
-    return std::nullopt;
-  return region;
-}
-
-std::optional<Antialiasing> antialiasing_of(const RenderTexts& texts) {
-  if (!texts.antialias) return std::nullopt;
-  Antialiasing antialiasing = texts.antialiasing;
-  antialiasing.threshold = *texts.antialias;
-  antialiasing.method =
-      texts.antialias_method == 1 ? Antialiasing::Method::fixed : Antialiasing::Method::adaptive;
-  return antialiasing;
-}
-
 /// Completes the parts of a request that `render` and `view` share.
 void finish_scene(RenderRequest& request, const RenderTexts& texts, Schedule schedule) {
   finish_machine(request.options, texts.machine, schedule);
   request.lenient = texts.machine.emulation.lenient;
-  request.options.antialiasing = antialiasing_of(texts);
+  request.options.antialiasing = antialiasing_of(texts.sampling);
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
   for (const std::string& text : texts.limits)
@@ -349,7 +266,7 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   finish_scene(request, texts, Schedule::free);
   request.trace = texts.machine.emulation.trace;
   request.cache_trace = texts.machine.emulation.cache_trace;
-  request.options.region = region_of(texts, request.options);
+  request.options.region = region_of(texts.sampling, request.options);
   if (!texts.verbose.empty()) request.verbose = texts.verbose == "on";
   request.stands_in_for_povray = texts.povray == "on";
   set_frames(request.animation, texts.animation);
@@ -405,7 +322,7 @@ void finish(ViewRequest& view, const RenderTexts& texts) {
   if (texts.scenes.size() > 1) throw InputError("a window shows one scene");
   view.render.scene = texts.scenes.front();
   finish_scene(view.render, texts, Schedule::lockstep);
-  if (!texts.antialias) view.render.options.antialiasing = Antialiasing(); // for still pictures
+  if (!texts.sampling.antialias) view.render.options.antialiasing = Antialiasing(); // for still pictures
 }
 
 /// Removes the arguments after the first "--": CLI11 would pass them to a command only before its positional
@@ -478,9 +395,9 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_scene_options(render_command, render, texts);
   add_output_options(render_command, render, texts.output);
   add_quality_option(render_command, render);
-  add_region_options(render_command, texts);
+  add_region_options(render_command, texts.sampling);
   add_animation_options(render_command, render, texts.animation);
-  add_antialiasing_options(render_command, texts);
+  add_antialiasing_options(render_command, texts.sampling);
   add_machine_options(render_command, render.options, texts.machine);
   add_report_options(render_command, render);
   render_command.add_flag(
@@ -497,7 +414,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_scene_options(view_command, view.render, view_texts);
   add_quality_option(view_command, view.render);
   view_command.add_option("--clock", view.render.clock, "The scene's clock");
-  add_antialiasing_options(view_command, view_texts);
+  add_antialiasing_options(view_command, view_texts.sampling);
   add_machine_options(view_command, view.render.options, view_texts.machine);
   add_view_options(view_command, view);
   view_command.footer("H in the window shows the keys.");
