@@ -267,7 +267,7 @@ TEST_CASE("Of crossings of which some will do there are those") {
         any = TorusPrimitive::crossed<Simd>(TorusPrimitive::may_hit<Simd>(in_time, ratio), in_time, ratio,
                                             nullptr)
                   .bits();
-        REQUIRE((TorusPrimitive::crossed_in_plane<Simd>(in_time, ratio, nullptr).bits() & ~any) == 0);
+        REQUIRE((TorusPrimitive::surely_crossed<Simd>(in_time, ratio, nullptr).bits() & ~any) == 0);
       }
       for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
         const auto in_front = [](const std::vector<double>& crossings) {
