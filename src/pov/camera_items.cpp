@@ -7,25 +7,24 @@ namespace celltrace::pov {
 namespace {
 
 using Form = ItemForm;
-using Values = ItemValues;
 
 const ItemRow<CameraDefinition> kCameraItems[] = {
     {"location", Form::value,
-     [](CameraDefinition& camera, const Values& values) { camera.location = values.quantity().vec3(); }},
+     [](CameraDefinition& camera, const ItemValues& values) { camera.location = values.quantity().vec3(); }},
     {"direction", Form::value,
-     [](CameraDefinition& camera, const Values& values) { camera.direction = values.quantity().vec3(); }},
+     [](CameraDefinition& camera, const ItemValues& values) { camera.direction = values.quantity().vec3(); }},
     {"right", Form::value,
-     [](CameraDefinition& camera, const Values& values) { camera.right = values.quantity().vec3(); }},
+     [](CameraDefinition& camera, const ItemValues& values) { camera.right = values.quantity().vec3(); }},
     {"up", Form::value,
-     [](CameraDefinition& camera, const Values& values) { camera.up = values.quantity().vec3(); }},
+     [](CameraDefinition& camera, const ItemValues& values) { camera.up = values.quantity().vec3(); }},
     {"sky", Form::value,
-     [](CameraDefinition& camera, const Values& values) { camera.sky = values.vector(); }},
+     [](CameraDefinition& camera, const ItemValues& values) { camera.sky = values.vector(); }},
     {"look_at", Form::value,
-     [](CameraDefinition& camera, const Values& values) {
+     [](CameraDefinition& camera, const ItemValues& values) {
        set_look_at(values.session(), camera, values.quantity().vec3(), values.where());
      }},
     {"aperture", Form::value,
-     [](CameraDefinition& camera, const Values& values) {
+     [](CameraDefinition& camera, const ItemValues& values) {
        camera.aperture = values.number();
        camera.aperture_where = values.where();
      }},

@@ -8,84 +8,91 @@ namespace celltrace::pov {
 namespace {
 
 using Form = ItemForm;
-using Values = ItemValues;
 
 const ItemRow<FinishDefinition> kFinishItems[] = {
     {"ambient", Form::colour_or_black,
-     [](FinishDefinition& finish, const Values& values) { finish.value.ambient = values.light(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.value.ambient = values.light(); }},
     {"emission", Form::colour_or_black,
-     [](FinishDefinition& finish, const Values& values) { finish.value.emission = values.light(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.value.emission = values.light(); }},
     {"brilliance", Form::value,
-     [](FinishDefinition& finish, const Values& values) { finish.value.brilliance = values.number(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.value.brilliance = values.number(); }},
     {"phong", Form::share,
-     [](FinishDefinition& finish, const Values& values) {
+     [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.phong = values.number_or_0();
        finish.phong_is_albedo |= values.is_albedo();
      }},
     {"phong_size", Form::value,
-     [](FinishDefinition& finish, const Values& values) { finish.value.phong_size = values.number(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.value.phong_size = values.number(); }},
     {"specular", Form::share,
-     [](FinishDefinition& finish, const Values& values) {
+     [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.specular = values.number_or_0();
        finish.specular_is_albedo |= values.is_albedo();
      }},
     {"roughness", Form::value,
-     [](FinishDefinition& finish, const Values& values) {
+     [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.roughness = roughness(values.session(), values.number(), values.value_where());
      }},
     {"metallic", Form::option,
-     [](FinishDefinition& finish, const Values& values) { finish.value.metallic = values.option(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.value.metallic = values.option(); }},
     {"conserve_energy", Form::option,
-     [](FinishDefinition& finish, const Values& values) { finish.value.conserve_energy = values.flag(); }},
+     [](FinishDefinition& finish, const ItemValues& values) {
+       finish.value.conserve_energy = values.flag();
+     }},
     {"reflection_exponent", Form::value,
-     [](FinishDefinition& finish, const Values& values) {
+     [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.reflection_exponent = exponent(values.session(), values.number(), values.value_where());
      }},
     {"ior", Form::value,
-     [](FinishDefinition& finish, const Values& values) {
+     [](FinishDefinition& finish, const ItemValues& values) {
        finish.ior = ior_of_finish(values.session(), values.number(), values.value_where());
      }},
     {"refraction", Form::value,
-     [](FinishDefinition& finish, const Values& values) { finish.refraction = values.number(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.refraction = values.number(); }},
     {"crand", Form::value,
-     [](FinishDefinition& finish, const Values& values) {
+     [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.crand = std::max(values.number(), 0.0);
      }},
     {"caustics", Form::value,
-     [](FinishDefinition& finish, const Values& values) { finish.caustics = values.number(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.caustics = values.number(); }},
     {"fade_distance", Form::value,
-     [](FinishDefinition& finish, const Values& values) { finish.fade_distance = values.number(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.fade_distance = values.number(); }},
     {"fade_power", Form::value,
-     [](FinishDefinition& finish, const Values& values) { finish.fade_power = values.number(); }},
+     [](FinishDefinition& finish, const ItemValues& values) { finish.fade_power = values.number(); }},
 };
 
 const ItemRow<ReflectionDefinition> kReflectionItems[] = {
     {"falloff", Form::value,
-     [](ReflectionDefinition& reflection, const Values& values) { reflection.falloff = values.number(); }},
+     [](ReflectionDefinition& reflection, const ItemValues& values) {
+       reflection.falloff = values.number();
+     }},
     {"exponent", Form::value,
-     [](ReflectionDefinition& reflection, const Values& values) {
+     [](ReflectionDefinition& reflection, const ItemValues& values) {
        reflection.exponent = exponent(values.session(), values.number(), values.value_where());
      }},
     {"fresnel", Form::option,
-     [](ReflectionDefinition& reflection, const Values& values) { reflection.is_fresnel = values.flag(); }},
+     [](ReflectionDefinition& reflection, const ItemValues& values) {
+       reflection.is_fresnel = values.flag();
+     }},
     {"metallic", Form::option,
-     [](ReflectionDefinition& reflection, const Values& values) { reflection.metallic = values.option(); }},
+     [](ReflectionDefinition& reflection, const ItemValues& values) {
+       reflection.metallic = values.option();
+     }},
 };
 
 const ItemRow<Finish> kIridItems[] = {
     {"thickness", Form::value,
-     [](Finish& finish, const Values& values) { finish.irid_thickness = values.number(); }},
+     [](Finish& finish, const ItemValues& values) { finish.irid_thickness = values.number(); }},
     {"turbulence", Form::value,
-     [](Finish& finish, const Values& values) { finish.irid_turbulence = values.number(); }},
+     [](Finish& finish, const ItemValues& values) { finish.irid_turbulence = values.number(); }},
 };
 
 /// Sets a number of the finish that an old texture has.
-template <double Finish::*member> void set_old(TexturePtr& texture, const Values& values) {
+template <double Finish::*member> void set_old(TexturePtr& texture, const ItemValues& values) {
   const double number = values.number();
   texture = with_old_finish(texture, [&](FinishDefinition& finish) { finish.value.*member = number; });
 }
 
-void set_old_quick_colour(TexturePtr& texture, const Values& values) {
+void set_old_quick_colour(TexturePtr& texture, const ItemValues& values) {
   PigmentDefinition pigment = texture->pigment;
   set_quick_colour(values.session(), pigment, values.session().surface(values.quantity()));
   texture = with_pigment(texture, pigment);
@@ -93,12 +100,12 @@ void set_old_quick_colour(TexturePtr& texture, const Values& values) {
 
 const ItemRow<TexturePtr> kOldTextureItems[] = {
     {"ambient", Form::colour_or_black,
-     [](TexturePtr& texture, const Values& values) {
+     [](TexturePtr& texture, const ItemValues& values) {
        const Vec3 light = values.light();
        texture = with_old_finish(texture, [&](FinishDefinition& finish) { finish.value.ambient = light; });
      }},
     {"reflection", Form::colour_or_black,
-     [](TexturePtr& texture, const Values& values) {
+     [](TexturePtr& texture, const ItemValues& values) {
        const Vec3 light = values.colour();
        texture =
            with_old_finish(texture, [&](FinishDefinition& finish) { set_reflection(finish.value, light); });
@@ -110,22 +117,22 @@ const ItemRow<TexturePtr> kOldTextureItems[] = {
     {"specular", Form::value, set_old<&Finish::specular>},
     {"crand", Form::value, set_old<&Finish::crand>},
     {"roughness", Form::value,
-     [](TexturePtr& texture, const Values& values) {
+     [](TexturePtr& texture, const ItemValues& values) {
        const double value = roughness(values.session(), values.number(), values.value_where());
        texture = with_old_finish(texture, [&](FinishDefinition& finish) { finish.value.roughness = value; });
      }},
     {"metallic", Form::option,
-     [](TexturePtr& texture, const Values& values) {
+     [](TexturePtr& texture, const ItemValues& values) {
        const double value = values.option();
        texture = with_old_finish(texture, [&](FinishDefinition& finish) { finish.value.metallic = value; });
      }},
     {"ior", Form::value,
-     [](TexturePtr& texture, const Values& values) {
+     [](TexturePtr& texture, const ItemValues& values) {
        const auto value = ior_of_finish(values.session(), values.number(), values.value_where());
        texture = with_old_finish(texture, [&](FinishDefinition& finish) { finish.ior = value; });
      }},
     {"refraction", Form::value,
-     [](TexturePtr& texture, const Values& values) {
+     [](TexturePtr& texture, const ItemValues& values) {
        const double value = values.number();
        texture = with_old_finish(texture, [&](FinishDefinition& finish) { finish.refraction = value; });
      }},

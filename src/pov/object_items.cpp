@@ -7,25 +7,24 @@ namespace celltrace::pov {
 namespace {
 
 using Form = ItemForm;
-using Values = ItemValues;
 
 const ItemRow<ObjectDefinition> kObjectItems[] = {
-    {"no_image", Form::word, [](ObjectDefinition& object, const Values&) { object.no_image = true; }},
+    {"no_image", Form::word, [](ObjectDefinition& object, const ItemValues&) { object.no_image = true; }},
     {"no_reflection", Form::word,
-     [](ObjectDefinition& object, const Values&) { object.no_reflection = true; }},
-    {"no_shadow", Form::word, [](ObjectDefinition& object, const Values&) { object.no_shadow = true; }},
+     [](ObjectDefinition& object, const ItemValues&) { object.no_reflection = true; }},
+    {"no_shadow", Form::word, [](ObjectDefinition& object, const ItemValues&) { object.no_shadow = true; }},
     {"inverse", Form::word,
-     [](ObjectDefinition& object, const Values&) { object.inverse = !object.inverse; }},
+     [](ObjectDefinition& object, const ItemValues&) { object.inverse = !object.inverse; }},
     {"hollow", Form::option,
-     [](ObjectDefinition& object, const Values& values) { object.hollow = values.flag(); }},
+     [](ObjectDefinition& object, const ItemValues& values) { object.hollow = values.flag(); }},
     {"double_illuminate", Form::option,
-     [](ObjectDefinition& object, const Values& values) { object.is_lit_through = values.flag(); }},
+     [](ObjectDefinition& object, const ItemValues& values) { object.is_lit_through = values.flag(); }},
     {"uv_mapping", Form::word,
-     [](ObjectDefinition& object, const Values& values) {
+     [](ObjectDefinition& object, const ItemValues& values) {
        set_uv_mapping(values.session(), object, values.where());
      }},
     {"cutaway_textures", Form::option,
-     [](ObjectDefinition& object, const Values& values) {
+     [](ObjectDefinition& object, const ItemValues& values) {
        if (values.flag()) set_cutaway_textures(values.session(), object, values.where());
      }},
     {"hf_gray_16", Form::option, ignore_number},
@@ -35,62 +34,64 @@ const ItemRow<ObjectDefinition> kObjectItems[] = {
     {"sturm", Form::option, ignore_number},
 };
 
-template <double Light::*number> void set_beam(ObjectDefinition& light, const Values& values) {
+template <double Light::*number> void set_beam(ObjectDefinition& light, const ItemValues& values) {
   set_beam(values.session(), light, number, values.number(), values.where());
 }
 
 const ItemRow<ObjectDefinition> kLightSourceItems[] = {
     {"spotlight", Form::word,
-     [](ObjectDefinition& light, const Values&) { set_kind(light, Light::Kind::spotlight); }},
-    {"parallel", Form::word, [](ObjectDefinition& light, const Values&) { light_of(light).parallel = true; }},
-    {"shadowless", Form::word, [](ObjectDefinition& light, const Values&) { set_shadowless(light); }},
+     [](ObjectDefinition& light, const ItemValues&) { set_kind(light, Light::Kind::spotlight); }},
+    {"parallel", Form::word,
+     [](ObjectDefinition& light, const ItemValues&) { light_of(light).parallel = true; }},
+    {"shadowless", Form::word, [](ObjectDefinition& light, const ItemValues&) { set_shadowless(light); }},
     {"point_at", Form::value,
-     [](ObjectDefinition& light, const Values& values) {
+     [](ObjectDefinition& light, const ItemValues& values) {
        set_point_at(values.session(), light, values.quantity(), values.where());
      }},
     {"radius", Form::value, set_beam<&Light::radius>},
     {"falloff", Form::value, set_beam<&Light::falloff>},
     {"tightness", Form::value, set_beam<&Light::tightness>},
     {"fade_distance", Form::value,
-     [](ObjectDefinition& light, const Values& values) {
+     [](ObjectDefinition& light, const ItemValues& values) {
        light_of(light).fade_distance = values.number_or_0();
      }},
     {"fade_power", Form::value,
-     [](ObjectDefinition& light, const Values& values) {
+     [](ObjectDefinition& light, const ItemValues& values) {
        light_of(light).fade_power = values.number_or_0();
      }},
     {"adaptive", Form::value,
-     [](ObjectDefinition& light, const Values& values) { set_adaptive(light, values.number()); }},
+     [](ObjectDefinition& light, const ItemValues& values) { set_adaptive(light, values.number()); }},
     {"area_illumination", Form::option,
-     [](ObjectDefinition& light, const Values& values) {
+     [](ObjectDefinition& light, const ItemValues& values) {
        definition_of(light).shines_from_places = values.flag();
      }},
-    {"jitter", Form::word, [](ObjectDefinition& light, const Values&) { area_of(light).jitter = true; }},
-    {"circular", Form::word, [](ObjectDefinition& light, const Values&) { area_of(light).circular = true; }},
-    {"orient", Form::word, [](ObjectDefinition& light, const Values&) { area_of(light).orient = true; }},
+    {"jitter", Form::word, [](ObjectDefinition& light, const ItemValues&) { area_of(light).jitter = true; }},
+    {"circular", Form::word,
+     [](ObjectDefinition& light, const ItemValues&) { area_of(light).circular = true; }},
+    {"orient", Form::word, [](ObjectDefinition& light, const ItemValues&) { area_of(light).orient = true; }},
     {"media_attenuation", Form::option,
-     [](ObjectDefinition& light, const Values& values) {
+     [](ObjectDefinition& light, const ItemValues& values) {
        definition_of(light).media_attenuation = values.flag();
      }},
     {"media_interaction", Form::option,
-     [](ObjectDefinition& light, const Values& values) {
+     [](ObjectDefinition& light, const ItemValues& values) {
        definition_of(light).media_interaction = values.flag();
      }},
 };
 
 const ItemRow<ObjectDefinition> kLightGroupItems[] = {
     {"global_lights", Form::option,
-     [](ObjectDefinition& group, const Values& values) { set_global_lights(group, values.flag()); }},
+     [](ObjectDefinition& group, const ItemValues& values) { set_global_lights(group, values.flag()); }},
 };
 
 const ItemRow<PhotonsDefinition> kPhotonsItems[] = {
     {"target", Form::option,
-     [](PhotonsDefinition& photons, const Values& values) { photons.is_target = values.flag(); }},
-    {"refraction", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
-    {"reflection", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
-    {"collect", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
-    {"pass_through", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
-    {"area_light", Form::option, [](PhotonsDefinition&, const Values& values) { values.option(); }},
+     [](PhotonsDefinition& photons, const ItemValues& values) { photons.is_target = values.flag(); }},
+    {"refraction", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
+    {"reflection", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
+    {"collect", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
+    {"pass_through", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
+    {"area_light", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
 };
 
 struct ListRow {

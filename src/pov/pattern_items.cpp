@@ -8,55 +8,62 @@ namespace celltrace::pov {
 namespace {
 
 using Form = ItemForm;
-using Values = ItemValues;
 
-template <Pattern::Wave wave> void set_wave(PatternChange& change, const Values&) {
+template <Pattern::Wave wave> void set_wave(PatternChange& change, const ItemValues&) {
   change = set(&Pattern::wave, wave);
 }
 
 const ItemRow<PatternChange> kPatternItems[] = {
     {"frequency", Form::value,
-     [](PatternChange& change, const Values& values) { change = set(&Pattern::frequency, values.number()); }},
+     [](PatternChange& change, const ItemValues& values) {
+       change = set(&Pattern::frequency, values.number());
+     }},
     {"phase", Form::value,
-     [](PatternChange& change, const Values& values) { change = set(&Pattern::phase, values.number()); }},
+     [](PatternChange& change, const ItemValues& values) { change = set(&Pattern::phase, values.number()); }},
     {"turbulence", Form::value,
-     [](PatternChange& change, const Values& values) { change = set(&Turbulence::amount, values.vector()); }},
+     [](PatternChange& change, const ItemValues& values) {
+       change = set(&Turbulence::amount, values.vector());
+     }},
     {"octaves", Form::value,
-     [](PatternChange& change, const Values& values) {
+     [](PatternChange& change, const ItemValues& values) {
        change = set(&Turbulence::octaves, octaves(values.number()));
      }},
     {"omega", Form::value,
-     [](PatternChange& change, const Values& values) { change = set(&Turbulence::omega, values.number()); }},
+     [](PatternChange& change, const ItemValues& values) {
+       change = set(&Turbulence::omega, values.number());
+     }},
     {"lambda", Form::value,
-     [](PatternChange& change, const Values& values) { change = set(&Turbulence::lambda, values.number()); }},
+     [](PatternChange& change, const ItemValues& values) {
+       change = set(&Turbulence::lambda, values.number());
+     }},
     {"ramp_wave", Form::word, set_wave<Pattern::Wave::ramp>},
     {"triangle_wave", Form::word, set_wave<Pattern::Wave::triangle>},
     {"sine_wave", Form::word, set_wave<Pattern::Wave::sine>},
     {"scallop_wave", Form::word, set_wave<Pattern::Wave::scallop>},
     {"cubic_wave", Form::word, set_wave<Pattern::Wave::cubic>},
     {"poly_wave", Form::option,
-     [](PatternChange& change, const Values& values) { change = poly_wave(values.option()); }},
+     [](PatternChange& change, const ItemValues& values) { change = poly_wave(values.option()); }},
     {"noise_generator", Form::value,
-     [](PatternChange& change, const Values& values) {
+     [](PatternChange& change, const ItemValues& values) {
        change = set(&Pattern::noise_generator,
                     noise_generator(values.session(), values.number(), values.value_where()));
      }},
     {"exponent", Form::value,
-     [](PatternChange& change, const Values& values) {
+     [](PatternChange& change, const ItemValues& values) {
        change = fractal_exponent(values.number(), values.where());
      }},
     {"exterior", Form::pair,
-     [](PatternChange& change, const Values& values) {
+     [](PatternChange& change, const ItemValues& values) {
        change = exterior(values.number(), values.second_number(), values.where());
      }},
     {"interior", Form::pair,
-     [](PatternChange& change, const Values& values) {
+     [](PatternChange& change, const ItemValues& values) {
        change = interior(values.number(), values.second_number(), values.where());
      }},
 };
 constexpr std::size_t kOwnItems = std::size(kPatternItems); // the options of some patterns follow
 
-void set_quick_colour(PigmentDefinition& pigment, const Values& values) {
+void set_quick_colour(PigmentDefinition& pigment, const ItemValues& values) {
   set_quick_colour(values.session(), pigment, values.session().surface(values.quantity()));
 }
 
@@ -67,9 +74,11 @@ const ItemRow<PigmentDefinition> kPigmentItems[] = {
 
 const ItemRow<NormalDefinition> kNormalItems[] = {
     {"bump_size", Form::value,
-     [](NormalDefinition& normal, const Values& values) { normal.amount = values.number(); }},
+     [](NormalDefinition& normal, const ItemValues& values) { normal.amount = values.number(); }},
     {"accuracy", Form::value,
-     [](NormalDefinition& normal, const Values& values) { normal.accuracy = std::fabs(values.number()); }},
+     [](NormalDefinition& normal, const ItemValues& values) {
+       normal.accuracy = std::fabs(values.number());
+     }},
 };
 
 // ---- Warps ----
@@ -79,11 +88,11 @@ const ItemRow<NormalDefinition> kNormalItems[] = {
 struct WarpRow {
   const char* word;
   ItemForm form;
-  bool (*start)(SpaceStep&, const Values&);
-  bool (*change)(SpaceStep&, const Values&);
+  bool (*start)(SpaceStep&, const ItemValues&);
+  bool (*change)(SpaceStep&, const ItemValues&);
 };
 
-bool nothing(SpaceStep&, const Values&) {
+bool nothing(SpaceStep&, const ItemValues&) {
   return false;
 }
 
@@ -94,7 +103,7 @@ template <class Warp, class T> bool set_in(SpaceStep& step, T Warp::*member, con
   return warp != nullptr;
 }
 
-bool start_black_hole(SpaceStep& step, const Values& values) {
+bool start_black_hole(SpaceStep& step, const ItemValues& values) {
   warp::BlackHole hole;
   hole.centre = values.vector();
   hole.radius = values.second_number();
@@ -104,62 +113,64 @@ bool start_black_hole(SpaceStep& step, const Values& values) {
 
 const WarpRow kWarpItems[] = {
     {"turbulence", Form::value,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        step = Turbulence{values.vector()};
        return true;
      },
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &warp::BlackHole::turbulence, values.vector());
      }},
     {"octaves", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &Turbulence::octaves, octaves(values.number()));
      }},
     {"omega", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) { return set_in(step, &Turbulence::omega, values.number()); }},
+     [](SpaceStep& step, const ItemValues& values) {
+       return set_in(step, &Turbulence::omega, values.number());
+     }},
     {"lambda", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &Turbulence::lambda, values.number());
      }},
     {"repeat", Form::value,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        step = repeat(values.session(), values.vector(), values.value_where());
        return true;
      },
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &warp::BlackHole::repeat, values.vector());
      }},
     {"flip", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &warp::Repeat::flip, values.vector());
      }},
     {"black_hole", Form::pair, start_black_hole, nothing},
     {"falloff", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &warp::BlackHole::falloff, values.number());
      }},
     {"strength", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &warp::BlackHole::strength, values.number());
      }},
     {"inverse", Form::word, nothing,
-     [](SpaceStep& step, const Values&) { return set_in(step, &warp::BlackHole::is_inverse, true); }},
+     [](SpaceStep& step, const ItemValues&) { return set_in(step, &warp::BlackHole::is_inverse, true); }},
     {"toroidal", Form::word,
-     [](SpaceStep& step, const Values&) {
+     [](SpaceStep& step, const ItemValues&) {
        step = warp::Mapping{warp::Mapping::Shape::toroidal};
        return true;
      },
      nothing},
     {"orientation", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &warp::Mapping::orientation, values.vector());
      }},
     {"dist_exp", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &warp::Mapping::distance_exponent, values.number());
      }},
     {"major_radius", Form::value, nothing,
-     [](SpaceStep& step, const Values& values) {
+     [](SpaceStep& step, const ItemValues& values) {
        return set_in(step, &warp::Mapping::major_radius, values.number());
      }},
 };

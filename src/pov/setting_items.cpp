@@ -6,12 +6,11 @@ namespace celltrace::pov {
 namespace {
 
 using Form = ItemForm;
-using Values = ItemValues;
 
 /// As before version 3.0.
 const ItemRow<Session> kSceneItems[] = {
     {"max_trace_level", Form::value,
-     [](Session& session, const Values& values) {
+     [](Session& session, const ItemValues& values) {
        set_max_trace_level(session, values.number(), values.value_where());
      }},
     {"max_intersections", Form::value, ignore_number},
@@ -19,19 +18,21 @@ const ItemRow<Session> kSceneItems[] = {
 
 const ItemRow<Session> kSettings[] = {
     {"adc_bailout", Form::value,
-     [](Session& session, const Values& values) {
+     [](Session& session, const ItemValues& values) {
        set_adc_bailout(session, values.number(), values.value_where());
      }},
     {"ambient_light", Form::colour_or_black,
-     [](Session& session, const Values& values) { session.builder.set_ambient_light(values.light()); }},
+     [](Session& session, const ItemValues& values) { session.builder.set_ambient_light(values.light()); }},
     {"noise_generator", Form::value,
-     [](Session& session, const Values& values) {
+     [](Session& session, const ItemValues& values) {
        set_noise_generator(session, values.number(), values.value_where());
      }},
     {"irid_wavelength", Form::colour_or_black,
-     [](Session& session, const Values& values) { session.builder.set_irid_wavelength(values.colour()); }},
+     [](Session& session, const ItemValues& values) {
+       session.builder.set_irid_wavelength(values.colour());
+     }},
     {"number_of_waves", Form::value,
-     [](Session& session, const Values& values) {
+     [](Session& session, const ItemValues& values) {
        set_number_of_waves(session, values.number(), values.value_where());
      }},
     {"confidence", Form::colour, ignore},
