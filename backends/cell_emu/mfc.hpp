@@ -194,6 +194,13 @@ private:
   void report(const Entry& entry, Rule rule, Cycle now, const std::string& before = {}) const;
   Allocations& allocations() const { return context_.bounds.allocations[spe_]; }
   void report_channel(Channel channel, std::uint32_t value, Rule rule, CallSite site, Cycle now) const;
+  void enqueue(const MfcCommand& command, CallSite site, Cycle now, bool proxy);
+  void execute_immediate(const MfcCommand& command, Cycle now);
+  void check_conditional(const MfcCommand& command, CallSite site, Cycle now);
+
+  // --- checks: mfc_checks.cpp ---
+
+  void fit_arena(ArenaState& arena);
   /// Reports a store past the local store that a command or the program's end finds. Returns false if it is
   /// not reported.
   bool note_overrun(Diagnostic& diagnostic, CallSite site, Cycle now);
@@ -215,9 +222,6 @@ private:
   /// Checks a command. Returns false if it cannot be carried out, though the rule's action lets the program
   /// go on.
   bool check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy);
-  void enqueue(const MfcCommand& command, CallSite site, Cycle now, bool proxy);
-  void execute_immediate(const MfcCommand& command, Cycle now);
-  void check_conditional(const MfcCommand& command, CallSite site, Cycle now);
 
   // --- transfers in flight: mfc_transfers.cpp ---
 
@@ -260,22 +264,23 @@ private:
   Cycle time_of_transfer(const MfcCommand& transfer, Cycle start);
   void move_data(Entry& entry, Cycle now);
   void complete(std::size_t index, Cycle now);
+  void trace_command(const Entry& entry, Cycle now) const;
+  void judge_tag_groups();
+  std::uint32_t outstanding(bool proxy) const;
+
+  // --- lists: mfc_lists.cpp ---
+
   /// Completes a part of a list. Returns true if the list is done; else it waits at its notify element.
   bool complete_part(Entry& entry, Cycle now);
   void begin_part(Entry& entry, Cycle now);
   void read_list(Entry& entry) const;
   void check_list_unchanged(const Entry& entry, Cycle now);
-  void trace_command(const Entry& entry, Cycle now) const;
-  void judge_tag_groups();
-  std::uint32_t outstanding(bool proxy) const;
 
   class OpenedLocalStore;
 
   const unsigned spe_;
   const MfcContext context_;
   const bool has_checker_ = has_access_checker();
-  void fit_arena(ArenaState& arena);
-
   ArenaRange arena_{0, kLocalStoreBytes};
   std::uint32_t plain_arena_end_ = kLocalStoreBytes; ///< end of the arena without red zones
   Bus& bus_;

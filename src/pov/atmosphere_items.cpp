@@ -12,47 +12,34 @@ const ItemRow<FogDefinition> kFogItems[] = {
      [](FogDefinition& fog, const ItemValues& values) {
        fog.value.is_ground = is_ground_fog(values.session(), values.number(), values.value_where());
      }},
-    {"distance", Form::value,
-     [](FogDefinition& fog, const ItemValues& values) { fog.value.distance = values.number_or_0(); }},
-    {"fog_offset", Form::value,
-     [](FogDefinition& fog, const ItemValues& values) { fog.value.offset = values.number(); }},
-    {"fog_alt", Form::value,
-     [](FogDefinition& fog, const ItemValues& values) { fog.value.altitude = values.number(); }},
+    {"distance", Form::value, store<&ItemValues::number_or_0, &FogDefinition::value, &Fog::distance>},
+    {"fog_offset", Form::value, store<&ItemValues::number, &FogDefinition::value, &Fog::offset>},
+    {"fog_alt", Form::value, store<&ItemValues::number, &FogDefinition::value, &Fog::altitude>},
     {"up", Form::value,
      [](FogDefinition& fog, const ItemValues& values) { set_up(fog.value, values.vector()); }},
     {"turbulence", Form::value,
-     [](FogDefinition& fog, const ItemValues& values) { fog.value.turbulence.amount = values.vector(); }},
-    {"turb_depth", Form::value,
-     [](FogDefinition& fog, const ItemValues& values) { fog.value.turbulence_depth = values.number(); }},
+     store<&ItemValues::vector, &FogDefinition::value, &Fog::turbulence, &Turbulence::amount>},
+    {"turb_depth", Form::value, store<&ItemValues::number, &FogDefinition::value, &Fog::turbulence_depth>},
     {"octaves", Form::value,
      [](FogDefinition& fog, const ItemValues& values) {
        fog.value.turbulence.octaves = octaves(values.number());
      }},
     {"omega", Form::value,
-     [](FogDefinition& fog, const ItemValues& values) { fog.value.turbulence.omega = values.number(); }},
+     store<&ItemValues::number, &FogDefinition::value, &Fog::turbulence, &Turbulence::omega>},
     {"lambda", Form::value,
-     [](FogDefinition& fog, const ItemValues& values) { fog.value.turbulence.lambda = values.number(); }},
+     store<&ItemValues::number, &FogDefinition::value, &Fog::turbulence, &Turbulence::lambda>},
 };
 
 const ItemRow<RainbowDefinition> kRainbowItems[] = {
-    {"direction", Form::value,
-     [](RainbowDefinition& rainbow, const ItemValues& values) { rainbow.value.direction = values.vector(); }},
-    {"angle", Form::value,
-     [](RainbowDefinition& rainbow, const ItemValues& values) { rainbow.value.angle = values.number(); }},
-    {"width", Form::value,
-     [](RainbowDefinition& rainbow, const ItemValues& values) { rainbow.value.width = values.number(); }},
-    {"distance", Form::value,
-     [](RainbowDefinition& rainbow, const ItemValues& values) { rainbow.value.distance = values.number(); }},
-    {"jitter", Form::value,
-     [](RainbowDefinition& rainbow, const ItemValues& values) { rainbow.value.jitter = values.number(); }},
-    {"up", Form::value,
-     [](RainbowDefinition& rainbow, const ItemValues& values) { rainbow.value.up = values.vector(); }},
-    {"arc_angle", Form::value,
-     [](RainbowDefinition& rainbow, const ItemValues& values) { rainbow.value.arc_angle = values.number(); }},
+    {"direction", Form::value, store<&ItemValues::vector, &RainbowDefinition::value, &Rainbow::direction>},
+    {"angle", Form::value, store<&ItemValues::number, &RainbowDefinition::value, &Rainbow::angle>},
+    {"width", Form::value, store<&ItemValues::number, &RainbowDefinition::value, &Rainbow::width>},
+    {"distance", Form::value, store<&ItemValues::number, &RainbowDefinition::value, &Rainbow::distance>},
+    {"jitter", Form::value, store<&ItemValues::number, &RainbowDefinition::value, &Rainbow::jitter>},
+    {"up", Form::value, store<&ItemValues::vector, &RainbowDefinition::value, &Rainbow::up>},
+    {"arc_angle", Form::value, store<&ItemValues::number, &RainbowDefinition::value, &Rainbow::arc_angle>},
     {"falloff_angle", Form::value,
-     [](RainbowDefinition& rainbow, const ItemValues& values) {
-       rainbow.value.falloff_angle = values.number();
-     }},
+     store<&ItemValues::number, &RainbowDefinition::value, &Rainbow::falloff_angle>},
 };
 
 const ItemRow<SkySphereDefinition> kSkySphereItems[] = {
@@ -63,31 +50,22 @@ const ItemRow<SkySphereDefinition> kSkySphereItems[] = {
      }},
 };
 
-void set_fade_colour(InteriorDefinition& interior, const ItemValues& values) {
-  interior.fade_colour = values.colour();
-}
-
 const ItemRow<InteriorDefinition> kInteriorItems[] = {
     {"ior", Form::value,
      [](InteriorDefinition& interior, const ItemValues& values) {
        interior.ior = ior(values.session(), values.number(), values.value_where());
      }},
-    {"caustics", Form::value,
-     [](InteriorDefinition& interior, const ItemValues& values) { interior.caustics = values.number(); }},
-    {"fade_distance", Form::value,
-     [](InteriorDefinition& interior, const ItemValues& values) {
-       interior.fade_distance = values.number();
-     }},
-    {"fade_power", Form::value,
-     [](InteriorDefinition& interior, const ItemValues& values) { interior.fade_power = values.number(); }},
-    {"fade_colour", Form::colour_or_black, set_fade_colour},
-    {"fade_color", Form::colour_or_black, set_fade_colour},
+    {"caustics", Form::value, store<&ItemValues::number, &InteriorDefinition::caustics>},
+    {"fade_distance", Form::value, store<&ItemValues::number, &InteriorDefinition::fade_distance>},
+    {"fade_power", Form::value, store<&ItemValues::number, &InteriorDefinition::fade_power>},
+    {"fade_colour", Form::colour_or_black, store<&ItemValues::colour, &InteriorDefinition::fade_colour>},
+    {"fade_color", Form::colour_or_black, store<&ItemValues::colour, &InteriorDefinition::fade_colour>},
     {"dispersion", Form::value,
      [](InteriorDefinition& interior, const ItemValues& values) {
        mark(interior.unsupported, unless_zero("'dispersion'", values.number() - 1, values.where()));
      }},
     {"refraction", Form::value, // no more than a switch before version 3.1
-     [](InteriorDefinition&, const ItemValues& values) { values.number(); }},
+     ignore_number},
     {"confidence", Form::colour, ignore},
     {"dispersion_samples", Form::colour, ignore},
     {"focal_point", Form::colour, ignore},

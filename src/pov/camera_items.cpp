@@ -17,8 +17,7 @@ const ItemRow<CameraDefinition> kCameraItems[] = {
      [](CameraDefinition& camera, const ItemValues& values) { camera.right = values.quantity().vec3(); }},
     {"up", Form::value,
      [](CameraDefinition& camera, const ItemValues& values) { camera.up = values.quantity().vec3(); }},
-    {"sky", Form::value,
-     [](CameraDefinition& camera, const ItemValues& values) { camera.sky = values.vector(); }},
+    {"sky", Form::value, store<&ItemValues::vector, &CameraDefinition::sky>},
     {"look_at", Form::value,
      [](CameraDefinition& camera, const ItemValues& values) {
        set_look_at(values.session(), camera, values.quantity().vec3(), values.where());

@@ -10,19 +10,16 @@ namespace {
 using Form = ItemForm;
 
 const ItemRow<FinishDefinition> kFinishItems[] = {
-    {"ambient", Form::colour_or_black,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.value.ambient = values.light(); }},
+    {"ambient", Form::colour_or_black, store<&ItemValues::light, &FinishDefinition::value, &Finish::ambient>},
     {"emission", Form::colour_or_black,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.value.emission = values.light(); }},
-    {"brilliance", Form::value,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.value.brilliance = values.number(); }},
+     store<&ItemValues::light, &FinishDefinition::value, &Finish::emission>},
+    {"brilliance", Form::value, store<&ItemValues::number, &FinishDefinition::value, &Finish::brilliance>},
     {"phong", Form::share,
      [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.phong = values.number_or_0();
        finish.phong_is_albedo |= values.is_albedo();
      }},
-    {"phong_size", Form::value,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.value.phong_size = values.number(); }},
+    {"phong_size", Form::value, store<&ItemValues::number, &FinishDefinition::value, &Finish::phong_size>},
     {"specular", Form::share,
      [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.specular = values.number_or_0();
@@ -32,12 +29,9 @@ const ItemRow<FinishDefinition> kFinishItems[] = {
      [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.roughness = roughness(values.session(), values.number(), values.value_where());
      }},
-    {"metallic", Form::option,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.value.metallic = values.option(); }},
+    {"metallic", Form::option, store<&ItemValues::option, &FinishDefinition::value, &Finish::metallic>},
     {"conserve_energy", Form::option,
-     [](FinishDefinition& finish, const ItemValues& values) {
-       finish.value.conserve_energy = values.flag();
-     }},
+     store<&ItemValues::flag, &FinishDefinition::value, &Finish::conserve_energy>},
     {"reflection_exponent", Form::value,
      [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.reflection_exponent = exponent(values.session(), values.number(), values.value_where());
@@ -46,44 +40,29 @@ const ItemRow<FinishDefinition> kFinishItems[] = {
      [](FinishDefinition& finish, const ItemValues& values) {
        finish.ior = ior_of_finish(values.session(), values.number(), values.value_where());
      }},
-    {"refraction", Form::value,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.refraction = values.number(); }},
+    {"refraction", Form::value, store<&ItemValues::number, &FinishDefinition::refraction>},
     {"crand", Form::value,
      [](FinishDefinition& finish, const ItemValues& values) {
        finish.value.crand = std::max(values.number(), 0.0);
      }},
-    {"caustics", Form::value,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.caustics = values.number(); }},
-    {"fade_distance", Form::value,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.fade_distance = values.number(); }},
-    {"fade_power", Form::value,
-     [](FinishDefinition& finish, const ItemValues& values) { finish.fade_power = values.number(); }},
+    {"caustics", Form::value, store<&ItemValues::number, &FinishDefinition::caustics>},
+    {"fade_distance", Form::value, store<&ItemValues::number, &FinishDefinition::fade_distance>},
+    {"fade_power", Form::value, store<&ItemValues::number, &FinishDefinition::fade_power>},
 };
 
 const ItemRow<ReflectionDefinition> kReflectionItems[] = {
-    {"falloff", Form::value,
-     [](ReflectionDefinition& reflection, const ItemValues& values) {
-       reflection.falloff = values.number();
-     }},
+    {"falloff", Form::value, store<&ItemValues::number, &ReflectionDefinition::falloff>},
     {"exponent", Form::value,
      [](ReflectionDefinition& reflection, const ItemValues& values) {
        reflection.exponent = exponent(values.session(), values.number(), values.value_where());
      }},
-    {"fresnel", Form::option,
-     [](ReflectionDefinition& reflection, const ItemValues& values) {
-       reflection.is_fresnel = values.flag();
-     }},
-    {"metallic", Form::option,
-     [](ReflectionDefinition& reflection, const ItemValues& values) {
-       reflection.metallic = values.option();
-     }},
+    {"fresnel", Form::option, store<&ItemValues::flag, &ReflectionDefinition::is_fresnel>},
+    {"metallic", Form::option, store<&ItemValues::option, &ReflectionDefinition::metallic>},
 };
 
 const ItemRow<Finish> kIridItems[] = {
-    {"thickness", Form::value,
-     [](Finish& finish, const ItemValues& values) { finish.irid_thickness = values.number(); }},
-    {"turbulence", Form::value,
-     [](Finish& finish, const ItemValues& values) { finish.irid_turbulence = values.number(); }},
+    {"thickness", Form::value, store<&ItemValues::number, &Finish::irid_thickness>},
+    {"turbulence", Form::value, store<&ItemValues::number, &Finish::irid_turbulence>},
 };
 
 /// Sets a number of the finish that an old texture has.

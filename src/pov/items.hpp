@@ -89,6 +89,17 @@ template <class T> struct ItemRow {
   void (*set)(T&, const ItemValues&);
 };
 
+/// Stores what `get`, a member of ItemValues, returns in a member of the target, or in a member of that.
+template <auto get, auto... members, class T> void store(T& target, const ItemValues& values) {
+  // clang-format off
+  (target .* ... .* members) = (values.*get)();
+  // clang-format on
+}
+/// Sets a flag for a word without values.
+template <auto member, class T> void set_true(T& target, const ItemValues&) {
+  target.*member = true;
+}
+
 /// For rows without effect: POV-Ray takes the word.
 template <class T> void ignore(T&, const ItemValues&) {
 }

@@ -13,6 +13,17 @@ void modify(Session& session, PatternDefinition& pattern, const Modifier& modifi
   if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(pattern.unsupported, *missing);
 }
 
+/// Does what a modifier says to a part of the scene that `move` transforms.
+template <class T, class Move>
+void modify_part(Session& session, T& part, const Modifier& modifier, Move move) {
+  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, part, *item);
+  if (const auto* next = std::get_if<Transform>(&modifier)) move(*next);
+  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(part.unsupported, *missing);
+}
+/// Stands for parts whose blocks have no transformations: TokenStream does not give them any.
+void stays(const Transform&) {
+}
+
 } // namespace
 
 void modify(Session& session, PigmentDefinition& pigment, const Modifier& modifier, const Location& where) {
@@ -26,53 +37,40 @@ void modify(Session& session, NormalDefinition& normal, const Modifier& modifier
 }
 
 void modify(Session& session, FinishDefinition& finish, const Modifier& modifier, const Location&) {
-  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, finish, *item);
-  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(finish.unsupported, *missing);
+  modify_part(session, finish, modifier, stays);
 }
 
 void modify(Session& session, InteriorDefinition& interior, const Modifier& modifier, const Location&) {
-  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, interior, *item);
-  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(interior.unsupported, *missing);
+  modify_part(session, interior, modifier, stays);
 }
 
 void modify(Session& session, RainbowDefinition& rainbow, const Modifier& modifier, const Location&) {
-  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, rainbow, *item);
-  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(rainbow.unsupported, *missing);
+  modify_part(session, rainbow, modifier, stays);
 }
 
 void modify(Session& session, FogDefinition& fog, const Modifier& modifier, const Location&) {
-  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, fog, *item);
-  if (const auto* next = std::get_if<Transform>(&modifier)) transform(fog.value, *next);
-  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(fog.unsupported, *missing);
+  modify_part(session, fog, modifier, [&](const Transform& next) { transform(fog.value, next); });
 }
 
 void modify(Session& session, SkySphereDefinition& sky, const Modifier& modifier, const Location& where) {
-  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, sky, *item);
-  if (const auto* next = std::get_if<Transform>(&modifier)) transform(session, sky, *next, where);
-  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(sky.unsupported, *missing);
+  modify_part(session, sky, modifier, [&](const Transform& next) { transform(session, sky, next, where); });
 }
 
 void modify(Session& session, CameraDefinition& camera, const Modifier& modifier, const Location&) {
-  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, camera, *item);
-  if (const auto* next = std::get_if<Transform>(&modifier)) transform(camera, *next);
-  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(camera.unsupported, *missing);
+  modify_part(session, camera, modifier, [&](const Transform& next) { transform(camera, next); });
 }
 
 void modify(Session& session, ObjectDefinition& object, const Modifier& modifier, const Location&) {
-  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, object, *item);
-  if (const auto* next = std::get_if<Transform>(&modifier)) object.apply(*next);
-  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(object.unsupported, *missing);
+  modify_part(session, object, modifier, [&](const Transform& next) { object.apply(next); });
+}
+
+void modify_light(Session& session, ObjectDefinition& light, const Modifier& modifier, const Location&) {
+  modify_part(session, light, modifier, [&](const Transform& next) { transform(light, next); });
 }
 
 void modify(Session& session, MaterialDefinition& material, const Modifier& modifier, const Location& where) {
   if (const auto* next = std::get_if<Transform>(&modifier)) transform(session, material, *next, where);
   if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(material.unsupported, *missing);
-}
-
-void modify_light(Session& session, ObjectDefinition& light, const Modifier& modifier, const Location&) {
-  if (const auto* item = std::get_if<Item>(&modifier)) apply(session, light, *item);
-  if (const auto* next = std::get_if<Transform>(&modifier)) transform(light, *next);
-  if (const auto* missing = std::get_if<UnsupportedPtr>(&modifier)) mark(light.unsupported, *missing);
 }
 
 void modify_settings(Session& session, const Modifier& modifier, const Location& where) {

@@ -9,16 +9,13 @@ namespace {
 using Form = ItemForm;
 
 const ItemRow<ObjectDefinition> kObjectItems[] = {
-    {"no_image", Form::word, [](ObjectDefinition& object, const ItemValues&) { object.no_image = true; }},
-    {"no_reflection", Form::word,
-     [](ObjectDefinition& object, const ItemValues&) { object.no_reflection = true; }},
-    {"no_shadow", Form::word, [](ObjectDefinition& object, const ItemValues&) { object.no_shadow = true; }},
+    {"no_image", Form::word, set_true<&ObjectDefinition::no_image>},
+    {"no_reflection", Form::word, set_true<&ObjectDefinition::no_reflection>},
+    {"no_shadow", Form::word, set_true<&ObjectDefinition::no_shadow>},
     {"inverse", Form::word,
      [](ObjectDefinition& object, const ItemValues&) { object.inverse = !object.inverse; }},
-    {"hollow", Form::option,
-     [](ObjectDefinition& object, const ItemValues& values) { object.hollow = values.flag(); }},
-    {"double_illuminate", Form::option,
-     [](ObjectDefinition& object, const ItemValues& values) { object.is_lit_through = values.flag(); }},
+    {"hollow", Form::option, store<&ItemValues::flag, &ObjectDefinition::hollow>},
+    {"double_illuminate", Form::option, store<&ItemValues::flag, &ObjectDefinition::is_lit_through>},
     {"uv_mapping", Form::word,
      [](ObjectDefinition& object, const ItemValues& values) {
        set_uv_mapping(values.session(), object, values.where());
@@ -85,13 +82,12 @@ const ItemRow<ObjectDefinition> kLightGroupItems[] = {
 };
 
 const ItemRow<PhotonsDefinition> kPhotonsItems[] = {
-    {"target", Form::option,
-     [](PhotonsDefinition& photons, const ItemValues& values) { photons.is_target = values.flag(); }},
-    {"refraction", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
-    {"reflection", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
-    {"collect", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
-    {"pass_through", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
-    {"area_light", Form::option, [](PhotonsDefinition&, const ItemValues& values) { values.option(); }},
+    {"target", Form::option, store<&ItemValues::flag, &PhotonsDefinition::is_target>},
+    {"refraction", Form::option, ignore_number},
+    {"reflection", Form::option, ignore_number},
+    {"collect", Form::option, ignore_number},
+    {"pass_through", Form::option, ignore_number},
+    {"area_light", Form::option, ignore_number},
 };
 
 struct ListRow {

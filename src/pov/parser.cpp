@@ -149,8 +149,8 @@ void Parser::report_syntax_error(const context& ctx) const {
   symbol_kind_type expected[kMost];
   const int count = ctx.expected_tokens(expected, kMost);
   std::string hint;
-  if (expects(expected, count,
-              symbol_kind::S_FUNCTION)) // a quantity alone may only be there as the name of a colour
+  // A quantity alone may only be there as the name of a colour.
+  if (expects(expected, count, symbol_kind::S_FUNCTION))
     hint = ", expected a number";
   else if (expects(expected, count, symbol_kind::S_TEXT))
     hint = ", expected a string";

@@ -73,8 +73,7 @@ const ItemRow<PigmentDefinition> kPigmentItems[] = {
 };
 
 const ItemRow<NormalDefinition> kNormalItems[] = {
-    {"bump_size", Form::value,
-     [](NormalDefinition& normal, const ItemValues& values) { normal.amount = values.number(); }},
+    {"bump_size", Form::value, store<&ItemValues::number, &NormalDefinition::amount>},
     {"accuracy", Form::value,
      [](NormalDefinition& normal, const ItemValues& values) {
        normal.accuracy = std::fabs(values.number());

@@ -53,10 +53,3 @@ TEST_CASE("Loading a scene takes the options of parsing it, and throws its error
   CHECK_THROWS_AS(load_scene(path), SceneError);
   CHECK_THROWS_AS(load_scene(folder.write("b", "") / "none.pov"), InputError);
 }
-
-TEST_CASE("Formats of scenes say their names and extensions") {
-  const std::vector<SceneFormat> formats = scene_formats();
-  REQUIRE(!formats.empty());
-  CHECK(formats[0].name == "POV-Ray");
-  CHECK(formats[0].extensions == std::vector<std::string>{".pov", ".inc"});
-}

@@ -20,36 +20,36 @@ template <class S> struct RaySegments {
 template <class Spu> class SeenLight {
 public:
   using S = typename Spu::rare_simd;
-  SeenLight(const FrameBlock& frame, const HitPacket& hits, RayNode& node, VectorLanes& seen)
-      : ray(node), light(seen), frame_(frame), hits_(hits), undimmed_(node.throughput) {}
 
-  RaySegments<S> segments(uint32_t first) const {
+  SeenLight(const HitPacket& hits, RayNode& node, VectorLanes& seen)
+      : ray(node), light(seen), hits_(hits), undimmed_(node.throughput) {}
+
+  RaySegments<S> segments(const FrameBlock& frame, uint32_t first) const {
     const V3<S> direction = ray.rays.direction.template load_from<S>(first);
-    const typename S::F before_scene = detail::way_before<S>(frame_, ray, first);
+    const typename S::F before_scene = detail::way_before<S>(frame, ray, first);
     return {ray.rays.origin.template load_from<S>(first) - direction * before_scene, direction,
             detail::length_of<S>(hits_, first) + before_scene};
   }
-  void pass(uint32_t first, const typename S::M& take, const Passage<S>& passage) {
+  void pass(const FrameBlock& frame, uint32_t first, const typename S::M& take, const Passage<S>& passage) {
     const V3<S> throughput = ray.throughput.template load_from<S>(first);
     const V3<S> before = light.template load_from<S>(first);
     // As in POV-Ray, light that one fog adds is not dimmed by another.
     light.template store_from<S>(
         first, select<S>(take, before + undimmed_.template load_from<S>(first) * passage.add, before));
     ray.throughput.template store_from<S>(first, select<S>(take, throughput * passage.pass, throughput));
-    if ((frame_.light_ways & light_way::alpha) != 0)
+    if ((frame.light_ways & light_way::alpha) != 0)
       detail::dim_clear<S>(take, grey<S>(passage.pass), ray, first);
   }
-  void see_rainbows(SceneAccess<Spu>& scene, uint32_t lanes) {
-    if (frame_.rainbow_count != 0) detail::cross_rainbows(scene, frame_, hits_, lanes, ray, light);
+  void see_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t lanes) {
+    if (frame.rainbow_count != 0) detail::cross_rainbows(scene, frame, hits_, lanes, ray, light);
   }
 
   RayNode& ray;
   VectorLanes& light;
 
 private:
-  const FrameBlock& frame_;
   const HitPacket& hits_;
-  VectorLanes undimmed_;
+  const VectorLanes undimmed_; ///< the throughput before any fog
 };
 
 /// Light that arrives along shadow rays: `arriving` is multiplied by the share that passes between the rays'
@@ -57,18 +57,19 @@ private:
 template <class Spu> class ArrivingLight {
 public:
   using S = typename Spu::rare_simd;
+
   ArrivingLight(const HitPacket& hits, const FloatLanes& left, const RayNode& node, VectorLanes& arriving)
       : ray(node), light(arriving), hits_(hits), left_(left) {}
 
-  RaySegments<S> segments(uint32_t first) const {
+  RaySegments<S> segments(const FrameBlock&, uint32_t first) const {
     return {ray.rays.origin.template load_from<S>(first), ray.rays.direction.template load_from<S>(first),
             S::min(detail::length_of<S>(hits_, first), S::F::load(left_.lane + first))};
   }
-  void pass(uint32_t first, const typename S::M& take, const Passage<S>& passage) {
+  void pass(const FrameBlock&, uint32_t first, const typename S::M& take, const Passage<S>& passage) {
     const V3<S> before = light.template load_from<S>(first);
     light.template store_from<S>(first, select<S>(take, before * passage.pass, before));
   }
-  void see_rainbows(SceneAccess<Spu>&, uint32_t) {} // rainbows send no light to surfaces
+  void see_rainbows(SceneAccess<Spu>&, const FrameBlock&, uint32_t) {} // rainbows send no light to surfaces
 
   const RayNode& ray;
   VectorLanes& light;
@@ -78,23 +79,26 @@ private:
   const FloatLanes& left_;
 };
 
-/// Follows light along rays; `light` is a SeenLight or an ArrivingLight.
-template <class Spu, class Light>
-[[gnu::noinline]] void light_along(SceneAccess<Spu>& scene, const FrameBlock& frame, Light light) {
+/// Follows light along rays: a SeenLight or an ArrivingLight, which is made of `arguments`. It is made here,
+/// so that its code is in the module.
+template <template <class> class Light, class Spu, class... Arguments>
+[[gnu::noinline]] void light_along(SceneAccess<Spu>& scene, const FrameBlock& frame,
+                                   Arguments&... arguments) {
   using S = typename Spu::rare_simd;
   scene.spu().run_in_module(modules::kAtmosphere);
+  Light<Spu> light(arguments...);
   const uint32_t lanes = detail::lanes_in_the_open(scene, light.ray, light.ray.lanes);
   for (uint32_t i = 0; i < frame.fog_count; ++i) {
     Kept<Spu, FogRecord> fog = *scene.fog(frame.fog_offset + i * static_cast<uint32_t>(sizeof(FogRecord)));
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(lanes, first);
       if (some == 0) return;
-      const RaySegments<S> way = light.segments(first);
-      light.pass(first, S::M::from_bits(some),
+      const RaySegments<S> way = light.segments(frame, first);
+      light.pass(frame, first, S::M::from_bits(some),
                  detail::through_fog(scene.spu(), fog, way.origin, way.direction, way.length));
     });
   }
-  light.see_rainbows(scene, lanes);
+  light.see_rainbows(scene, frame, lanes);
 }
 
 } // namespace celltrace::kernel

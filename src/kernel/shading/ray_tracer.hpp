@@ -73,7 +73,7 @@ public:
     scene_.spu().compute(scalar_work::kNode);
     if (has_atmosphere(frame_)) {
       scene_.spu().enter_module(modules::kAtmosphere);
-      light_along(scene_, frame_, SeenLight<Spu>(frame_, hits_, node_, light_[node_.target]));
+      light_along<SeenLight>(scene_, frame_, hits_, node_, light_[node_.target]);
       if ((frame_.light_ways & light_way::alpha) != 0) {
         scene_.spu().enter_module(modules::kSky);
         see_through(scene_, frame_, hits_, node_, *clear_);
