@@ -94,8 +94,8 @@ template <template <class> class Light, class Spu, class... Arguments>
       const uint32_t some = part_of<Spu>(lanes, first);
       if (some == 0) return;
       const RaySegments<S> way = light.segments(frame, first);
-      light.pass(frame, first, S::M::from_bits(some),
-                 detail::through_fog(scene.spu(), fog, way.origin, way.direction, way.length));
+      const Passage<S> fogged = detail::through_fog(scene.spu(), fog, way.origin, way.direction, way.length);
+      light.pass(frame, first, S::M::from_bits(some), fogged);
     });
   }
   light.see_rainbows(scene, frame, lanes);
