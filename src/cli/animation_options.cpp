@@ -56,13 +56,13 @@ void take_declared_clock(RenderRequest& request) {
 void add_animation_options(CLI::App& command, RenderRequest& request, AnimationTexts& texts) {
   Animation& animation = request.animation;
   const CLI::Range frames(0, kMaxFrame);
-  command.add_option("--clock", request.clock, "The scene's clock; default: 0. An animation has its own");
+  command.add_option("--clock", request.clock, "The clock of a still picture; default: 0");
   command
       .add_option("--initial-frame", texts.initial_frame, "Number of an animation's first frame; default: 1")
       ->check(frames);
   command
       .add_option("--final-frame", texts.final_frame,
-                  "Number of its last frame; without it and the first frame's it is a still picture")
+                  "Number of an animation's last frame; without it and --initial-frame the picture is still")
       ->check(frames);
   command.add_option("--initial-clock", animation.initial_clock, "The clock in the first frame")
       ->capture_default_str();
@@ -72,16 +72,16 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
              "Whether the animation loops: the last frame leads into the first");
   command
       .add_option("--start-frame", animation.start_frame,
-                  "The first frame to render; below 1 a part of the final frame's number")
+                  "The first frame to render: its number or, below 1, a fraction of the final frame's number")
       ->check(number_range(0, std::numeric_limits<double>::infinity()))
       ->type_name("N|FRACTION");
-  command.add_option("--end-frame", animation.end_frame, "The last frame to render; the same")
+  command.add_option("--end-frame", animation.end_frame, "The last frame to render, as --start-frame")
       ->check(number_range(0, std::numeric_limits<double>::infinity()))
       ->type_name("N|FRACTION");
   command.add_option("--frame-step", animation.step, "Render only every N-th frame")
       ->check(CLI::Range(1, kMaxFrame))
       ->capture_default_str();
-  command.add_option("--frame-rate", texts.frame_rate, "Frames a second of a film")
+  command.add_option("--frame-rate", texts.frame_rate, "Frames per second of a film")
       ->type_name("N|N/M")
       ->capture_default_str();
   command.add_flag("--resume", request.resume, "Go on where a run with the same options was stopped");

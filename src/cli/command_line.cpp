@@ -117,13 +117,13 @@ void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& t
       ->allow_extra_args(false);
   command.add_flag(
       "--lenient", texts.machine.emulation.lenient,
-      "Leave out what of the scene is not supported; on an emulated or simulated Cell also ignore the "
-      "rules that the hardware has no objection to");
+      "Leave out parts of the scene that are not supported; on an emulated or simulated Cell also ignore "
+      "broken rules that the hardware tolerates");
   command.add_option("--header", request.header, "Include this file before the scene begins")
       ->type_name("FILE");
   command
       .add_option("--language-version", request.language_version,
-                  "What a scene without #version is written for, such as 3.1")
+                  "Version of POV-Ray's language, such as 3.1, for a scene without #version")
       ->check(number_range(0.1, 100))
       ->type_name("FLOAT");
   command
@@ -143,7 +143,7 @@ void add_report_options(CLI::App& command, RenderRequest& request) {
 
 void add_client_options(CLI::App& command, RenderTexts& texts) {
   add_choice(command, "--povray", texts.povray, {{"on", "off"}, {}},
-             "Stand in for povray: its INI file and povray.conf count; default if started under that name");
+             "Stand in for povray: read its INI file and obey povray.conf; default: on if started as povray");
   add_choice(command, "--verbose", texts.verbose, {{"on", "off"}, {}},
              "Write progress as POV-Ray does where stderr is no terminal");
 }
@@ -159,20 +159,22 @@ void let_the_last_count(CLI::App& command) {
 
 void add_quality_option(CLI::App& command, RenderRequest& request) {
   command
-      .add_option("--quality", request.options.quality, "From 0, colours alone, to 9 and more, everything")
+      .add_option("--quality", request.options.quality,
+                  "Quality of the picture, from 0 (colours alone) to 9 and more (everything)")
       ->check(CLI::Range(0, 11))
       ->capture_default_str();
 }
 
 void add_view_options(CLI::App& command, ViewRequest& request) {
-  command.add_option("--font", request.font, "What information is written in; default: one of the system's")
+  command.add_option("--font", request.font, "Font of the information; default: one of the system's")
       ->type_name("FILE.ttf");
   command.add_option("--state", request.state, "Write a line of JSON for each change of what is seen")
       ->type_name("FILE");
   command
       .add_option(
           "--keys", request.keys,
-          "Press these, each when the picture is final: names of keys, WIDTHxHEIGHT, drag:X,Y, wheel:N")
+          "Input to simulate, one after the other when the picture is final: names of keys, WIDTHxHEIGHT, "
+          "drag:X,Y, wheel:N")
       ->type_name("KEYS")
       ->delimiter(' ');
 }
@@ -194,7 +196,7 @@ void add_spu_options(CLI::App& command, SpuRequest& request, EmulationTexts& tex
       ->required()
       ->type_name("PROGRAM.elf");
   command.add_option("arguments", simulation.arguments,
-                     "What the program finds in argv; -- before those that begin with a dash");
+                     "Arguments of the program (argv); put -- before any that begin with a dash");
   command.add_option("--spes", request.machine.spes, "SPEs, each of which runs the program")
       ->check(CLI::Range(1u, 256u))
       ->capture_default_str();
@@ -203,7 +205,8 @@ void add_spu_options(CLI::App& command, SpuRequest& request, EmulationTexts& tex
                   "The program may read, write, make and remove files in this folder; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  command.add_option("--stdin", request.input, "The program's standard input; default: this one's")
+  command
+      .add_option("--stdin", request.input, "File for the program's standard input; default: celltrace's own")
       ->type_name("FILE");
   command.add_flag("--summary", request.summary, "Print counters to stderr");
   command.add_option("--stats", request.stats, "Write statistics as JSON; - is stdout")->type_name("FILE|-");
@@ -212,9 +215,9 @@ void add_spu_options(CLI::App& command, SpuRequest& request, EmulationTexts& tex
                   "Write where the cycles went, by function and instruction; - is stdout")
       ->type_name("FILE|FILE.json|-");
   command.add_flag("--profile-all", request.profile_all,
-                   "List the instructions of all functions, not of those only that take 95 % of the cycles");
+                   "List the instructions of all functions, not only of those that take 95 % of the cycles");
   command.add_flag("--quiet", request.quiet, "No warnings");
-  command.add_flag("--lenient", texts.lenient, "Ignore the rules that the hardware has no objection to");
+  command.add_flag("--lenient", texts.lenient, "Ignore broken rules that the hardware tolerates");
   add_emulation_options(command, texts, Schedule::lockstep);
 }
 
@@ -224,7 +227,7 @@ struct ReplayTexts {
 };
 
 void add_replay_options(CLI::App& command, ReplayRequest& request, ReplayTexts& texts) {
-  command.add_option("trace", request.trace, "What render --cache-trace wrote")
+  command.add_option("trace", request.trace, "A file that render --cache-trace wrote")
       ->required()
       ->type_name("FILE");
   command
@@ -232,21 +235,24 @@ void add_replay_options(CLI::App& command, ReplayRequest& request, ReplayTexts& 
                   "A software cache, as for render; may be repeated; default: the recorded one")
       ->type_name("CACHE")
       ->allow_extra_args(false);
-  command.add_flag("--no-prefetch", texts.demand, "Leave the program's prefetches out");
+  command.add_flag("--no-prefetch", texts.demand, "Leave out the program's prefetches");
   command.add_flag("--json", request.json, "Print JSON");
 }
 
 void add_study_options(CLI::App& command, StudyRequest& request, std::string& backend) {
   command
-      .add_option("--out", request.out, "Folder for study.txt, study.json, and a CSV and an SVG file a table")
+      .add_option("--out", request.out,
+                  "Folder for study.txt, study.json, and a CSV and an SVG file of each table")
       ->type_name("DIR");
   command.add_flag("--quick", request.options.quick, "Smaller pictures: about a minute on two cores");
-  command.add_option("--backend", backend, "Whose cycles: of counted operations or of machine code")
+  command
+      .add_option("--backend", backend,
+                  "Source of the cycles: counted operations (cell_emu) or machine code (cell_sim)")
       ->check(CLI::IsMember({"cell_emu", "cell_sim"}))
       ->capture_default_str();
   command.add_option("--only", request.options.only, "Make one table only")
       ->check(CLI::IsMember(study::table_ids()));
-  command.add_option("--threads", request.options.threads, "Of the host; default: as many as it has")
+  command.add_option("--threads", request.options.threads, "Threads of the host to use; default: all")
       ->check(CLI::Range(1, 256));
   command.add_flag("--quiet", request.quiet, "No progress, and no tables on stdout");
 }
@@ -387,7 +393,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   app.footer(
       "`celltrace SCENE.pov` means render. POV-Ray's switches (+W640 +H480 +Iscene.pov ...) are understood.\n"
       "CELLTRACE_OPTIONS in the environment has options of render that stand before the arguments.\n"
-      "Exit codes: 0 done, 1 error or past a bar, 2 interrupted.");
+      "Exit codes: 0 done, 1 error or compare below a limit, 2 interrupted.");
 
   RenderRequest render;
   RenderTexts texts;

@@ -67,24 +67,27 @@ void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule de
   add_choice(command, "--schedule", texts.schedule, {{"free", "lockstep"}, {}},
              "SPEs run as they like, or in turns that can be repeated; default: " + defaults);
   command
-      .add_option("--seed", texts.seed,
-                  "What random transfers and faults, and the turns of lockstep, are drawn from; without it, "
-                  "lockstep goes by virtual time")
+      .add_option(
+          "--seed", texts.seed,
+          "Seed of random transfers and faults, and of the turns of lockstep; without it, lockstep goes by "
+          "virtual time")
       ->type_name("N");
   add_choice(command, "--transfers", texts.transfers, {{"issue", "wait", "random"}, {}},
-             "When the data of a DMA command move; default: wait");
-  command.add_flag("--faults", texts.faults, "Slow SPEs, pauses and delays at random");
+             "When the data of a DMA command move: at its issue, at the wait for it, or at random; default: "
+             "wait");
+  command.add_flag("--faults", texts.faults, "Inject slow SPEs, pauses and delays at random");
   add_choice(command, "--timing", texts.timing, {{"cell", "ps3"}, {}},
              "The machine that is modelled, with 8 (default) or 6 SPEs");
   command
-      .add_option("--limit", texts.cycle_limit,
-                  "A program that runs for N virtual cycles ends with an error that says where; 0: none")
+      .add_option(
+          "--limit", texts.cycle_limit,
+          "Virtual cycles after which a running program ends with an error that says where; 0: no limit")
       ->type_name("CYCLES");
   command
       .add_option("--seconds-limit", texts.seconds_limit,
-                  "The same for seconds of this computer, which may be a fraction")
+                  "As --limit, in seconds of this computer; may be a fraction")
       ->type_name("SECONDS");
-  command.add_option("--trace", texts.trace, "Write what happened as a Chrome trace, in lockstep")
+  command.add_option("--trace", texts.trace, "Write the run as a Chrome trace; only in lockstep")
       ->type_name("FILE.json");
 }
 

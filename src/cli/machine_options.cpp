@@ -61,18 +61,18 @@ void add_machine_options(CLI::App& command, RenderOptions& options, MachineTexts
              "The machine: threads, an emulated Cell, or one whose SPUs execute machine code");
   command
       .add_option("--spes", options.spes,
-                  "SPEs; default: one a hardware thread on native, else those of the timing")
+                  "Number of SPEs; default: on native one per hardware thread, else that of --timing")
       ->check(CLI::Range(1u, 256u));
   add_choice(command, "--simd", texts.simd, {names(kSimdLevels), {}}, "Instruction set of native");
   command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
       ->type_name("CACHE")
       ->capture_default_str();
   add_choice(command, "--accelerator", texts.accelerator, {names(kAccelerators), {}},
-             "How rays find objects: a uniform grid or a BVH, which auto is");
+             "How rays find objects: by a uniform grid or a BVH; auto is the BVH");
   add_choice(
       command, "--balance", texts.balance, {names(kBalances), {}},
-      "How the SPEs share a frame: strips that exchange work, that diffusion adjusts between frames or "
-      "that stay; or bundles of packets or random tiles, dealt out");
+      "How the SPEs share a frame: by strips that exchange work, strips that diffusion adjusts between "
+      "frames, strips that stay, or bundles of packets or random tiles that are dealt out");
   add_choice(command, "--model", texts.model, {names(kModels), {}}, "Programming model");
   // The following options are for emulated machines only.
   CLI::Option_group& emulation = *command.add_option_group("cell_emu and cell_sim only");

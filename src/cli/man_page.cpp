@@ -115,7 +115,7 @@ std::string man_page(const std::vector<DescribedCommand>& commands) {
   }
   page += ".SH EXIT STATUS\n"
           ".TP\n.B 0\nDone.\n"
-          ".TP\n.B 1\nAn error, or\n.B compare\nbelow a bar.\n"
+          ".TP\n.B 1\nAn error, or\n.B compare\nbelow a limit that it was given.\n"
           ".TP\n.B 2\nInterrupted; the part of the picture that is done is kept.\n"
           ".PP\n.B celltrace spu\nexits as the program does that it runs; 124, 125 and 130 are its own.\n";
   add_examples(page);

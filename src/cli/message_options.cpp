@@ -48,11 +48,10 @@ void add_message_options(CLI::App& command, MessageTexts& texts) {
       ->type_name("KIND=FILE")
       ->allow_extra_args(false);
   add_choice(command, "--append-messages", texts.append, {{"on", "off"}, {}},
-             "Whether such files keep what is in them");
+             "Whether files of --message-file keep what is in them");
   command
-      .add_option(
-          "--hide", texts.hidden,
-          "Do not print messages of this kind; of all, errors are printed all the same; may be repeated")
+      .add_option("--hide", texts.hidden,
+                  "Do not print messages of this kind; all leaves errors; may be repeated")
       ->type_name("KIND")
       ->allow_extra_args(false);
 }

@@ -162,9 +162,10 @@ std::filesystem::path pov_output(const std::string& name, const std::filesystem:
 
 void add_output_options(CLI::App& command, RenderRequest& request, OutputTexts& texts) {
   command
-      .add_option("-o,--output", request.output,
-                  "The picture or the film; default: the scene's name, here. A folder: the scene's name, "
-                  "there. - is stdout")
+      .add_option(
+          "-o,--output", request.output,
+          "The picture or film to write, or the folder for it; default: the current folder, and a name "
+          "like the scene's. - is stdout")
       ->type_name("OUT.png|jpg|tga|bmp|ppm|exr|hdr|dds|y4m|mp4|DIR/|-");
   command
       .add_option(
@@ -173,15 +174,15 @@ void add_output_options(CLI::App& command, RenderRequest& request, OutputTexts& 
           "name has another one")
       ->type_name("NAME|DIR/");
   add_choice(command, "--file-type,--format", texts.file_type, {file_types(), {}},
-             "What the picture is if its name does not say; default: png");
+             "Type of the picture if its name has no extension; default: png");
   command
       .add_option("--bits", texts.bits,
                   "Bits a channel of the picture: 8 or 16; of OpenEXR 16 or 32, which are floats")
       ->check(CLI::Range(1, 32));
   add_choice(
       command, "--grey", texts.grey, {{"on", "off"}, {}},
-      "Whether the picture has the luminance of colours only: PNG and PPM, by default of 16 bits, TGA and "
-      "JPEG");
+      "Whether the picture is grey, with the luminance of colours; for TGA, JPEG, and PNG and PPM, whose "
+      "default is then 16 bits");
   command
       .add_option("--file-gamma", texts.file_gamma,
                   "How colours are encoded in files of 8 and 16 bits a channel; default: sRGB")
@@ -189,12 +190,13 @@ void add_output_options(CLI::App& command, RenderRequest& request, OutputTexts& 
   command.add_option("--jpeg-quality", request.file.jpeg_quality, "Quality of a JPEG, 0 to 100; default: 85")
       ->check(CLI::Range(0, 100));
   add_choice(command, "--compression", texts.compression, {{"none", "rle"}, {}},
-             "Whether a TGA has run lengths");
+             "Compression of a TGA: none or run lengths");
   add_choice(command, "--first-hits", texts.first_hits, {{"on", "off"}, {}},
              "Whether an OpenEXR file has depths, normals and numbers of objects, too");
   add_choice(command, "--picture", texts.picture, {{"on", "off"}, {}}, "Whether the picture is written");
   add_choice(command, "--alpha", texts.alpha, {{"on", "off"}, {}},
-             "Whether pixels are clear where nothing is, and half clear behind what is transparent");
+             "Whether the picture has alpha: pixels are transparent where nothing is, and partly transparent "
+             "behind glass and in fog");
 }
 
 void finish_output(RenderRequest& request, const OutputTexts& texts) {

@@ -38,34 +38,39 @@ void add_region_options(CLI::App& command, SamplingTexts& texts) {
   const auto add = [&](const std::string& name, double& value, const std::string& what) {
     command.add_option(name, value, what)->check(number_range(0, kNoLimit))->type_name("N|FRACTION");
   };
-  add("--start-column", texts.start_column, "The first column to render, from 1 on, or a part of the width");
-  add("--end-column", texts.end_column, "The last column to render; 1 and less is a part of the width");
-  add("--start-row", texts.start_row, "The first row to render, from 1 on, or a part of the height");
-  add("--end-row", texts.end_row, "The last row to render; 1 and less is a part of the height");
+  add("--start-column", texts.start_column,
+      "The first column to render: a number from 1 on, or less than 1 for a fraction of the width");
+  add("--end-column", texts.end_column,
+      "The last column to render: a number above 1, or up to 1 for a fraction of the width");
+  add("--start-row", texts.start_row,
+      "The first row to render: a number from 1 on, or less than 1 for a fraction of the height");
+  add("--end-row", texts.end_row,
+      "The last row to render: a number above 1, or up to 1 for a fraction of the height");
 }
 
 void add_antialiasing_options(CLI::App& command, SamplingTexts& texts) {
   command
       .add_option("--antialias", texts.antialias,
-                  "Sample pixels by more rays where colours differ by so much or more")
+                  "Trace more rays for pixels whose colours differ by this much or more")
       ->check(number_range(0, 3))
       ->type_name("THRESHOLD");
   command
-      .add_option("--antialias-method", texts.antialias_method,
-                  "1: as many samples for each such pixel; 2: more where colours differ more")
+      .add_option(
+          "--antialias-method", texts.antialias_method,
+          "1: the same number of samples for each such pixel; 2: more samples where colours differ more")
       ->check(CLI::Range(1, 2))
       ->capture_default_str();
   command
       .add_option("--antialias-depth", texts.antialiasing.depth,
-                  "Samples a row and rows of a pixel, or how often it is divided")
+                  "Method 1: N x N samples for a pixel; method 2: limit on how often a pixel is divided")
       ->check(CLI::Range(1, 9))
       ->capture_default_str();
   command
       .add_option("--antialias-jitter", texts.antialiasing.jitter,
-                  "Move samples at random: 0 not at all, 1 as far as to the next one's place")
+                  "Random offset of samples: from 0, none, to 1, as far as the next sample's place")
       ->check(number_range(0, 1))
       ->capture_default_str();
-  command.add_option("--antialias-gamma", texts.antialiasing.gamma, "Of the colours when they are compared")
+  command.add_option("--antialias-gamma", texts.antialiasing.gamma, "Gamma of the colours that are compared")
       ->check(number_range(0.01, 100))
       ->capture_default_str();
 }
