@@ -117,8 +117,8 @@ void check_coordinates(const Mesh2Definition& definition, std::size_t faces) {
                      std::to_string(faces) + " faces");
 }
 
-/// Finds the normals of face number `face`: those of its indices or, if it has none, those with its vertices'
-/// numbers.
+/// Finds the normals of face number `face` by its normal_indices or, if the mesh has none, by the indices of
+/// its vertices. Returns false if the face is flat.
 bool find_normals(const Mesh2Definition& definition, std::size_t face, const Face& of, Index (&normal)[3]) {
   if (definition.normal_vectors.empty()) return false;
   if (definition.normal_indices.empty()) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kCopiedAtOnce = 1u << 20;
 
-/// Runs `work`, and turns a failed allocation of the library into an Error.
+/// Runs `work`. Throws Errors of this library in place of std::bad_alloc and LimitPassed.
 template <class Work> Scene within_memory(Work work) {
   try {
     return work();
@@ -24,7 +24,8 @@ template <class Work> Scene within_memory(Work work) {
   }
 }
 
-/// Asks the application before the first token whether to go on.
+/// Tells the application that no byte of the scene has been parsed yet. Throws Cancelled if it does not want
+/// to go on.
 void look(const ParseOptions& options, std::uint64_t bytes) {
   if (options.progress && !options.progress(0, bytes)) throw Cancelled();
 }

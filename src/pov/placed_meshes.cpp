@@ -1,4 +1,4 @@
-// SceneBuilder: from meshes and triangles as declared to the Scene's.
+// SceneBuilder: turns declared meshes and triangles into meshes of the Scene.
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -11,9 +11,9 @@ namespace celltrace::pov {
 
 namespace {
 
-/// Writes scene-wide indices over a mesh's own.
+/// Replaces a mesh's indices of its own materials by indices into the scene's materials.
 void replace_materials(Mesh& mesh, const std::vector<Index>& materials, TokenStream& tokens) {
-  if (materials.empty()) return; // then no triangle has one
+  if (materials.empty()) return; // no triangle has a material of its own
   for (Mesh::Triangle& triangle : mesh.triangles) {
     tokens.spend(1);
     for (Index& material : triangle.material)
@@ -29,13 +29,13 @@ Vec3 far_base_of(const TriangleDefinition& triangle) {
   const auto largest = [](const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
   const double size = std::max(largest(b - a), largest(c - a)), distance = largest(a);
   if (!triangle.is_finite() || !(size > 0) || distance <= std::max(kNear, kFar * size)) return Vec3(0);
-  // With few digits, so that vertices lose none of theirs.
+  // The point has few digits, so that vertices relative to it lose none of theirs.
   const double step = std::exp2(std::floor(std::log2(size)));
   return glm::round(a / step) * step;
 }
 
-/// Orders the corners so that its outside as a Mesh's is POV-Ray's: where its normals point, or else, by the
-/// axis along which it faces most, to -x, +y or -z.
+/// Orders the corners of a triangle so that its outside, as that of a Mesh, is POV-Ray's: where the normals
+/// point or, for a flat triangle, to -x, +y or -z, whichever axis the triangle faces most.
 void turn_outside(TriangleDefinition& triangle) {
   const auto& v = triangle.vertices;
   const Vec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
@@ -55,7 +55,8 @@ void turn_outside(TriangleDefinition& triangle) {
 
 } // namespace
 
-/// `base` becomes what its vertices are counted from. Those of meshes are single precision in POV-Ray, too.
+/// Returns a mesh of one triangle. Its single precision vertices are relative to `base`, which is set: in
+/// POV-Ray only the vertices of meshes are single precision.
 std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
                                                           const Inherited& own, const Location& where,
                                                           Vec3& base) {
@@ -64,7 +65,7 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
   if (!triangle.is_finite())
     diagnostics_.warn_once(where, "this triangle is left out: a number of it is not finite");
   if (own.inner_texture) turn_outside(placed);
-  // As all shapes without surface coordinates of their own.
+  // Surface coordinates are x and y, as for all shapes without coordinates of their own.
   if (own.texture && (own.uv_mapping || own.texture->asks_for_surface())) {
     placed.is_mapped = true;
     for (std::size_t i = 0; i < 3; ++i)
@@ -85,7 +86,8 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
   return std::make_shared<const Mesh>(std::move(builder.finish()->mesh));
 }
 
-/// Meshes are shared by their instances, unless their own textures depend on where they are.
+/// Returns the mesh of a definition at its place. Instances share one mesh, unless the mesh has textures of
+/// its own that depend on its place.
 std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
                                                       const Transform& transform, bool uv_mapping,
                                                       const Location& where) {
@@ -107,8 +109,9 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<Mesh
   return mesh;
 }
 
-/// The object's interior_texture is that of triangles with textures of their own, too. `inside` is a copy:
-/// the scene's materials, one of which it may be part of, move when more are added.
+/// Returns a mesh in which the object's interior_texture is also that of triangles with textures of their
+/// own. `inside` is passed by value: it may belong to one of the scene's materials, which move when more are
+/// added.
 std::shared_ptr<const Mesh> SceneBuilder::with_inside(const std::shared_ptr<const Mesh>& mesh,
                                                       std::shared_ptr<const Material> inside,
                                                       const Location& where) {

@@ -1,4 +1,4 @@
-// SceneBuilder: turns objects as declared into the Scene's.
+// SceneBuilder: turns declared objects into objects of the Scene.
 #include "pov/scene_builder.hpp"
 #include "pov/token_stream.hpp"
 
@@ -30,7 +30,7 @@ const Compound* compound(const ObjectDefinition& object) {
   return compound ? compound->get() : nullptr;
 }
 
-/// Returns whether an object is no more than its parts.
+/// Returns whether an object is a union that is neither inverse nor clipped.
 bool is_plain_union(const ObjectDefinition& object) {
   const Compound* parts = compound(object);
   return parts && parts->operation == Operation::union_ && !object.inverse && object.clipped_by.empty();
@@ -68,7 +68,7 @@ bool has_shapes(const Object& object) {
   return !csg || std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_shapes);
 }
 
-/// The radius of a disc, or one that is as good: no ray goes that far.
+/// Returns the radius of a disc, or a smaller one beyond which no ray goes.
 double seen_radius(const Disc& disc, const Transform& transform) {
   constexpr double kFarthest = 1e15;
   const double scale = std::max(
@@ -79,7 +79,7 @@ double seen_radius(const Disc& disc, const Transform& transform) {
 } // namespace
 
 void SceneBuilder::place(const ObjectPtr& object, const Location& where) {
-  // Checks the limit before so many objects are placed.
+  // The limit is checked before any of the objects is placed.
   if (object->size > limits_.objects - std::min(parts_placed_, limits_.objects)) exceed_objects(where);
   place(*object, Inherited{}, where);
 }
@@ -114,7 +114,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
                            "this object reaches out of its 'bounded_by': POV-Ray cuts it off there, this "
                            "program does not");
   has_photon_targets_ = has_photon_targets_ || object.is_photon_target;
-  tokens_.spend(1); // a placed object may have many parts
+  tokens_.spend(1); // so that placing an object of many parts can be cancelled
   if (++parts_placed_ > limits_.objects) exceed_objects(where);
   Inherited own = around;
   own.transform = object.transform.then(around.transform);
@@ -144,7 +144,8 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   return own;
 }
 
-/// Returns nothing if the object is a light, is left out, or cannot be hit by any ray.
+/// Returns an object of the Scene; nothing if the object is a light, is left out, or cannot be hit by any
+/// ray.
 std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const Inherited& around,
                                          const Location& where) {
   if (!diagnostics_.supports(object.missing, where)) return std::nullopt;
@@ -219,7 +220,7 @@ Index SceneBuilder::add_interior() {
   return scene_.add(Interior{});
 }
 
-/// Returns null if the first part of a difference is left out.
+/// Returns a CSG of the Scene; null if the first part of a difference is left out.
 std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inherited own,
                                                   const Location& where) {
   enter_solid(own, where);
@@ -414,7 +415,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     if (!geometry::fits_single_precision(made.shape, own.transform)) {
       warn_of_size(object);
       if (!own.inside) return false;
-      // No ray reaches its surface: the whole scene is inside of it, or outside.
+      // No ray reaches the shape's surface: the whole scene is either inside or outside of the shape.
       const Vec3 at = own.transform.inverse().point(Vec3(0));
       if (geometry::is_inside(*shape, at)) made.inverse = !made.inverse;
       made.shape = Sphere{{0, 0, 0}, 0};

@@ -114,7 +114,7 @@ private:
   struct Bracket {
     unsigned outside = 0; ///< nesting around it
     bool is_parenthesis = false;
-    Block block = Block::none; ///< whose items are in it
+    Block block = Block::none; ///< block whose items are in the bracket
   };
 
   /// One entry of the grammar.
@@ -123,12 +123,12 @@ private:
     std::size_t base_depth = 0; ///< frames below this depth do not end in this level
     bool start_pending = true;
     bool any_delivered = false;
-    bool at_end = false;  ///< the end was delivered: nothing to hand back
+    bool at_end = false;  ///< true: next() has returned the end, so there is no lookahead to hand back
     unsigned nesting = 0; ///< number of open brackets, and of < and ? that may be brackets
     std::vector<Bracket> enclosing;
     Token last_token;
-    int last_terminal = 0;            ///< that last_token was made to
-    std::optional<Terminal> put_back; ///< made of last_token; to be delivered again
+    int last_terminal = 0;            ///< terminal that last_token became
+    std::optional<Terminal> put_back; ///< terminal of last_token that next() returns again
     bool after_operand = false;       ///< the last terminal can end a value
     Value result;
     bool hands_back = false;
@@ -214,12 +214,12 @@ private:
   std::vector<double> read_numbers(const Location& where);
 
   Session& session_;
-  double started_; ///< in the thread's processor time
+  double started_; ///< processor time of the thread at the start
   std::vector<Level> levels_;
   std::uint64_t tokens_read_ = 0;
-  bool skips_semicolon_ = false;         ///< once, behind the frame that ends
+  bool skips_semicolon_ = false;         ///< true: one semicolon behind the frame's end is skipped
   std::optional<Token> lacks_semicolon_; ///< name declared at the frame's end, which needs a semicolon
-  std::uint64_t work_ = 0;               ///< besides reading tokens
+  std::uint64_t work_ = 0;               ///< work besides reading tokens
   std::uint64_t next_pause_ = 0;         ///< the number of tokens and work at which to pause next
   std::uint64_t tokens_recorded_ = 0;
   std::uint64_t iterations_ = 0;

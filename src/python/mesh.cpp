@@ -17,8 +17,8 @@ namespace {
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
-/// Returns rows of three whole numbers from 0 to below `count`, the number of rows of `of`. Throws
-/// ValueError.
+/// Returns `given` as rows of three indices into the array named `of`, which has `count` rows. Throws
+/// ValueError if it is something else.
 Indices index_rows(const py::object& given, std::size_t count, const std::string& name,
                    const std::string& of) {
   const auto array = py::array::ensure(given);
@@ -70,7 +70,8 @@ bool is_finite(const Vec2f& v) {
   return std::isfinite(v.x) && std::isfinite(v.y);
 }
 
-/// Replaces rows that are not finite, and leaves out their corners; or throws ValueError.
+/// Rows that are not finite: take() replaces them and says which they are, or throws ValueError if they are
+/// not allowed.
 class Holes {
 public:
   explicit Holes(bool are_allowed) : are_allowed_(are_allowed) {}
