@@ -1,9 +1,11 @@
 // Detects, in lockstep, stores of one SPE's program into the local store of another.
 //
-// Between a program's turns, only DMA and the PPE change its local store. The part that the program uses
-// is copied when its turn ends, and compared when its next turn or the PPE's begins:
-// all of it while the program is young or uses little, else one kilobyte after the other, because copying
-// everything would take longer than the turn. Nothing is compared if DMA has written in between.
+// Between two turns of a program, only DMA and the PPE may change its local store. The part that the program
+// uses is copied when a turn ends, and compared when its next turn or the PPE's begins. Nothing is compared
+// if DMA has written in between.
+//
+// A copy of the whole part would take longer than the turn. After the first 256 KB, each turn therefore
+// copies one kilobyte, the next one each time, unless the program uses no more than that.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -42,7 +44,7 @@ public:
   void accept_changes(unsigned spe, const Used& used);
 
 private:
-  /// Bytes of a young program that are copied besides the kilobyte of each turn.
+  /// Number of bytes of a program that are compared as parts larger than a window.
   static constexpr std::uint32_t kAllowance = 256 * 1024;
   static constexpr std::uint32_t kWindow = 1024;
 

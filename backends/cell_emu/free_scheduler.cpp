@@ -117,7 +117,8 @@ bool FreeScheduler::wait(const Ready& ready, std::optional<std::chrono::millisec
     idle_timeouts_ = 0;
     return true;
   }
-  // A PPE that waits with timeouts may send something in between, but hardly after two in vain.
+  // A PPE may send something between two waits with timeouts. Once two of its waits in a row have ended with
+  // all SPEs stalled, this is no longer likely.
   idle_timeouts_ = all_stalled() ? idle_timeouts_ + 1 : 0;
   if (timeout && idle_timeouts_ < 2) return false;
   lock.unlock();

@@ -120,7 +120,8 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
 
 // --- loads and stores of machine code ---
 
-/// Marks a flight for loads and stores, except a proxy command, of which the SPU cannot know.
+/// Marks the quadwords of a flight, so that stores into them are checked, and loads too if the flight writes
+/// them. Leaves out proxy commands, of which the SPU cannot know.
 void Mfc::watch(const Flight& flight) {
   if (watch_ == nullptr || flight.proxy) return;
   const std::uint32_t lsa = flight.transfer.lsa;

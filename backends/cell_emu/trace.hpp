@@ -17,8 +17,8 @@
 
 namespace celltrace::cell_emu {
 
-/// Writes events as they come, but messages at the end, sorted by time: a word that leaves by DMA may
-/// do so after words that its SPE reads later. Times are virtual cycles; the intervals of compute() and
+/// Writes messages at the end, sorted by time, and all other events as they come: a word that is sent by DMA
+/// may leave after words that its SPE reads later. Times are virtual cycles; the intervals of compute() and
 /// wait() of one SPE must not overlap. Errors: the stream's own state. Thread safety: one thread at a time.
 class Trace {
 public:
@@ -62,7 +62,7 @@ private:
   /// One end of an arrow.
   struct Message {
     std::uint64_t at; ///< nanoseconds
-    char phase;       ///< of the arrow: s at its start, f at its end
+    char phase;       ///< s at the start of the arrow, f at its end
     std::string name;
     std::uint64_t arrow;
     std::uint32_t value; ///< the word that is sent
@@ -89,8 +89,8 @@ private:
   std::uint64_t clock_hz_;
   TraceEvents events_;
   std::uint64_t arrows_ = 0;
-  std::vector<Interval> computing_;            ///< by SPE, in cycles: the interval that may still grow
-  std::vector<std::vector<Message>> messages_; ///< by SPE, the PPE's last
+  std::vector<Interval> computing_; ///< index: SPE; interval of compute(), in cycles, that may still grow
+  std::vector<std::vector<Message>> messages_; ///< index: SPE; messages of the PPE come last
 };
 
 } // namespace celltrace::cell_emu

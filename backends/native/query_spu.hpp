@@ -6,7 +6,7 @@
 
 namespace celltrace::native {
 
-/// A Spu without other SPEs, channels and local store to allocate from. `Simd` is a HostSimd.
+/// A Spu that has no other SPEs, no channels, and no local store to allocate from. `Simd` is a HostSimd.
 template <class Simd> class QuerySpu : public SpuBase<QuerySpu<Simd>> {
 public:
   static constexpr bool direct_memory = true;

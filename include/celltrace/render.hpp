@@ -248,7 +248,8 @@ struct CELLTRACE_EXPORT RenderStatistics {
 
   Cache list_cache, object_cache, material_cache, light_cache; ///< all 0 where memory is direct
   std::uint64_t dma_commands = 0, dma_list_elements = 0, dma_bytes_read = 0, dma_bytes_written = 0;
-  /// The part of dma_bytes_written for pixels as they are traced, without those that antialiasing adds.
+  /// The part of dma_bytes_written that the trace of the picture, or of the grid of antialiasing, writes as
+  /// pixels. The bytes that antialiasing writes afterwards are not in it.
   std::uint64_t pixel_bytes = 0;
   /// For a picture in blocks: squared differences from the pixels that were encoded, summed over red, green
   /// and blue.

@@ -66,7 +66,8 @@ public:
 private:
   // ---- Which values are needed ----
 
-  /// Returns the value whose registers hold this value: the call if it is a component of one.
+  /// Returns the value in whose registers `value` is: for a component the call that it belongs to, otherwise
+  /// `value` itself.
   FunctionValue holder(FunctionValue value) const {
     const FunctionNode& node = graph_.nodes[value];
     return node.kind == Kind::component ? node.a : value;

@@ -17,8 +17,8 @@ struct NodeLeaves {
   uint32_t node, leaves; ///< `node` is an offset
 };
 
-/// Ranks four children by distance: a child's place is behind those of children that are farther, and of
-/// children at the same distance behind those of the earlier ones.
+/// Finds the places of four children in descending order of distance. Of children at the same distance, the
+/// earlier one comes first.
 [[gnu::always_inline]] inline void rank_descending(const float (&key)[4], uint32_t (&place)[4]) {
   for (uint32_t i = 0; i < 4; ++i)
     place[i] = i;

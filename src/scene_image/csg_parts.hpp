@@ -23,9 +23,9 @@ struct CsgPart {
   std::uint32_t condition; ///< index in CsgParts::conditions, or kNoCondition
   kernel::Aabb bounds;     ///< of the part of the surface that may exist
   bool is_bounded;         ///< false if `bounds` are infinite
-  std::size_t whole = 0;   ///< index in the scene of the object that it belongs to
+  std::size_t whole = 0;   ///< index in the scene of the object that the part belongs to
 
-  /// Returns whether its record refers to the CSG: parts of plain unions are ordinary objects.
+  /// Returns whether the part's record refers to the CSG; parts of plain unions are ordinary objects.
   bool is_limited() const;
 };
 constexpr std::uint32_t kNoCondition = 0xFFFFFFFF;
@@ -50,7 +50,7 @@ struct CsgParts {
   std::vector<kernel::CsgStep> steps;
   /// `extra` of a mesh is an index in meshes.grids(), or in crossed_meshes.records().
   std::vector<kernel::SolidRecord> solids;
-  std::vector<SolidBoundary> boundaries; ///< of solids, whose records are written for the eye
+  std::vector<SolidBoundary> boundaries; ///< solids whose records depend on the eye
   MeshInsides meshes;
   CrossedMeshes crossed_meshes;
 

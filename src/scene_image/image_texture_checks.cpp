@@ -139,13 +139,13 @@ private:
     return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
            Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
   }
-  /// Returns whether a pattern, or a pigment that it is, needs more than a point; earlier patterns have their
-  /// result already.
+  /// Returns whether a pattern, or the pigment that it consists of, needs more than a point. Earlier patterns
+  /// must have been checked.
   bool pattern_asks(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
     return asks_by_itself(r) || (is_pigment(r) && pattern_asks_[patterns_.find(r.table)]);
   }
-  /// Returns how deep the maps nest in the pigment that a pattern is; 0 if it is no pigment.
+  /// Returns how deep maps nest in a pattern that is a pigment; 0 for any other pattern.
   std::uint32_t depth_inside(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
     return is_pigment(r) ? pigment_depth_[patterns_.find(r.table)] : 0;
@@ -260,8 +260,8 @@ private:
     return (r.flags & material_flag::mapped) != 0 && is_relative(patterns_.find(r.pattern));
   }
 
-  /// Returns true if flags say where patterns need more than points: the flags of objects, and those of the
-  /// scene for shadows of such objects that let light through.
+  /// Returns true if every object whose patterns need more than points is flagged, and the scene's flags for
+  /// shadow rays say that there are such objects and whether some of them let light through.
   bool surfaces_are_told_of() const {
     const auto* objects =
         reinterpret_cast<const ObjectRecord*>(base_ + h_.object_offset) - h_.unbounded_count;
@@ -287,7 +287,7 @@ private:
           light_way::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_way::stepwise});
       if (!has(object_flag::by_surface) || (h_.light_ways & ways) != ways) return false;
     }
-    // Triangles of instances have no such flags at all.
+    // Triangles of instances cannot be flagged: their patterns may need nothing but points.
     const auto is_plain = [&](std::uint32_t offset) {
       const std::uint32_t material = materials_.find(offset);
       return material == materials_.count || !material_asks_[material];

@@ -162,8 +162,8 @@ void mpya(State& state, const Instruction& i) {
 }
 
 void clz(State& state, const Instruction& i) {
-  // Counts in 64 bits, the lower half of which ends the count at 32: without POWER's vectors, GCC 12 counts
-  // the zeros of two words that lie in one register as those of one number.
+  // GCC 12 for POWER without vectors keeps two words in one register and counts their zeros as those of one
+  // number. Words are therefore widened to 64 bits, with a bit behind the word that ends the count at 32.
   of_ra<U32>(state, i, [](U32 x) { return std::countl_zero(std::uint64_t{x} << 32 | 0x80000000u); });
 }
 void cntb(State& state, const Instruction& i) {

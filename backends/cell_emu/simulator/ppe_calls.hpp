@@ -32,20 +32,20 @@ struct PpeCallsConfig {
   /// Folders of the host whose files may be read and written, with everything below them. Relative names
   /// start at the first one. Without folders, every file is refused with EACCES.
   std::vector<std::filesystem::path> folders;
-  /// At once, besides the three standard ones; the limit of open folders is the same.
+  /// Limit on files that are open at once, besides the three standard ones, and on open folders.
   std::size_t max_open_files = 64;
 
-  /// Main memory for malloc_ea() and related calls, all blocks together.
+  /// Limit on the main memory that malloc_ea() and related calls allocate in all.
   std::uint64_t max_ea_bytes = 256 << 20;
 
   /// Returns the memory at an effective address outside of malloc_ea()'s blocks, such as in a local store, if
   /// a program may use all of [ea, ea + bytes), else null. Empty: none may be used.
   std::function<std::uint8_t*(std::uint64_t ea, std::uint64_t bytes)> effective_memory;
 
-  /// Returns the time since 1970. Runs repeat if it is virtual. Empty: it stands still at the first second of
-  /// 2007.
+  /// Returns the time since 1970; with a virtual time, runs can be repeated. Empty: the time stands still at
+  /// the first second of 2007.
   std::function<std::chrono::microseconds()> clock;
-  /// True for time_t of 32 bits, as in programs of IBM's SDK; the present newlib has 64.
+  /// True: time_t has 32 bits, as in programs of IBM's SDK. False: 64 bits, as in the present newlib.
   bool time_has_32_bits = false;
 };
 

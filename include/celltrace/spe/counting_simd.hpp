@@ -156,9 +156,9 @@ template <class Uncounted> struct CountingSimd {
     }
   };
 
-  /// Counts, for each lane and row, a load and a rotation for its start, the load of its factors, and for
-  /// each channel another load and a shuffle, besides the sums. The factors and the sums are transposed by
-  /// shuffles.
+  /// Counts the sums; for each lane and row, a load and a rotation that find the start and a load of the
+  /// factors; for each of their channels, another load and a shuffle; and the shuffles that transpose the
+  /// factors and the sums.
   template <std::uint32_t kRows, std::uint32_t kChannels, class StartsOf, class FactorsOf>
   static void sum_rows(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                        F (&sums)[kChannels]) {

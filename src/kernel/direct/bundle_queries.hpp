@@ -13,12 +13,12 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// Answers a query of shadow rays whose light is a KeptCrossings: keeps the surfaces that they cross with
-  /// the transmittance or, if `lists`, without it. The light of lanes for which there is no room becomes 0.
+  /// Answers a query of shadow rays whose light is a KeptCrossings: keeps the surfaces that the rays cross,
+  /// without their transmittance if `lists`. The light of lanes for which there is no room becomes 0.
   void keep_crossings(RayQuery& query, bool lists) {
     keep(lists, [&] { traversal().intersect_packet(query); });
   }
-  /// Keeps the crossings of several queries toward one light. May change their order.
+  /// Keeps the crossings of several queries toward one light. May change the order of the queries.
   void keep_crossings(RayQuery* queries, uint32_t count, const LightRecord& light, bool lists) {
     keep(lists, [&] { traversal().intersect(queries, count, light); });
   }
@@ -56,7 +56,8 @@ public:
   }
 
   /// Finds the closest hits of an application's packets with the BVH, up to the distances in `hits`, which
-  /// have no object yet. Each query has some lanes. `bundle` consists of these packets, and was entered last.
+  /// have no object yet. No query may be without lanes. enter() must have been called last for `bundle`,
+  /// which consists of these packets.
   void find_closest_within(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
     traversal().intersect_listed(queries, count);
     if (!lists_all()) traversal().bvh_.intersect_from_origin(queries, count, bundle);
@@ -79,7 +80,8 @@ public:
     traversal().intersect(queries, count);
   }
 
-  /// Starts the traversal for a bundle of rays from one point. False: certainly none of them hits anything.
+  /// Starts the traversal for a bundle of rays from one point. Returns false if certainly no ray hits
+  /// anything.
   template <class Bundle> bool enter(const Bundle& bundle) {
     if constexpr (Traversal::kHasBvh)
       return !traversal().uses_bvh() || bundle.packets == 0 ||

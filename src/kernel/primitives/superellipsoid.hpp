@@ -106,7 +106,7 @@ private:
     }
     static F product(const F& x, int n) {
       if (n == 1) return x;
-      // Smaller numbers do not matter in a sum of about 1, and their products may be denormal.
+      // Products of still smaller numbers may be denormal, and do not matter in a sum of about 1.
       F factor = S::max(x, F(n < 4 ? 1e-12f : 0.0055f)), all(1.0f);
       for (;; factor = factor * factor) {
         if ((n & 1) != 0) all = all * factor;

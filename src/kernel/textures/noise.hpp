@@ -18,7 +18,7 @@ template <class S> struct LatticeCells {
   using I = typename S::I;
   /// Numbers of the lattice planes below, for each axis.
   alignas(64) int32_t lattice[3][S::kLanes];
-  F from[3];   ///< distance from them, in 0..1
+  F from[3];   ///< distance from the lattice planes below, in 0..1
   F weight[3]; ///< weight of the lattice planes above
 
   explicit LatticeCells(const V3<S>& p) {
@@ -45,8 +45,7 @@ template <class S> struct LatticeCells {
       starts[2 * i + 1] = start(column ^ above(plane));
     }
   }
-  /// Finds these positions in two steps, the first for all lanes at once; the second is start() of the
-  /// indices.
+  /// Finds indices for all lanes at once. start() of an index is the position that operator() finds.
   template <class LookUp>
   [[gnu::always_inline]] void find_indices(const LookUp& look_up, int32_t (&indices)[8][S::kLanes]) const {
     const auto index_of = [this](uint32_t lane, uint32_t corner) __attribute__((always_inline)) {
@@ -74,10 +73,10 @@ private:
   }
 };
 
-/// True if local store is short, where rare code processes fewer lanes than a packet has: one copy of the
-/// code then serves all callers.
+/// True where local store is short and one copy of the code therefore serves all callers. There, rare code
+/// processes fewer lanes than a packet has.
 template <class S> constexpr bool kOneCopy = S::kLanes < kSimdLanes;
-/// Channels of noise for values: one copy also serves values and vectors.
+/// Number of channels of noise that are computed for a value: three if one copy serves values and vectors.
 template <class S> constexpr uint32_t kValueChannels = kOneCopy<S> ? 3 : 1;
 
 /// Computes noise in `kChannels` coordinates, about 0.
