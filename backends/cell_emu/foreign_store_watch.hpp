@@ -4,8 +4,8 @@
 // uses is copied when a turn ends, and compared when its next turn or the PPE's begins. Nothing is compared
 // if DMA has written in between.
 //
-// A copy of the whole part would take longer than the turn. After the first 256 KB, each turn therefore
-// copies one kilobyte, the next one each time, unless the program uses no more than that.
+// A copy of the whole part would take longer than the turn. Once 256 KB have been compared, each turn
+// therefore copies one kilobyte, the next one each time, unless the program uses no more than that.
 #pragma once
 
 #include "celltrace/spe/types.hpp"

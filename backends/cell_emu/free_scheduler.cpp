@@ -18,7 +18,8 @@ void FreeScheduler::stalled(unsigned) {
 }
 
 void FreeScheduler::unstalled(unsigned) {
-  // An SPE that ends another's stall is not stalled itself, so the count cannot have been full by mistake.
+  // The count of stalled SPEs may lag, but cannot have shown a deadlock by mistake: an SPE that ends the
+  // stall of another one is not stalled itself.
   const std::lock_guard lock(mutex_);
   --stalled_;
   idle_timeouts_ = 0;

@@ -18,9 +18,9 @@ public:
   void write_mask(std::uint32_t mask) { mask_ = mask; }
   void request(TagUpdate update) { request_ = update; }
 
-  /// Judges the waiting request; `outstanding` are the tags with commands in the queue, `last_command` is the
-  /// number of the newest command, which the answer covers. Returns true if the count of channel 24 rose from
-  /// 0 to 1: that raises the tag status event, whatever was requested.
+  /// Judges the waiting request. `outstanding` has the tags with commands in the queue. `last_command` is the
+  /// number of the newest command that the answer covers. Returns true if the count of channel 24 rose from 0
+  /// to 1: the tag status event is then raised, whatever was requested.
   bool judge(std::uint32_t outstanding, std::uint64_t last_command) {
     if (!request_) return false;
     const std::uint32_t completed = mask_ & ~outstanding;

@@ -33,7 +33,7 @@ struct RayHit {
 
 /// The surface at a point that a ray hits.
 struct RaySurface {
-  float point[3];  ///< on the object, to its own precision
+  float point[3];  ///< on the object, as precisely as the object's record allows
   float normal[3]; ///< of length 1, on the side that the ray comes from; interpolated on smooth triangles
 };
 

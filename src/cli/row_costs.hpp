@@ -21,12 +21,13 @@ public:
   /// Returns the share of all rows above `row`, which need not be an integer: 0 to 1.
   double above(double row) const;
   double of(int top, int bottom) const { return above(bottom) - above(top); }
-  /// Returns how many rows from `top` on have this share.
+  /// Returns how many rows from `top` on have this share together.
   double rows_with(double share, int top) const;
 
 private:
   double height_;
-  std::vector<double> sums_; ///< of all parts before each one, and of all parts
+  std::vector<double>
+      sums_; ///< sums of the costs of all parts before each part; the last sum is that of all parts
 };
 
 /// Returns the number of rows in the rendered region.
@@ -34,8 +35,8 @@ int height_of(const RenderOptions& options);
 
 /// Measures the costs with a picture of the same scene that has some thousandths of the pixels of `options`,
 /// with which the renderer continues afterwards. Pictures that are small, or rendered by an emulated machine,
-/// are not measured; their rows cost the same, and so they do if `progress` stops the measurement, or it
-/// takes longer than `longest`. `preparation` gets the first picture's statistics of preparing the scene,
+/// are not measured: their rows cost the same. Rows also cost the same if `progress` stops the measurement or
+/// it takes longer than `longest`. `preparation` gets the first picture's statistics of preparing the scene,
 /// which later pictures no longer have.
 RowCosts measured_costs(Renderer& renderer, const RenderOptions& options, const Progress& progress,
                         std::optional<RenderStatistics>& preparation,

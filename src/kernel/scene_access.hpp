@@ -131,7 +131,7 @@ public:
       cache_.hint(ref.child + leaf_word::step_bytes(ref.leaf));
   }
 
-  /// Returns the cache of what patterns found out about points before.
+  /// Returns the cache of results that patterns have computed for points.
   typename Strategy<Spu>::template KnownPatterns<Spu>& known_patterns() { return known_patterns_; }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }

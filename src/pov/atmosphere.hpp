@@ -10,24 +10,24 @@ namespace celltrace::pov {
 void check(Session& session, const SkySphereDefinition& sky, const Location& where);
 void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
                const Location& where);
-/// Moves the pigments that it has got.
+/// Transforms the pigments that a sky_sphere has so far.
 void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where);
 
-/// Whether a fog of this type is one that lies on the ground.
+/// Returns whether fogs of this type lie on the ground.
 bool is_ground_fog(Session& session, double type, const Location& where);
-/// A mere number is the distance.
+/// Sets a fog's distance if the value is a single number, otherwise its colour.
 void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, const Location& where);
-/// As in POV-Ray, only the direction of its heights turns.
+/// Turns the fog's up direction; as in POV-Ray, nothing else of a fog is transformed.
 void transform(Fog& fog, const Transform& next);
-/// 0 if it has no direction.
+/// Sets the up direction to `up`, made a unit vector, or to 0 if `up` has no length.
 void set_up(Fog& fog, const Vec3& up);
 /// Makes a complete fog black where POV-Ray divides by zero for it.
 void settle(Session& session, Fog& fog, const Location& where);
 
-/// With POV-Ray's defaults: no direction, as far away as can be, and an arc without an end.
+/// Returns a rainbow with POV-Ray's defaults: no direction, the greatest distance, and an arc without an end.
 std::shared_ptr<RainbowDefinition> new_rainbow();
 void set_colours(Rainbow& rainbow, const PigmentMap& map);
-/// Fails unless a rainbow has all that it needs.
+/// Fails if the direction, `up` or the angles of a rainbow are unusable.
 void check(Session& session, const Rainbow& rainbow, const Location& where);
 
 } // namespace celltrace::pov

@@ -11,7 +11,7 @@ namespace {
 
 using Operation = Csg::Operation;
 
-/// A texture of parts, for points in one of `solids`, or for all points.
+/// A texture of parts that counts at points in one of `solids`, or at all points.
 struct CutTexture {
   TexturePtr texture;
   Transform transform; ///< from the texture's space to that of the CSG
@@ -162,7 +162,8 @@ TexturePtr all_of(Session& session, Textures next, Textures end, const std::vect
   return by_place(session, next->solids, inside, all_of(session, next + 1, end, chosen, where), where);
 }
 
-/// Returns the texture of points that are in at least one of [begin, end): one that contains the point.
+/// Returns a texture for points that are in at least one of [begin, end). Each point has one texture, of a
+/// shape that contains the point.
 TexturePtr one_of(Session& session, Textures begin, Textures end, const Location& where) {
   if (end - begin == 1) return transformed(begin->texture, begin->transform);
   const Textures middle = begin + (end - begin) / 2;

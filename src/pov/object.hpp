@@ -21,10 +21,10 @@ namespace celltrace::pov {
 struct ObjectDefinition;
 using ObjectPtr = std::shared_ptr<const ObjectDefinition>;
 
-/// A shape as in the Scene, but never a mesh or CSG: those become the Scene's when they are placed.
+/// A shape of the Scene, but never a mesh or CSG: these become shapes of the Scene when they are placed.
 using Shape = decltype(Object::shape);
 
-/// Returns whether an operation contains the points of each of its parts.
+/// Returns whether the result of an operation contains all points of each part.
 inline bool joins(Csg::Operation operation) {
   return operation == Csg::Operation::union_ || operation == Csg::Operation::merge;
 }
@@ -34,7 +34,7 @@ struct Compound {
   Csg::Operation operation = Csg::Operation::union_;
   std::vector<ObjectPtr> parts;
   TexturePtr cut_texture; ///< default texture of parts, in the CSG's own space; null: the ordinary default
-  bool is_light_group = false; ///< light sources among its parts shine on the other parts alone
+  bool is_light_group = false; ///< true: light sources among its parts shine on the other parts alone
   bool global_lights = false;  ///< for a light group: all other lights shine on it, too
 };
 
@@ -88,11 +88,11 @@ struct ObjectDefinition {
   Location where;        ///< place in the text where it is written, or referred to within other objects
   NameId name = kNoName; ///< name that it was declared with, if an application needs it (origins.hpp)
   Transform transform;
-  TexturePtr inside;                 ///< of its inside; null: as outside, or the parent's
+  TexturePtr inside;                 ///< texture of its inside; null: that of its outside, or the parent's
   TexturePtr texture;                ///< null: the parent's, then the default
   RareTransform texture_transform;   ///< transformations since the object got its texture
-  bool uv_mapping = false;           ///< textures are on its surface coordinates,
-  RareTransform transform_before_uv; ///< and only earlier transformations move them
+  bool uv_mapping = false;           ///< true: textures are on its surface coordinates
+  RareTransform transform_before_uv; ///< transformations before `uv_mapping`, which alone move textures
   InteriorPtr interior;
   bool reaches_out_of_bounds = false; ///< reaches out of its `bounded_by`
   bool no_shadow = false;
@@ -104,7 +104,7 @@ struct ObjectDefinition {
   std::vector<Limit> clipped_by;
   std::vector<Limit> bounded_by; ///< no effect, until something is clipped by it
   UnsupportedPtr unsupported;
-  UnsupportedPtr missing;        ///< instead of a shape: one that this program lacks
+  UnsupportedPtr missing;        ///< stands for a shape that this program lacks
   bool is_photon_target = false; ///< never set for lights
   /// The relation of an object to the light source that is being read.
   enum class Role { none, look, projector };

@@ -8,7 +8,7 @@ namespace celltrace::pov {
 
 namespace {
 
-constexpr int kMostType = 8; // of what is counted of a fractal
+constexpr int kMostType = 8; // largest number of `exterior` and `interior`
 
 } // namespace
 
@@ -38,7 +38,8 @@ PatternChange option(int number, const Quantity& value, const Location& where) {
 
 namespace {
 
-/// `constant`: Julia's, or null for the Mandelbrot set. `magnet`: 0, 1 or 2.
+/// Returns a change to a fractal: to the Mandelbrot set if `constant` is null, otherwise to a Julia set with
+/// it. `magnet` is 0, 1 or 2.
 PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
                       const Location& where) {
   pattern::Fractal fractal;

@@ -12,8 +12,8 @@
 
 namespace celltrace {
 
-/// The plans of a picture, which are kept, with the costs that they have measured, as long as the rows are
-/// the same.
+/// The plans of a picture. They are kept, with the costs that were measured, as long as the rows are the
+/// same.
 class FramePlan {
 public:
   /// Refers to all arguments, which must outlive this object; each call uses `options` as they are then.
@@ -21,8 +21,8 @@ public:
             PictureMemory& picture)
       : options_(options), machine_(machine), frame_(frame), picture_(picture) {}
 
-  /// Makes plans for these rows, with which the picture's memory will begin. Points of the grid that earlier
-  /// rows have left in memory are not traced again.
+  /// Makes plans for these rows, and makes the picture's memory begin with them. Points of the grid that are
+  /// in memory from earlier rows are not traced again.
   void plan(const RowRange& rows);
   /// Makes the next call build all plans anew, since pictures have another size or kind.
   void forget() { planned_ = {0, 0}; }
@@ -30,7 +30,8 @@ public:
   /// Records that all points of the grid in these rows are in memory, until forget_points().
   void keep_points(const RowRange& rows) { traced_ = grid_rows_of(rows); }
   void forget_points() { traced_ = {0, 0}; }
-  /// Returns how many lines of the grid the plan leaves out, as they came with earlier rows; in pixels.
+  /// Returns how many lines of the grid, in pixels, the plan leaves out because earlier rows have traced
+  /// them.
   std::uint32_t kept_lines() const;
 
   WorkPlan& grid() { return *grid_plan_; }

@@ -318,7 +318,7 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
         !normal.slopes.empty() &&
         !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask);
     const std::uint32_t first = has_slopes ? add_slopes(normal.slopes) : 0;
-    // Patterns in the pattern are evaluated at points of its own space.
+    // Nested patterns are evaluated at points of this pattern's space.
     const Known pattern =
         add_pattern(normal.pattern, outer, {}, false, has_slopes ? normal.slopes.size() : 0);
     r.pattern = pattern.index;

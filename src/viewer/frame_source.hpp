@@ -31,7 +31,7 @@ struct Wanted {
   /// Number that grows when options other than size, antialiasing and work_map change, which need another
   /// machine.
   std::uint64_t machine = 0;
-  std::uint64_t number = 0; ///< number of the input that asked for it; grows with each input
+  std::uint64_t number = 0; ///< number of the input that asked for the picture; grows with each input
 };
 
 /// A picture to show.
@@ -93,7 +93,8 @@ private:
   Picked look_at(const Place& place);
   void show(const Wanted& wanted);
   void take_machine(const Wanted& wanted);
-  /// Renders a picture. Returns false if it was cancelled, or if nothing better is to come.
+  /// Renders a picture. Returns false if it was cancelled, or if something else is wanted by
+  /// now.
   bool render(const Wanted& wanted, int scale, bool is_first, bool antialiased);
   bool goes_on(const Wanted& wanted, bool is_first, Clock::time_point start);
   void grow(const PictureBlock& block);
@@ -115,7 +116,7 @@ private:
   Camera camera_; ///< camera of the last picture
   std::uint64_t number_ = 0;
   Pace pace_;
-  /// The picture that grows while it is rendered; none if that is quick.
+  /// The picture that is shown while it is being rendered; none if rendering is quick.
   std::optional<Frame> growing_;
   Clock::time_point grown_;
   RenderStatistics statistics_; ///< statistics of the last complete frame

@@ -60,7 +60,7 @@ template <class S> struct LaneAabb {
     min = S::min(min, point);
     max = S::max(max, point);
   }
-  /// Returns half the surface area, as only ratios matter.
+  /// Returns half the surface area: only ratios of areas matter.
   float area() const {
     alignas(16) float e[4];
     (max - min).store(e);
@@ -87,10 +87,10 @@ template <class S> LaneAabb<S> box_of(const ObjectRecord& object, const void* im
           four<S>(box.max[0], box.max[1], box.max[2], 0.0f)};
 }
 
-/// Copies by the vectors in which bounds are loaded and stored, for the reason given at LaneAabb.
+/// Copies a reference as two vectors, for the reason given at LaneAabb.
 template <class S> void copy(const Reference& from, Reference& to) {
   const auto low = S::F4::load(from.min), high = S::F4::load(from.max);
-  low.store(to.min); // includes `value`; the next one includes `weight`
+  low.store(to.min); // includes `value`; `high` includes `weight`
   high.store(to.max);
 }
 

@@ -1,9 +1,9 @@
 // Kinds of work for which lanes of a bundle's ray trees wait: rays to trace, hits to shade, points to light,
 // and rays without a hit. Kernel dialect, for direct memory.
 //
-// Behind surfaces that mirror or bend rays most packets of a tree have few rays each, of which some end, some
-// go to the sky, and few send on light of a lamp. Lanes of all trees of a bundle wait for each other here.
-// PooledTrees has the bodies.
+// Behind surfaces that mirror or bend rays, most packets of a tree have few rays: some of the rays end, some
+// hit nothing, and few hit points that reflect the light of a lamp. Lanes of all trees of a bundle therefore
+// wait here until they fill packets. PooledTrees has the bodies.
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
@@ -26,8 +26,8 @@ struct PooledRays : WorkKind {
     const WordLanes& pixels;
   };
   static constexpr uint32_t kKeys = 8;
-  /// Capacity in packets: those that fill up, some for each packet of a bundle, and the full ones that wait
-  /// on the way down the trees.
+  /// Capacity in packets: packets that are being filled, some for each packet of a bundle, and full ones that
+  /// wait on the way down the trees.
   static constexpr uint32_t kPackets = 58;
   static constexpr bool kMixesKeys = true;
 
@@ -77,7 +77,7 @@ struct EndingHits : WorkKind {
   }
 };
 
-/// Points that send on a light if nothing occludes it, by the light's number.
+/// Points that reflect the light of a lamp if nothing occludes it. The key is the light's number.
 struct ShadowPoints : WorkKind {
   struct Source {
     const VectorLanes& point;
@@ -86,11 +86,11 @@ struct ShadowPoints : WorkKind {
     const WordLanes& pixels;
     const RayInteriors* interiors; ///< null: not wanted
   };
-  static constexpr uint32_t kKeys = 8, kPackets = kKeys; ///< number of lights of a frame that have a queue
+  static constexpr uint32_t kKeys = 8, kPackets = kKeys; ///< lights of a frame with a queue
 
   VectorLanes point;
   WordLanes object;       ///< object that each point lies on
-  VectorLanes light;      ///< light that the points send on
+  VectorLanes light;      ///< light that the points reflect if they are not occluded
   WordLanes pixels;       ///< by lane, pixel of the bundle
   RayInteriors interiors; ///< interiors of the rays that have hit the points
 
@@ -109,7 +109,7 @@ struct ShadowPoints : WorkKind {
   }
 };
 
-/// Rays without a hit if the sky has patterns, which take as long for one lane as for all.
+/// Rays without a hit, if the sky has patterns: a pattern takes as long for one lane as for all.
 struct SkyRays : WorkKind {
   using Source = PooledRays::Source;
 
@@ -134,7 +134,8 @@ struct RayPooling {
   WavefrontQueue<PooledRays>* queue = nullptr;
   WordLanes pixels; ///< by lane, pixel of the bundle for the rays that are being traced
 
-  /// Puts rays into the queue. False: they stay, as there is no queue or no room, or they are not few.
+  /// Puts rays into the queue. Returns false, and leaves the rays, if there is no queue or no room, or if the
+  /// rays are not few.
   bool takes(const RayNode& node) {
     if (queue == nullptr || !had_better_wait(node.lanes) || !queue->has_room()) return false;
     for_each_lane(node.lanes, [&](uint32_t lane) {

@@ -77,7 +77,7 @@ public:
   /// Finds the values of the points that have been added.
   [[gnu::noinline]] void run() {
     if (pattern_ == nullptr) return;
-    if (count_ > kSimdLanes) rounds_ = tuning::kLeastRoundsOfFractals; // the next packets take as long
+    if (count_ > kSimdLanes) rounds_ = tuning::kLeastRoundsOfFractals; // as a guess for the next packets
     const SquareIteration iteration{*pattern_};
     const F most(static_cast<float>(iteration.most())), inner(iteration.inner());
     Stream streams[kStreams];

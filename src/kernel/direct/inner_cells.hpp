@@ -16,11 +16,11 @@ template <class S> class InnerCells {
   using Wanted = Crackle::Wanted;
 
 public:
-  /// Distance, in cells, of the cells that are processed here.
+  /// Distance, in cells, up to which cells around a point are inner cells.
   static constexpr int32_t kTaken = 1;
 
-  /// Returns true if the nearest points of all lanes are in their inner cells. Otherwise `nearest` may
-  /// contain points of these.
+  /// Returns true if the nearest points of all lanes are in the inner cells of these lanes. If it returns
+  /// false, `nearest` may contain points of inner cells.
   template <class Spu>
   [[gnu::always_inline]] static bool suffice(Features<Spu>& features, const V3<S>& p, float metric,
                                              const Wanted& wanted, Nearest& nearest) {
@@ -70,7 +70,7 @@ private:
     }
   }
 
-  /// Processes the points of all lanes at once; false: they are in few cells.
+  /// Processes the points of all lanes at once. Returns false if the points are in few cells.
   template <class Spu>
   [[gnu::always_inline]] static bool take_inner_of_lanes(Features<Spu>& features, const V3<S>& p,
                                                          float metric, const Wanted& wanted,

@@ -5,7 +5,7 @@
 
 namespace celltrace::kernel {
 
-/// The coherent packets of a bundle, like PinholeBundle for rays that are not a camera's.
+/// The coherent packets of a bundle, as PinholeBundle, but for any rays from one point.
 template <class S> class OriginBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
@@ -14,8 +14,8 @@ public:
 
   F shortening; ///< largest length of unit directions on the major axis
 
-  /// Computes the bounds of the queries' rays. Each query has some lanes; directions may have any length. The
-  /// bundle has no packets if the rays do not start at one point or only one packet is coherent.
+  /// Computes the bounds of the queries' rays. No query may be without lanes; directions may have any length.
+  /// The bundle has no packets if the rays do not start at one point or only one packet is coherent.
   OriginBundle(const RayQuery* queries, uint32_t count) {
     const RayPacket& rays = *queries[0].rays;
     const auto lane = static_cast<uint32_t>(__builtin_ctz(queries[0].lanes));
@@ -56,7 +56,7 @@ private:
     F slopes[2][kSimdLanes];
     uint32_t aside = 0; // packets with rays that are not along the major axis
     for (uint32_t packet = 0; packet < kSimdLanes; ++packet) {
-      // Lanes without a packet get the slopes of the first one.
+      // Lanes without a packet get the slopes of the first packet.
       const RayQuery& query = queries[packet < count ? packet : 0];
       const auto active = S::M::from_bits(query.lanes);
       const auto any_lane = static_cast<uint32_t>(__builtin_ctz(query.lanes));
@@ -86,8 +86,8 @@ private:
     return ((1u << count) - 1) & ~others;
   }
 
-  /// Finds the least and the greatest lane of each of sixteen packets. All packets are reduced at once: a
-  /// processor would wait for each step of the reduction of one.
+  /// Finds the least and the greatest lane of each of sixteen packets. All packets are reduced at once,
+  /// because in the reduction of one packet each step waits for the one before.
   static void find_extremes(const F (&values)[kSimdLanes], FloatLanes& low, FloatLanes& high) {
     using F4 = typename S::F4;
     for (uint32_t first = 0; first < kSimdLanes; first += 4) {
@@ -153,7 +153,7 @@ private:
   }
 
   Interval slopes_[2];            ///< range of all packets, on the two minor axes
-  FloatLanes lows_[2], highs_[2]; ///< by packet
+  FloatLanes lows_[2], highs_[2]; ///< index: packet; bounds of its slopes
 };
 
 } // namespace celltrace::kernel

@@ -15,8 +15,8 @@ namespace celltrace::kernel {
 struct RayQueryFunctions {
   size_t state_bytes;     ///< size of a state's memory
   size_t state_alignment; ///< alignment of its address
-  /// Initialises a state. `frame`, with its image and BVH, `bvh` and `owners` must not change while the state
-  /// is used. `owners` is RayHit::object by record, of unbounded objects and then all others.
+  /// Initialises a state. `frame`, its image and BVH, `bvh` and `owners` must not change while the state is
+  /// used. `owners` has a RayHit::object for each record: first for unbounded objects, then for all others.
   void (*open)(void* state, const FrameBlock& frame, const QueryBvh& bvh, const uint32_t* owners);
   void (*closest_hit)(void* state, const Ray& ray, RayHit& hit);
   bool (*occluded)(void* state, const Ray& ray);
@@ -148,8 +148,8 @@ private:
     }
   }
 
-  /// Prefetches rays `begin` to `end`, which need not exist: rays come from main memory while others are
-  /// traced.
+  /// Prefetches rays `begin` to `end`, so that they come from main memory while other rays are traced. The
+  /// rays need not exist.
   static void prefetch(const Ray* rays, uint32_t begin, uint32_t end) {
     constexpr uint32_t kRaysALine = 64 / sizeof(Ray);
     const uintptr_t address = reinterpret_cast<uintptr_t>(rays);
@@ -203,7 +203,7 @@ private:
   }
 
   const FrameBlock& frame_;
-  const uint32_t* owners_; ///< by record
+  const uint32_t* owners_; ///< RayHit::object by record
   uint32_t first_record_;  ///< offset of the first record
   Spu spu_;
   SceneAccess<Spu> scene_;

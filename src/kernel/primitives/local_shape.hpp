@@ -55,8 +55,8 @@ template <class S> struct LocalRays {
   const AskedCrossings* asked = &kAllCrossings;
   uint32_t first = 0; ///< lane of the packet's first ray
 
-  /// Return asked->after of these rays, or 0 if it is null, and asked->limit, or kEveryCrossing if it is
-  /// null.
+  /// Return asked->after and asked->limit of these rays. If the pointers are null, after() is 0 and limit()
+  /// is kEveryCrossing.
   typename S::F after() const { return of_these(asked->after, 0.0f); }
   typename S::F limit() const { return of_these(asked->limit, kEveryCrossing); }
 
@@ -205,8 +205,8 @@ template <class S>
   return {typename S::F(extra.value[0]), typename S::F(extra.value[1]), open ? S::M::all() : S::M::none()};
 }
 
-/// Transforms a packet's rays to the space of an object, whose offset is `self`, for as many lanes as S has,
-/// beginning at lane `first`.
+/// Transforms rays of a packet to the space of an object whose offset is `self`. Takes as many lanes as S
+/// has, from lane `first` on.
 template <class S>
 LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self, uint32_t first = 0,
                         const AskedCrossings& asked = kAllCrossings) {
@@ -215,7 +215,7 @@ LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint3
           lanes_that_start_on<S>(rays, self, first), &asked, first};
 }
 
-/// The interface of a shape in a space of its own to the rest of the kernel.
+/// The interface between the rest of the kernel and a shape in a space of its own.
 template <class Shape> struct LocalPrimitive : ShapeTraits {
   static constexpr bool kIsLocal = true;
 

@@ -10,9 +10,9 @@ namespace celltrace::kernel {
 
 namespace module_meshes {
 
-/// Returns the points that have a triangle above them. Triangles that share an edge or a corner compute its
-/// column by the same operations, and rows and columns are half-open intervals: a point under it counts for
-/// as many triangles as one beside it.
+/// Returns the points that have the triangle above them. A point exactly under an edge or a corner counts for
+/// as many triangles as a point beside it: triangles that share the edge or corner compute its column by the
+/// same operations, and rows and columns are half-open intervals.
 template <class S>
 [[gnu::always_inline]] inline uint32_t under(const MeshTriangleRecord& triangle, const V3<S>& points) {
   using F = typename S::F;

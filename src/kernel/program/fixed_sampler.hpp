@@ -161,8 +161,8 @@ private:
     if (line != 0) encoded_ |= 1u << (line - 1);
   }
 
-  /// Compares all pixels in POV-Ray's order, each with the current colours of those before it: rows from
-  /// above, and each row from the left. A pixel that has to be sampled and is not yet counts with its present
+  /// Compares all pixels with the current colours of the pixels before them, in POV-Ray's order: from the top
+  /// row down, and each row from the left. A pixel that is still to be sampled counts with its present
   /// colour.
   CELLTRACE_ONE_COPY void compare_again() {
     uint32_t over = 0, known_over = 0; // bits of the row above
@@ -201,7 +201,7 @@ private:
     return after_0;
   }
 
-  /// Finds the pixels of a row that differ from the means of their left and upper neighbours, if these are
+  /// Finds the pixels of a row that differ from the mean of their left or upper neighbour, where this mean is
   /// known.
   CELLTRACE_ONE_COPY void compare_with_means(uint32_t y, uint32_t& left, uint32_t& above) {
     if ((encoded_ >> y & 1) == 0) {
@@ -269,7 +269,8 @@ private:
     cursor.pixels = wanted_of_tile(0);
     return cursor;
   }
-  /// Moves the cursor to the next pixel that needs samples unless it is at one. False: there is none.
+  /// Moves the cursor to the next pixel that needs samples, unless it is at one. Returns false if there is
+  /// none.
   bool find_pixel(Cursor& cursor) const {
     while (cursor.pixels == 0) {
       if (cursor.tile == kTiles - 1) return false;
@@ -288,7 +289,7 @@ private:
         grid.down[i] = (static_cast<float>(down) + 0.5f) * step;
       }
   }
-  /// Makes as many samples as there is room for. False: the block is complete.
+  /// Makes as many samples as there is room for. Returns false if the block is complete.
   CELLTRACE_ONE_COPY bool ask_for_pixels() {
     for (;;) {
       const uint32_t count = ask_for_wanted();
@@ -328,7 +329,7 @@ private:
     }
     return count;
   }
-  /// Advances past samples of the cursor's pixel. True: the last one was among them.
+  /// Advances past samples of the cursor's pixel. Returns true if the pixel's last sample was among them.
   bool go_on(Cursor& cursor, uint32_t samples) const {
     cursor.sample += samples;
     if (cursor.sample != samples_of_pixel()) return false;

@@ -99,9 +99,9 @@ CELLTRACE_ONE_COPY void change_special_light(SceneAccess<Spu>& scene, const Surf
   });
 }
 
-/// Changes the factors of mirrored and of totally reflected light in the lanes of `m.special`: that light
-/// passes films as the light of a source in the same direction does. `smooth`: the surfaces' normals before
-/// they were disturbed.
+/// Changes the factors of mirrored and of totally reflected light in the lanes of `m.special`, because films
+/// (irid) change this light like that of a light source in the same direction. `smooth` has the surfaces'
+/// normals before they were disturbed.
 template <class Spu>
 CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
                                               const V3<typename Spu::simd>& smooth,

@@ -36,7 +36,7 @@ public:
     stack_.clear(); // the previous tree may have been broken off
     start(rays, lanes);
   }
-  /// Starts with rays of a pool, each of which continues its own tree.
+  /// Starts with rays of a pool. Each of these rays continues a tree of its own.
   template <class PooledPacket> void begin(const PooledPacket& packet) {
     clear(0);
     accumulators_in_use_ = 1;
@@ -52,7 +52,7 @@ public:
   uint32_t lanes_that_count(const VectorLanes& gathered, uint32_t lanes) const {
     return lanes_above<S>(gathered, lanes, node_.target == 0 ? kLeastLight : 0.0f);
   }
-  /// Advances to the next node() of the tree. False: there is none, and light() is complete.
+  /// Advances to the next node() of the tree. Returns false if there is none: light() is then complete.
   bool advance() {
     while (!stack_.empty()) {
       stack_.pop(node_);
@@ -153,7 +153,7 @@ private:
     counters_.primary += count(lanes);
   }
 
-  /// Puts the child in the stack or in a pool. False: there is no room.
+  /// Puts the child in the stack or in a pool. Returns false if there is no room.
   bool push() {
     const RayNode& child = stack_.next();
     if ((child.target | child.gathers) == 0 && pooling_.takes(child)) return true;
@@ -178,7 +178,8 @@ private:
     add(node_.lanes, raised);
   }
 
-  /// Fills the child with rays from the surfaces whose weight and level allow them; false: there are none.
+  /// Fills the child with the rays from surfaces that weight and level allow. Returns false if there are
+  /// none.
   bool prepare_child(const Surfaces<S>& surfaces, const V3<S>& direction, const V3<S>& throughput,
                      const F& weight, uint32_t one_level_deeper, uint32_t lanes) {
     RayNode& child = stack_.next();
@@ -312,7 +313,7 @@ protected:
   /// Number of accumulators. Reflections with exponents that are nested deeper stay without their exponents.
   static constexpr uint32_t kAccumulators = 8;
   VectorLanes light_[kAccumulators]; ///< index: RayNode::target
-  FloatLanes* clear_ = nullptr;      ///< of the packet; with light_way::alpha
+  FloatLanes* clear_ = nullptr;      ///< transparency of the packet's pixels; with light_way::alpha
   uint32_t accumulators_in_use_ = 1;
   LightRound round_ = {}; ///< current round of shading; secondary rays are spawned in the first
   RayCounters counters_;

@@ -14,10 +14,10 @@ namespace {
 
 /// The SPEs of one pipeline, by program.
 struct Crew {
-  bool generator = false; ///< has an SPE of its own; else a shader generates, too
+  bool generator = false; ///< true: the generator has an SPE of its own; false: a shader also generates
   unsigned shaders = 1;
   unsigned walkers = 0, testers = 0;
-  unsigned searchers = 0; ///< walk and test in one program
+  unsigned searchers = 0; ///< SPEs that walk and test in one program
 };
 
 /// Returns the division of a pipeline's SPEs that is best for most scenes, measured on eight SPEs
@@ -43,7 +43,7 @@ Crew crew_of(Model model, AcceleratorKind accelerator, unsigned spes) {
   return crew;
 }
 
-/// Plans one pipeline of the SPEs from `first` on.
+/// Plans one pipeline on the `spes` SPEs from `first` on.
 void plan_pipeline(Model model, AcceleratorKind accelerator, unsigned first, unsigned spes, unsigned pipeline,
                    StagePlan& plan) {
   const Crew crew = crew_of(model, accelerator, spes);

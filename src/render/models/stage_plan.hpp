@@ -32,8 +32,8 @@ struct StagePlan {
 /// SPEs.
 StagePlan plan_stages(Model model, kernel::AcceleratorKind accelerator, unsigned spes);
 
-/// Returns how many SPEs to ask a machine for (0: as many as it chooses): in the offload model the PPE is one
-/// more than the options say.
+/// Returns how many SPEs a machine needs; 0: as many as it chooses. In the offload model the PPE's part runs
+/// on an SPE more than the options say.
 unsigned machine_spes(const RenderOptions& options);
 
 } // namespace celltrace

@@ -309,7 +309,7 @@ void store_status(const Arguments& arguments, const struct stat& status) {
 CallResult status_of_file(PpeState& state, const Arguments& arguments) {
   const int host = state.files.at(arguments.number(0))->host_descriptor();
   struct stat status = {};
-  if (host < 0) { // a terminal, for all that a program can tell
+  if (host < 0) { // the file looks like a terminal to programs
     status.st_mode = S_IFCHR | 0620;
     status.st_nlink = 1;
     status.st_blksize = 1024;
