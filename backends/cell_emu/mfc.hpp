@@ -291,7 +291,7 @@ private:
   HostMemory host_memory_;
 
   std::uint8_t* watch_ = nullptr;
-  std::vector<Entry> queue_; ///< of the SPU and of the PPE, oldest first
+  std::vector<Entry> queue_; ///< commands of the SPU and of the PPE, oldest first
   unsigned spu_entries_ = 0;
   std::uint64_t commands_ = 0; ///< number of commands issued
   std::uint64_t last_queue_barrier_[2] = {0, 0};

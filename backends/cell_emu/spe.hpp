@@ -34,7 +34,7 @@ struct Spe {
 
   // Written by the program, read when it does not run.
   std::uint32_t exit_code = 0;
-  std::string error; ///< of the last run; empty: none
+  std::string error; ///< error of the last run; empty: none
 };
 
 using Spes = std::vector<std::unique_ptr<Spe>>;

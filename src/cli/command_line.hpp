@@ -31,7 +31,7 @@ struct RenderRequest {
   bool makes_folder = false; ///< creates the output's folder if it is missing
   FilmFormat film = FilmFormat::none;
   FrameRate frame_rate;
-  ImageFormat format = ImageFormat::png; ///< of pictures
+  ImageFormat format = ImageFormat::png; ///< format of pictures
   FileOptions file;                      ///< how pictures are stored; file.format equals `format`
   int bits = 8; ///< per channel of the picture: 8 or 16; OpenEXR 16 or 32; Radiance and blocks 8
   RenderOptions options;
@@ -44,7 +44,7 @@ struct RenderRequest {
   bool lenient = false;                                      ///< leaves unsupported features out
   std::filesystem::path header;                              ///< included before the scene; empty: none
   std::optional<double> language_version;                    ///< for a scene that does not set its own
-  std::optional<double> clock; ///< of a still picture; none: 0, and clock_on is false
+  std::optional<double> clock; ///< clock of a still picture; none: the clock is 0, and clock_on is false
   Animation animation;
   bool resume = false;               ///< continues a run that was stopped
   std::string stats;                 ///< file, "-" for stdout, empty for none

@@ -38,7 +38,7 @@ private:
 };
 
 struct PictureOutcome {
-  RenderStatistics statistics; ///< of everything rendered now
+  RenderStatistics statistics; ///< statistics of everything rendered now
   bool complete = true;
   int rows_to_go = 0; ///< rows that a continued run has to render
 };

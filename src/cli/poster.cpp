@@ -142,7 +142,7 @@ private:
   Renderer& renderer_;
   RenderOptions options_;
   PictureRegion region_;
-  int width_, height_; ///< of the region
+  int width_, height_; ///< size of the region
   RowsFile& kept_;
   bool keeps_all_; ///< at any speed of rendering
   RowKeeper keeper_;

@@ -23,12 +23,12 @@ enum class Action {
 
   // Actions kept until everything is read, as they depend on each other.
   antialias, ///< on or off, with an optional threshold
-  threshold, ///< of antialiasing
+  threshold, ///< threshold of antialiasing
   jitter,    ///< on or off, with an optional amount
   jitter_amount,
   sampling,       ///< the method of antialiasing
-  sampling_depth, ///< of antialiasing
-  sampling_gamma, ///< of antialiasing
+  sampling_depth, ///< depth of antialiasing
+  sampling_gamma, ///< gamma of antialiasing
   to_file,        ///< on or off: whether the picture is written
   file_switch,    ///< to_file, with an optional file_type and bits per channel
   file_type,      ///< a letter
@@ -59,8 +59,8 @@ enum class Beyond {
 };
 
 struct PovSetting {
-  std::string_view letters; ///< of the switch, upper case; empty if there is none
-  std::string_view name;    ///< of the INI setting, lower case; empty if there is none
+  std::string_view letters; ///< letters of the switch, upper case; empty: there is no switch
+  std::string_view name;    ///< name of the INI setting, lower case; empty: there is no setting
   Action action;
   std::string_view option = {}; ///< celltrace's option, a kind of messages, or the name of a rejected feature
   double least = std::numeric_limits<double>::lowest();

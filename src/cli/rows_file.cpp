@@ -24,7 +24,7 @@ constexpr std::uint64_t kLongestHead = std::uint64_t{64} << 20;
 struct PartHead {
   std::int32_t top, bottom;
   std::uint64_t bytes, checksum;
-  std::uint64_t own_checksum; ///< of the preceding members
+  std::uint64_t own_checksum; ///< checksum of the preceding members
 };
 
 /// Returns the FNV-1a hash (Fowler, Noll, Vo), by words of 8 bytes.

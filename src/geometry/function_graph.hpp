@@ -18,7 +18,7 @@ struct FunctionNode {
   enum class Kind : std::uint16_t {
     parameter, ///< number a
     constant,  ///< constants[a]
-    counter,   ///< of the loop whose body it is in
+    counter,   ///< counter of the loop whose body the value is in
     operation, ///< op applied to the values a, b and c
     argument,  ///< the value a as the last argument of a call; b is the argument before it, or kNoValue
     call,      ///< call of callees[a]; b is the last argument

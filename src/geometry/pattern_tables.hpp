@@ -13,7 +13,7 @@ namespace celltrace {
 /// The scale of the vectors of noise generator 3, and the vectors.
 constexpr double kGradientStrength = 0.795;
 struct GradientTables {
-  std::array<Vec3, kernel::kGradients> gradient; ///< of unit length
+  std::array<Vec3, kernel::kGradients> gradient; ///< unit vectors
   std::array<std::uint32_t, kernel::kGradients> next;
 };
 const GradientTables& gradient_tables();

@@ -34,8 +34,8 @@ using Shape = decltype(Object::shape);
 
 /// The exponents in a superellipsoid's equation.
 struct Powers {
-  double across; ///< of x and y
-  double along;  ///< of z
+  double across; ///< exponent of x and y
+  double along;  ///< exponent of z
 };
 Powers powers_of(const Superellipsoid& superellipsoid);
 

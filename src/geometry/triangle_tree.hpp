@@ -22,7 +22,7 @@ public:
 private:
   struct Node {
     Vec3f min, max;
-    std::uint32_t begin, end; ///< of a leaf: indices in order_
+    std::uint32_t begin, end; ///< range of a leaf, as indices in order_
     std::uint32_t right;      ///< index of the right child, the left one is next; 0: a leaf
   };
 

@@ -26,7 +26,7 @@ class RenderJob::Impl : public std::enable_shared_from_this<Impl> {
 public:
   Impl(JobScene scene, JobOptions options) : given_(std::move(scene)), options_(std::move(options)) {}
   ~Impl() {
-    // A function of the options has dropped the job: it runs on this very thread.
+    // The thread is still joinable if a function of the options, which runs on it, has dropped the job.
     if (thread_.joinable()) thread_.detach();
   }
 

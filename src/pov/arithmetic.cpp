@@ -260,7 +260,7 @@ private:
   const Token* end_;
   unsigned depth_ = 0;
   bool understands_ = true;
-  std::vector<Value> arguments_; ///< of the next call
+  std::vector<Value> arguments_; ///< arguments of the next call
   std::optional<std::vector<std::uint32_t>> streams_;
 };
 

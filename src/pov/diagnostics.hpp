@@ -70,8 +70,8 @@ private:
   const ParseOptions& options_;
   std::set<std::string> unsupported_;                ///< features that have been noted or warned of
   std::set<std::array<std::uint32_t, 3>> warned_at_; ///< places of warn_once()
-  mutable std::vector<Finding> findings_;            ///< of a parser that may be const
-  mutable std::size_t remarks_ = 0;                  ///< number of notes and warnings among them
+  mutable std::vector<Finding> findings_; ///< findings so far; mutable, because const functions add to them
+  mutable std::size_t remarks_ = 0;       ///< number of notes and warnings among them
   mutable std::size_t errors_ = 0;
 };
 

@@ -34,7 +34,7 @@ struct Counter {
 struct ElementReference {
   std::shared_ptr<Array> array;
   std::size_t index = 0;
-  std::shared_ptr<Slot> slot; ///< of the parameter
+  std::shared_ptr<Slot> slot; ///< slot of the parameter
   Value value;                ///< at the call
 };
 
@@ -44,7 +44,7 @@ struct Frame {
   Kind kind = Kind::file;
   Location opened_at; ///< place of the #include, call or loop
   std::unique_ptr<Scanner> scanner;
-  std::filesystem::path folder; ///< of the file
+  std::filesystem::path folder; ///< folder of the file
   TokenRange range;
   std::size_t position = 0;
   NameId macro_name = 0;

@@ -45,7 +45,7 @@ struct Item {
   bool has_value = false;
   bool is_albedo = false;
   ShapeArgument value = {};
-  std::shared_ptr<const ShapeArgument> second = nullptr; ///< of a pair
+  std::shared_ptr<const ShapeArgument> second = nullptr; ///< second value of a pair
 
   Block block() const { return static_cast<Block>(row / kRows); }
   std::size_t number() const { return static_cast<std::size_t>(row % kRows); }

@@ -65,7 +65,7 @@ public:
     int component = -1; ///< meaning behind a dot: component 0 to 4, 5 for grey, -1 for none
     bool is_unsupported = false; ///< reserved for a feature that this program lacks
     Directive directive = Directive::none;
-    const Meanings* in_blocks = nullptr; ///< of a reserved word
+    const Meanings* in_blocks = nullptr; ///< meanings of a reserved word in blocks
 
     const Meaning& in(Block block) const { return (*in_blocks)[static_cast<std::size_t>(block)]; }
   };

@@ -10,7 +10,7 @@ namespace celltrace::pov {
 
 struct ReservedWord {
   const char* text;
-  int token; ///< of the grammar
+  int token; ///< number of the grammar's token
   int detail;
   bool is_unsupported;
 };

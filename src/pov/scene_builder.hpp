@@ -99,11 +99,11 @@ private:
     bool no_reflection = false;
     bool is_lit_through = false;
     bool hollow = false;
-    TexturePtr inner_texture;     ///< of the inside; null: as outside
+    TexturePtr inner_texture;     ///< texture of the inside; null: that of the outside
     Transform inner_transform;    ///< to the scene
     bool is_part = false;         ///< placed in the space of a CSG, not in that of the scene
     bool clips = false;           ///< only its inside matters
-    NameId name = kNoName;        ///< of the innermost named object around it
+    NameId name = kNoName;        ///< name of the innermost named object around it
     int depth = 0;                ///< levels of CSG and clipping around it
     Index light_group = kNoIndex; ///< the group whose lights shine on it
     bool is_copy = false;         ///< is part of a named object

@@ -42,7 +42,7 @@ struct Session {
   std::uint64_t text_bytes = 0;
   std::uint64_t written_bytes = 0;                   ///< by #write
   std::vector<std::shared_ptr<DataFile>> data_files; ///< that #fopen has opened and nothing closed
-  std::uint64_t shape_tests = 0;                     ///< of trace() and the like
+  std::uint64_t shape_tests = 0;                     ///< tests of shapes by trace() and similar functions
   std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
   TexturePtr base_texture;        ///< what the pigment or finish being read starts from
   InteriorPtr base_interior;      ///< the same for an interior

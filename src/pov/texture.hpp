@@ -122,12 +122,12 @@ struct TextureDefinition {
   SharedValue<FinishDefinition> finish;
   TexturePtr below;          ///< the layer under this one
   int layers = 1;            ///< number of layers, with those below
-  PatternDefinition pattern; ///< if there is one, its map replaces all of the above
+  PatternDefinition pattern; ///< if it exists, the texture map replaces all members above
   TextureMapPtr map;
   bool uv_mapping = false;    ///< as PigmentDefinition::uv_mapping
   bool is_on_surface = false; ///< all of it is on surface coordinates, so that only its normals still turn
-  BuiltMaterial built;        ///< of a texture that is the same everywhere
-  Original original;          ///< of a texture that is the same everywhere and has only been moved
+  BuiltMaterial built;        ///< material of a texture that is the same everywhere
+  Original original;          ///< for a texture that is the same everywhere and has only been moved
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<TextureDefinition> counted;
 

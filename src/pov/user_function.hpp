@@ -30,7 +30,7 @@ struct UserFunction {
   bool gives_colour = false;
   int depth = 1; ///< levels of nested calls
   Location where = {};
-  MemoryShare memory = {}; ///< of an expression
+  MemoryShare memory = {}; ///< memory of an expression
 };
 
 /// Reads the function that follows the word `function` from the token stream. The functions it may call are

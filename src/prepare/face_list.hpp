@@ -30,13 +30,13 @@ using CsgPath = std::vector<PathStep>;
 /// A face, in a plane whose normal points in the direction in which its first nonzero coordinate grows.
 struct Face {
   Vec3 normal;
-  double distance; ///< of the plane from the origin, along the normal
+  double distance; ///< distance of the plane from the origin, along the normal
   Extent extent;
   std::size_t object;
   std::size_t solid; ///< kPlane: the object is a plane
-  int side;          ///< of a box: axis * 2, plus 1 for the larger coordinate; of others: 1 for the cap
+  int side;          ///< boxes: axis * 2, plus 1 for the larger coordinate; other solids: 1 for the cap
   bool is_round;     ///< an end of a cylinder or a cone
-  bool is_inverse;   ///< of a box that is subtracted
+  bool is_inverse;   ///< true: the face of a box that is subtracted
   bool looks_up;     ///< the outside is in the direction of the normal
   Index material;
   std::uint32_t path = 0; ///< the path's number; 0: none

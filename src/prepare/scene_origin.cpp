@@ -156,7 +156,7 @@ namespace {
 
 struct Middle {
   Vec3 place{0, 0, 0}; ///< middle of most objects
-  double size = 0;     ///< distance from there that most objects reach; 0: there are no objects
+  double size = 0;     ///< distance from `place` within which most objects lie; 0: there are no objects
 };
 
 /// Adds the places to which objects without bounds have been moved.

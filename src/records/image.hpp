@@ -12,8 +12,8 @@ constexpr uint32_t kMostSurfaceNodes = 0x10000;
 struct alignas(128) ImageHeader {
   uint32_t magic;
   uint32_t version;
-  uint64_t bytes;    ///< of the static part, this header included
-  uint64_t checksum; ///< of the static part with this field 0
+  uint64_t bytes;    ///< size of the static part, this header included
+  uint64_t checksum; ///< checksum of the static part with this field 0
   uint32_t object_offset, object_count;
   uint32_t material_offset, material_count;
   uint32_t interior_offset, interior_count;

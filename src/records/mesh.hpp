@@ -31,9 +31,9 @@ constexpr uint32_t kMaxMeshGridSide = 1024; ///< columns or rows; single precisi
 /// same numbers in all triangles that share it.
 struct alignas(64) MeshTriangleRecord {
   float row[3];
-  float column[2];   ///< of corners 0 and 1
+  float column[2];   ///< columns of corners 0 and 1
   float slope[3];    ///< columns per row along the edges 0-1, 1-2, 0-2
-  float height;      ///< of corner 0
+  float height;      ///< height of corner 0
   float gradient[2]; ///< change of the height per column and per row
   float least_height, greatest_height;
   uint32_t unused[3];

@@ -13,7 +13,7 @@ namespace celltrace {
 
 /// The place of a picture on the grid of points that its rays go through, which may be a part of the grid.
 struct PictureOnGrid {
-  double width, height; ///< of the whole picture
+  double width, height; ///< size of the whole picture
   double left = 0.0,
          top = 0.0; ///< column and row of the grid for the middle of the picture's upper left pixel
 };

@@ -18,8 +18,8 @@ using namespace kernel;
 
 namespace {
 
-/// Half the size of a picture, in lengths of the camera's right and up: at the camera, and its growth with
-/// each length of the direction ahead.
+/// Half the size of the part of the scene that a camera sees, in multiples of its vectors right and up: the
+/// size at the camera, and the growth for each length of `direction` ahead.
 struct Reach {
   double across = 0, across_growth = 0, up = 0, up_growth = 0;
 };

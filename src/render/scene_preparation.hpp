@@ -92,8 +92,9 @@ private:
   std::vector<Medium> media_;
   std::shared_ptr<RayQueryScene> query_scene_; ///< null: no queries of this scene were requested
   bool has_scene_ = false;                     ///< with an accelerator
-  Vec3 origin_ = Vec3(0); ///< of the image, in the scene's coordinates; the members below are relative to it
-  Camera camera_;         ///< of the next frame
+  Vec3 origin_ =
+      Vec3(0); ///< origin of the image, in the scene's coordinates, to which the members below are relative
+  Camera camera_; ///< camera of the next frame
   PassedLimits camera_limits_;
   std::shared_ptr<Scene> kept_; ///< scene of the image, kept if the image depends on the eye
   RenderStatistics prepared_;   ///< cost of preparation, for the statistics of the next frame

@@ -13,7 +13,7 @@ namespace celltrace {
 struct BlockGrid {
   std::uint32_t columns; ///< blocks per row
   int edge;              ///< in pixels
-  int left, top;         ///< of the first block, in the picture
+  int left, top;         ///< position of the first block in the picture
   PictureRegion region;  ///< part of the picture that is rendered
 };
 

@@ -65,7 +65,7 @@ private:
 
   const std::function<bool(double fraction)>& go_on_;
   const std::thread::id thread_;
-  BuildWatch* const outer_; ///< of the computation whose `go_on` has begun this one
+  BuildWatch* const outer_; ///< watch of the computation whose `go_on` has begun this one
   double fraction_ = 0;
   std::atomic<bool> stopped_ = false;
   static inline thread_local BuildWatch* current_ = nullptr;

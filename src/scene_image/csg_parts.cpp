@@ -245,7 +245,7 @@ private:
 
   CsgParts& to_;
   const std::vector<std::uint32_t>* material_flags_; ///< null: solids stay what they are
-  std::vector<Limit> limits_;                        ///< of the node being shown
+  std::vector<Limit> limits_;                        ///< limits of the node that is being shown
 };
 
 } // namespace

@@ -21,7 +21,7 @@ struct CsgPart {
   Object object;           ///< no CSG; placed in the world
   PlacedShape shape;       ///< unset if it is a mesh
   std::uint32_t condition; ///< index in CsgParts::conditions, or kNoCondition
-  kernel::Aabb bounds;     ///< of the part of the surface that may exist
+  kernel::Aabb bounds;     ///< bounds of the part of the surface that may exist
   bool is_bounded;         ///< false if `bounds` are infinite
   std::size_t whole = 0;   ///< index in the scene of the object that the part belongs to
 

@@ -16,10 +16,10 @@ namespace celltrace {
 /// The tables that the records of instances go to, and the instances' places in them.
 struct InstanceTables {
   RecordTables records;
-  kernel::ObjectRecord* objects; ///< of instances
+  kernel::ObjectRecord* objects; ///< records of instances
   std::uint32_t first_object;    ///< index in the table of all objects
   std::uint32_t first_normals;
-  kernel::GroupRecord* groups; ///< of instances
+  kernel::GroupRecord* groups; ///< groups of instances
   std::uint32_t* prototypes;   ///< one word per group of instances
   std::uint32_t first_group;   ///< index in the table of all groups
 };

@@ -25,8 +25,8 @@ struct OrderMemory {
 
 /// The places of an image's objects, from which its tables are written.
 struct ObjectPlaces {
-  ObjectCensus census;                   ///< of the objects that can be hit
-  std::span<const std::uint32_t> groups; ///< of the objects that can be hit
+  ObjectCensus census;                   ///< census of the objects that can be hit
+  std::span<const std::uint32_t> groups; ///< groups of the objects that can be hit
   std::optional<std::span<const PlacedObject>>
       in_order;                             ///< the objects that can be hit, in the order of the image
   std::uint32_t* cells = nullptr;           ///< with `in_order`: work memory, one word per object

@@ -127,7 +127,7 @@ private:
   struct Origin {
     std::vector<std::uint32_t> places; ///< by object that is no instance; kNoPlace if it cannot be hit
     std::uint32_t placed = 0;          ///< number of these that can be hit
-    std::vector<std::uint32_t> groups; ///< of these objects
+    std::vector<std::uint32_t> groups; ///< groups of these objects
     std::vector<ObjectForm> forms;     ///< by object of the scene
     std::vector<std::size_t> order;    ///< SceneObjects::order()
     std::vector<std::uint32_t> material_flags;
@@ -140,7 +140,7 @@ private:
   Eye eye_;                        ///< camera location that the image was made for
   PassedLimits limits_;
   std::vector<SolidBoundary> boundaries_; ///< kept if the eye may move
-  std::vector<Index> owners_; ///< of unbounded objects, followed by all others, in the order of their records
+  std::vector<Index> owners_; ///< owners of unbounded objects, then of all others, in the order of records
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;
   std::uint32_t end_offset_ = 0;

@@ -75,7 +75,7 @@ private:
     std::size_t count;
   };
   struct Known {
-    std::uint32_t index; ///< of a material, or of the pattern whose map it is
+    std::uint32_t index; ///< index of a material, or of the pattern whose map it is
     Traits traits;
   };
   enum class Child : std::uint8_t { pattern, normal, material, none };

@@ -13,7 +13,7 @@ using Value = std::variant<std::monostate, std::string, double>;
 
 struct Column {
   std::string name; ///< with the unit, if any
-  int decimals = 0; ///< of its numbers
+  int decimals = 0; ///< decimals of the column's numbers
 };
 
 /// Curves, or bars with a group for each label. Coordinates are positive if an axis is logarithmic.

@@ -19,7 +19,7 @@ struct State {
   std::string error, message, screenshot;
   bool information = false, strips = false, costs = false, help = false, full_screen = false;
   bool antialiasing = false, is_final = false;
-  int width = 0, height = 0; ///< of the window
+  int width = 0, height = 0; ///< size of the window
   double latency = 0;        ///< seconds
   double seconds = 0;        ///< seconds since the start
   std::optional<Camera> camera;

@@ -114,7 +114,7 @@ Text operands(const Instruction& i, Syntax syntax, std::uint32_t pc) {
   return {};
 }
 
-/// Returns the number that is repeated in hexadecimal if it is above 16.
+/// Returns the operand that a remark repeats in hexadecimal if it is above 16.
 std::int32_t remarked(const Instruction& i, Syntax syntax, std::uint32_t pc) {
   switch (syntax) {
   case Syntax::rt_ra_i7:

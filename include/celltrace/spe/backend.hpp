@@ -23,7 +23,7 @@ enum class SimdLevel : unsigned char {
   sse2,
   avx2,
   avx512,  ///< with CD, DQ, BW and VL
-  neon64,  ///< of AArch64
+  neon64,  ///< Neon of AArch64
   generic, ///< by the compiler's vector extensions
 };
 constexpr SimdLevel kSimdLevels[] = {SimdLevel::automatic, SimdLevel::sse2,   SimdLevel::avx2,

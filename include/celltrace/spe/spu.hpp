@@ -56,7 +56,7 @@ struct ScalarWork {
   uint32_t floating = 0; ///< single precision operations
   uint32_t memory = 0;   ///< loads and stores of local store
   uint32_t shuffle =
-      0; ///< of these, one comes with every scalar load or store that is not in the preferred slot
+      0; ///< shuffles; one of them comes with every scalar load or store that is not in the preferred slot
   uint32_t branches = 0;      ///< branches of all kinds
   uint32_t shift = 0;         ///< word shifts and rotations
   uint32_t waits = 0;         ///< cycles that these instructions wait for each other's results

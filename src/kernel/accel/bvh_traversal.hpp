@@ -15,7 +15,7 @@ namespace celltrace::kernel {
 
 /// Traverses the BVH with bundles. A strategy's BundleSteps have:
 ///
-///   intersect_mixed(query)              traverses a packet with rays of several octants; false: it did not
+///   intersect_mixed(query)              traverses a packet with rays of several octants; false if it did not
 ///   end_view()                          is called if the bundle's rays do not pass through one point
 ///   view()                              BundleView of the bundle if its rays pass through a point, else null
 ///   trusts_frusta()                     true if frusta suffice at leaves, without slab tests of rays
@@ -24,7 +24,7 @@ namespace celltrace::kernel {
 ///   shortening(packet)                  ratio of distances in a packet's frustum to distances along its rays
 ///   LeafTests(objects, view)            type of the tests of the bundle's packets against leaves
 ///   add_leaf(tests, queries, leaf, packets)   tests or defers a leaf, and limits `packets` to those whose
-///                                       results may have changed; false: it did neither
+///                                       results may have changed; false if it did neither
 ///   test_object(self, packets, queries)       tests an object of a leaf for which add_leaf() returned false
 ///   test_deferred(tests, queries, bundled)    tests deferred leaves, unless they can wait for the next one
 template <class Spu> class BvhTraversal : public Strategy<Spu>::template BundleSteps<BvhTraversal<Spu>, Spu> {

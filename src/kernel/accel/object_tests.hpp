@@ -299,7 +299,7 @@ private:
       module_polygons::cut_out(tests.scene_, extra, pairs[0]);
     }
 
-    /// Advances to the next pair of crossings of any ray; false: there is none.
+    /// Advances to the next pair of crossings of any ray. Returns false if there is none.
     bool next() {
       return sequence_.next([this](const FloatLanes& after, Crossings<S>& c) { find_after(after, c); });
     }

@@ -169,7 +169,8 @@ private:
     uint32_t self, node, child;
   };
 
-  /// Adds an object unless all rays of `lanes` to the light certainly miss it; false: it cannot be added.
+  /// Adds an object unless all rays of `lanes` to the light certainly miss it. Returns false if it cannot be
+  /// added.
   bool add(ObjectTests<Spu>& tests, const RayPacket& rays, uint32_t lanes, const Shaft<S>& shaft,
            const Occluder& occluder) {
     const uint32_t self = occluder.self;
@@ -227,7 +228,7 @@ private:
     }
   }
 
-  /// Gathers bounded objects and nodes; false: there are too many nodes.
+  /// Gathers bounded objects and nodes. Returns false if there are too many nodes.
   template <class Add>
   bool gather_bounded(ObjectTests<Spu>& tests, const FrameBlock& frame, const Shaft<S>& shaft,
                       const Add& add_object) {

@@ -63,7 +63,7 @@ public:
       lanes_[i] = 0;
     count_ = 0;
   }
-  /// Sets the tint of a lane, which has none yet. False: there is no room for it.
+  /// Sets the tint of a lane, which has none yet. Returns false if there is no room for it.
   bool set(uint32_t place, uint32_t lane, const VectorLanes& from, uint32_t from_lane) {
     if (lanes_[place] == 0) {
       if (count_ == kMost) return false;
@@ -120,10 +120,10 @@ public:
     }
   }
 
-  /// Finds the share of a light whose sampling has begun. `test(queries, count)` leaves in the queries the
-  /// lanes that all light reaches; if light may be tinted, the lanes that some light reaches, and in the
-  /// queries' lights, which are white before, their tints. `count` is at most kMostPackets. False: too many
-  /// places are tinted, and the share was not found.
+  /// Finds the share of a light whose sampling has begun. `test(queries, count)` leaves in each query the
+  /// lanes that all light reaches. If light may be tinted, it leaves the lanes that some light reaches, and
+  /// changes the queries' lights from white to their tints. `count` is at most kMostPackets. Returns false,
+  /// without a share, if too many places are tinted.
   template <class Test> bool sample(const Test& test) {
     F share[kCorners] = {F(0.0f), F(0.0f), F(0.0f), F(0.0f)}; // one for each corner; the sums are exact
     uint32_t count = 1;

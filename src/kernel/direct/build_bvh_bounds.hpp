@@ -23,7 +23,7 @@ static_assert(sizeof(Reference) == 32, "four a line");
 
 /// Number that is larger than any coordinate or cost.
 constexpr float kHuge = 3e38f;
-/// Epsilon of the extent of centres on an axis. A smaller one is not split: its reciprocal could overflow.
+/// Least extent of centres on an axis that is split: the reciprocal of a smaller extent could overflow.
 constexpr float kFlatExtent = 1e-30f;
 /// 2^23. If a smaller, non-negative number is added, the low bits of the sum are that number rounded to an
 /// integer. For other numbers and NaN these bits are arbitrary, but masked they are still a valid bin.

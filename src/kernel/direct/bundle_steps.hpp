@@ -63,9 +63,10 @@ public:
     }
   }
 
-  /// Traverses the BVH with the frustum of a bundle only, whose rays need not exist yet, until it hits a leaf
-  /// or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything. Otherwise
-  /// intersect_from_pinhole() or intersect_from_origin() continues from there. The bundle has some packets.
+  /// Traverses the BVH with nothing but the frustum of a bundle, until the frustum hits a leaf or a few nodes
+  /// have been expanded. The rays need not exist yet. Returns false if the frustum hits no leaf, so that no
+  /// ray hits anything. Otherwise intersect_from_pinhole() or intersect_from_origin() continues from there.
+  /// The bundle must have packets.
   template <class Bundle> bool enter(const Bundle& bundle) {
     search().bundle_frustum_.set(bundle.all, bundle.octant);
     search().begin(bundle.packets);
@@ -82,7 +83,8 @@ protected:
       : mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays),
         mixes_always_(frame.object_count <= tuning::kMostObjectsWithoutFrusta) {}
 
-  /// Traverses a packet with rays of several octants at once. False: that does not pay.
+  /// Traverses a packet with rays of several octants at once. Returns false, without doing it, if it does not
+  /// pay.
   bool intersect_mixed(RayQuery& query) {
     const RayPacket& rays = *query.rays;
     if (__builtin_popcount(query.lanes) < tuning::kLeastMixedRays || !mixes_octants_) return false;

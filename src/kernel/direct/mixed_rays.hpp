@@ -150,7 +150,7 @@ template <class Spu> struct MixedVisitor {
     return false;
   }
   /// Tests the leaves of a node that has no inner nodes, one after another: they are too few for an order to
-  /// pay. False: it has inner nodes.
+  /// pay. Returns false if the node has inner nodes.
   [[gnu::always_inline]] bool test_leaves(const NodeRecord& node) {
     const uint32_t present = MixedRays<S>::children_of(node.bounds);
     uint32_t inner = 0;

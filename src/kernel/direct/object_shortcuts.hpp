@@ -161,7 +161,7 @@ private:
 
   /// Tests an object of a kind with one pair of crossings, which no further record changes, against several
   /// packets: keeps their closest hits, or removes the lanes that it occludes, if it is opaque, from queries
-  /// of shadow rays. False: it is of another kind.
+  /// of shadow rays. Returns false if the object is of another kind.
   bool test_plain(RayQuery* queries, uint32_t packets, const ObjectRecord& object, uint32_t self) {
     if ((object.kind_and_flags & (object_flag::csg | object_flag::selective)) != 0) return false;
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
@@ -256,7 +256,8 @@ private:
     });
     return true;
   }
-  /// Finds the object that clips another one, if there is one. False: the condition depends on the crossings.
+  /// Finds the object that clips another one, if there is one. Returns false if the condition depends on the
+  /// crossings.
   bool find_clipping(const ObjectRecord& object, const ExtraRecord& extra, ClippingObject& clipping) {
     clipping = {nullptr, false, false};
     if ((object.kind_and_flags & object_flag::csg) == 0 || extra.csg == kNoOffset) return true;

@@ -37,7 +37,7 @@ struct DirectPatterns {
 
   template <class S> using InnerCells = kernel::InnerCells<S>;
 
-  /// Finds the values of a fractal if it iterates squares; false: it does not.
+  /// Finds the values of a fractal if it iterates squares. Returns false if it does not.
   template <class Spu, class S>
   [[gnu::always_inline]] static bool find_squares(SceneAccess<Spu>& scene, const Complex<S>& at,
                                                   const PatternRecord& r, typename S::F& value) {

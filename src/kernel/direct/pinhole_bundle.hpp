@@ -34,8 +34,8 @@ public:
   }
 
 private:
-  /// Computes the rectangles around the directions through the corners of packets. False: some directions are
-  /// opposite along the major axis.
+  /// Computes the rectangles around the directions through the corners of packets. Returns false if some
+  /// directions are opposite along the major axis.
   bool see(const FrameBlock& frame, float column, float row) {
     constexpr float kEdge = kPacketEdge;
     const CameraRecord& camera = frame.camera;

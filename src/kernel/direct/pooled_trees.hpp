@@ -107,7 +107,7 @@ protected:
     while (pool_.hits.has_full())
       pool_.hits.run_next(*this);
   }
-  /// Traces the rays that have left their packets. False: it was stopped.
+  /// Traces the rays that have left their packets. Returns false if it was stopped.
   template <class Stopped> bool finish(Stopped stopped) {
     while (!pool_.rays.empty() || !pool_.hits.empty()) {
       if (stopped()) return false;
@@ -124,8 +124,8 @@ protected:
 
   // --- light ---
 
-  /// Leaves light of a few lanes of the current node to light_points(). False: it has to be traced now, as it
-  /// does not go to pixels or its rays have a packet of their own.
+  /// Leaves light of a few lanes of the current node to light_points(). Returns false if it has to be traced
+  /// now, as it does not go to pixels or its rays have a packet of their own.
   bool leave_light(uint32_t number, uint32_t lanes, const VectorLanes& colour) {
     if (lanes == 0 || !may_wait(lanes) || number >= ShadowPoints::kKeys) return false;
     VectorLanes point;
@@ -152,7 +152,7 @@ protected:
 public:
   // --- the bodies of the wavefront queues ---
 
-  /// Traces a packet of pooled rays and their trees. False: it was stopped.
+  /// Traces a packet of pooled rays and their trees. Returns false if it was stopped.
   template <class Stopped> bool trace_pooled(const PooledRays& rays, uint32_t lanes, const Stopped& stopped) {
     tracer().begin(rays);
     pool_.clear_lanes();
@@ -217,7 +217,8 @@ private:
     return tracer().pooling().queue != nullptr && tracer().node().target == 0 && had_better_wait(lanes);
   }
   PooledRays::Source waiting_rays() { return {tracer().node(), tracer().pooling().pixels}; }
-  /// Leaves a few lanes of the current node without a hit to see_sky(). False: their sky has to be added now.
+  /// Leaves a few lanes of the current node without a hit to see_sky(). Returns false if their sky has to be
+  /// added now.
   bool leave_sky(uint32_t missed) {
     if (all().frame_.sky == kNoOffset || !may_wait(missed)) return false;
     pool_.skies.push(0, missed, waiting_rays(), *this);

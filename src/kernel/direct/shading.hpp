@@ -59,7 +59,7 @@ struct DirectShading {
     return lanes == 0;
   }
 
-  /// Raises cosines to whole powers. False: not all powers are whole.
+  /// Raises cosines to whole powers. Returns false if not all powers are whole.
   template <class S>
   [[gnu::always_inline]] static bool bend_by_whole_power(const typename S::F& power, uint32_t lanes,
                                                          typename S::F& cosine) {

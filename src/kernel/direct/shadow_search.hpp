@@ -59,7 +59,7 @@ protected:
   }
 
   /// Samples an area light with all possible occluders if they are known, otherwise with the shadow cache.
-  /// False: it did not.
+  /// Returns false if it did not.
   bool sample_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
     using Known = typename AreaOccluders<Spu>::Known;
     if (is_projected(light) || tracer().walks_all(light)) return false;
@@ -218,7 +218,8 @@ private:
     tracer().take_area_light(colour);
   }
   /// Samples an area light in pairs of a surface and a place, if there is room for them. `trace(query,
-  /// surface of each lane, light)` changes white light to the light that arrives; false: none does.
+  /// surface of each lane, light)` changes white light to the light that arrives, and returns false if none
+  /// does.
   template <class Trace> bool sample_pairs(const LightRecord& light, const Trace& trace) {
     AreaShadow<S>& area = *tracer().area_;
     if (!AreaPairs<Spu, true>::can_sample(light)) return false;

@@ -17,7 +17,7 @@ namespace celltrace::kernel {
 /// A ray and its closest hit so far. A copy in all lanes of a packet is made on first use.
 template <class S> struct SingleRay {
   float origin[3], direction[3]; ///< `direction` is a unit vector
-  float distance;                ///< of the closest hit, or the end of the ray
+  float distance;                ///< distance of the closest hit, or of the end of the ray
   float u, v;
   uint32_t object; ///< offset, or kNoOffset
   bool has_packet;
@@ -150,7 +150,7 @@ private:
   }
 
   /// Pushes the children that are hit, the nearest last, except for the nearest of all, which becomes `ref`.
-  /// False: none is hit.
+  /// Returns false if none is hit.
   [[gnu::always_inline]] static bool expand(const Slabs& slabs, const QueryNode& node, float tfar,
                                             Entry*& top, uint32_t& ref) {
     alignas(32) float enter[QueryNode::kWidth];

@@ -355,7 +355,7 @@ template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typen
   if (divided != 0) q.divide(divided, [&](const LightQuad& quarter) { a.quads[a.quad_count++] = quarter; });
 }
 
-/// Advances to the next place to sample; false: there is none.
+/// Advances to the next place to sample. Returns false if there is none.
 template <class Spu>
 CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
   using S = typename Spu::simd;
@@ -429,7 +429,7 @@ void begin_sampling(Spu& spu, const LightRecord& light, const Surfaces<typename 
   module_areas::begin_area<typename Spu::simd>(light, s, incident, shadow);
 }
 
-/// Advances to the next place to sample; false: there is none.
+/// Advances to the next place to sample. Returns false if there is none.
 template <class Spu>
 bool next_place(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& shadow) {
   spu.enter_module(modules::kAreas);

@@ -21,7 +21,7 @@ public:
   RayNode& next() { return next_; }
   RayNode& next_like(const RayNode&) { return next_; }
 
-  /// Pushes next(), which keeps its value; false: the stack is full.
+  /// Pushes next(), which keeps its value. Returns false if the stack is full.
   bool push() {
     if (size_ == capacity_) return false;
     if (size_ < resident_nodes_) {

@@ -33,7 +33,7 @@ public:
     rung_ &= ~bit;
     return rung;
   }
-  /// Takes a context that was rung, in round-robin order; false: there is none.
+  /// Takes a context that was rung, in round-robin order. Returns false if there is none.
   bool take_context(uint32_t& context) {
     const uint32_t contexts = rung_ & bell::contexts;
     if (contexts == 0) return false;

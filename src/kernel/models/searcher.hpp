@@ -65,7 +65,7 @@ private:
   /// Returns true in the split pipeline, where records travel with the positions of their rays.
   bool split() const { return stage_.has(task::walk | task::test); }
 
-  /// Waits for the first search of a job; false: the frame is over.
+  /// Waits for the first search of a job. Returns false if the frame is over.
   bool wait_for_job(Item& item) {
     while (!next_job(item)) {
       if (doorbell_.take(bell::quit)) return false;

@@ -104,7 +104,7 @@ private:
     for_each_lane(placed_, [&](uint32_t context) { feed_.give_back(context); });
   }
 
-  /// Waits for the answer to a context; false: the frame is over.
+  /// Waits for the answer to a context. Returns false if the frame is over.
   bool wait_for_answer(uint32_t& context) {
     doorbell_.look();
     while (!doorbell_.take_context(context)) {
@@ -180,7 +180,8 @@ private:
     take_light(number);
   }
 
-  /// Shades the hits, and sends a shadow search for every light that counts; false: no light does.
+  /// Shades the hits, and sends a shadow search for every light that counts. Returns false if no light
+  /// counts.
   bool shade(uint32_t number) {
     Context& context = *contexts_[number];
     writer_.begin(number);

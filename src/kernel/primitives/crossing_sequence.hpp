@@ -25,8 +25,8 @@ public:
     if constexpr (kGoesOn) further_.found = 0;
   }
 
-  /// Advances to the next pair of any ray; false: there is none. `find_after(after, crossings)` finds each
-  /// ray's next pair beyond `after`, which is kEveryCrossing for rays that need none.
+  /// Advances to the next pair of any ray. Returns false if there is none. `find_after(after, crossings)`
+  /// finds each ray's next pair beyond `after`, which is kEveryCrossing for rays that need none.
   template <class FindAfter> bool next(const FindAfter& find_after) {
     while (next_ < count_) {
       const Crossings<S>& c = pairs_[next_++];

@@ -27,8 +27,8 @@ struct EllipsoidPrimitive : LocalPrimitive<EllipsoidPrimitive> {
     return dot<S>(p, p) < typename S::F(1.0f);
   }
 
-  /// Returns the normal at the nearest point of the sphere, from which rounding may move the end of a long
-  /// ray.
+  /// Returns the normal at the point of the sphere that is nearest to `p`: rounding may move the end of a
+  /// long ray off the sphere.
   template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
     return normalise<S>(p);
   }

@@ -69,8 +69,8 @@ private:
     return store_ + number * static_cast<uint32_t>(sizeof(Square));
   }
 
-  /// Makes the samples of as many squares as there is room for, the last ones first. False: the block is
-  /// complete.
+  /// Makes the samples of as many squares as there is room for, the last ones first. Returns false if the
+  /// block is complete.
   CELLTRACE_ONE_COPY bool ask_for_squares() {
     while (waiting_ == 0) {
       if (rows_ != 0) write_rows();

@@ -145,8 +145,8 @@ inline uint32_t steps_of(int32_t number, int32_t whole, uint32_t most) {
   return steps;
 }
 
-/// Finds the ends that suit the pixels' positions best, by least squares; false: the positions do not
-/// determine them.
+/// Finds the ends that suit the pixels' positions best, by least squares. Returns false if the positions do
+/// not determine them.
 template <class S>
 CELLTRACE_ONE_COPY bool improve_ends(const V3<S>& pixels, const typename S::F& thirds, uint32_t (&ends)[2]) {
   using F = typename S::F;

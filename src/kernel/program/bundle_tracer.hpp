@@ -115,7 +115,7 @@ private:
     HitPoints<S> points;
     union {
       LitPoints lit;             ///< if the node is not a root
-      FirstHitRecord first_hits; ///< of a root, while they are put to main memory
+      FirstHitRecord first_hits; ///< first hits of a root, while they are put to main memory
     };
   };
 
@@ -171,7 +171,7 @@ private:
 
   /// Traces the trees of all packets. The light that the first round gathers at the roots is searched for
   /// when all roots have been shaded, for all of them together, and added last, so that the sum does not
-  /// depend on the order of tracing. False: it was stopped.
+  /// depend on the order of tracing. Returns false if it was stopped.
   template <class Stopped> CELLTRACE_ONE_COPY bool trace_trees(Stopped stopped) {
     Trees::begin_trees();
     for (uint32_t i = 0; i < kPackets; ++i) {
@@ -230,8 +230,8 @@ private:
     Strategy<Spu>::template begin_round<S>(round, lit);
     return round;
   }
-  /// Shades the hits of a member's primary rays. False: the member is complete except for light that is added
-  /// later. Otherwise its tree has begun.
+  /// Shades the hits of a member's primary rays. Returns false if the member is complete except for light
+  /// that is added later. Otherwise its tree has begun.
   bool shade_root(Member& member) {
     if (Trees::shade_end(member)) return false;
     Trees::begin_tree(member);
@@ -273,7 +273,7 @@ private:
       if (first >= frame_.light_count) return;
     }
   }
-  /// Traces the remaining nodes of a tree. False: it was stopped.
+  /// Traces the remaining nodes of a tree. Returns false if it was stopped.
   template <class Stopped> bool trace_tree(Stopped stopped) {
     while (tracer_.advance()) {
       if (stopped()) return false;

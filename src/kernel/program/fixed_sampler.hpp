@@ -41,7 +41,7 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
     float across[kMostSamples], down[kMostSamples];
   };
   struct Scratch : Base::Scratch {
-    alignas(64) float encoding[3 * R::kLanes]; ///< of means
+    alignas(64) float encoding[3 * R::kLanes]; ///< means that are being encoded
     Colour means_of[R::kLanes];
     Place places[R::kLanes]; ///< positions of the means
     union {

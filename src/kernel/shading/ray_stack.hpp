@@ -56,7 +56,7 @@ constexpr uint32_t kResidentNodes = 3;
 ///                                       store if it is short; `next`: memory for next()
 ///   empty(), clear()
 ///   next()                              returns the node that is pushed next
-///   push()                              pushes next(); false: the stack is full
+///   push()                              pushes next(); false if the stack is full
 ///   next_like(pushed)                   makes next() a copy of the node that has just been pushed
 ///   pop(node)
 ///   spilled()                           returns the nodes spilled since reset_counters()

@@ -35,8 +35,8 @@ public:
             RayNode& scratch)
       : Shading(spu, frame, scene, spill, spill_nodes, scratch) {}
 
-  /// Finds the colours of primary rays whose hits are known, without the light that the round gathers, if all
-  /// rays end there; false: some do not, or there are more lights than in one round.
+  /// Finds the colours of primary rays whose hits are known, without the light that the round gathers.
+  /// Returns false if some rays do not end there, or if there are more lights than in one round.
   bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
                     LightRound& round, VectorLanes& colours) {
     if (round.next() != frame_.light_count || has_atmosphere(frame_)) return false;

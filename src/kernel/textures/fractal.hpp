@@ -102,8 +102,8 @@ private:
     const Complex<S> quotient = times<S>(upper, {lower.a * inverse, -lower.b * inverse});
     return times<S>(quotient, quotient);
   }
-  /// Returns a colouring that is the same inside and outside: the factor alone, a part of the last number, or
-  /// the part's square, times the factor.
+  /// Returns a value of a type that is the same inside and outside of the set: the factor (type 0), or the
+  /// factor times the imaginary or real part of the last number, or times the square of this part.
   template <class S>
   [[gnu::always_inline]] static typename S::F counted(const Complex<S>& z, uint32_t type,
                                                       const typename S::F& factor) {

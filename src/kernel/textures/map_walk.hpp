@@ -95,7 +95,7 @@ public:
     level.state = State::fresh;
   }
 
-  /// Finds the next leaf and its weight in `lanes`; false: there are no more.
+  /// Finds the next leaf and its weight in `lanes`. Returns false if there are no more.
   CELLTRACE_ONE_COPY bool next(MapEntryRecord& leaf, F& weight, uint32_t& lanes) {
     scene_.spu().run_in_module(kModule);
     while (depth_ != ground_) {

@@ -16,7 +16,7 @@ struct SurfaceLanes {
 /// Points of a packet, or of a part of it.
 template <class S> struct PatternPoints {
   V3<S> at;
-  const SurfaceLanes* surface = nullptr; ///< of the whole packet; null: no pattern needs it
+  const SurfaceLanes* surface = nullptr; ///< surfaces of the whole packet; null: no pattern needs them
   uint32_t first = 0;                    ///< first lane of the part in the packet
 };
 
