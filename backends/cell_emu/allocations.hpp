@@ -72,8 +72,8 @@ private:
   bool red_zones_ = false;
   std::uint32_t next_ = 0, unshifted_ = 0;
   bool known_ = false;
-  mutable std::mutex mutex_;            ///< for changes, and for reads from other threads
-  std::vector<Allocation> allocations_; ///< in ascending order
+  mutable std::mutex mutex_;            ///< guards changes, and reads from other threads
+  std::vector<Allocation> allocations_; ///< allocations in ascending order
 };
 
 } // namespace celltrace::cell_emu

@@ -13,7 +13,7 @@ struct Bounds {
   Bounds(unsigned spes, const std::vector<MemoryObject>& host_objects)
       : allocations(std::make_unique<Allocations[]>(spes)), objects(host_objects) {}
 
-  std::unique_ptr<Allocations[]> allocations; ///< by SPE
+  std::unique_ptr<Allocations[]> allocations; ///< index: SPE
   MemoryObjects objects;
 };
 

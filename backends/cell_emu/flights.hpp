@@ -50,7 +50,7 @@ struct Conflict {
   std::uint64_t command;
   MfcCommand transfer;
   CallSite site;
-  bool in_local_store; ///< in the local store of the SPE whose new transfer overlaps
+  bool in_local_store; ///< true: they overlap in the local store of the SPE with the new transfer
 };
 
 /// The flights of all SPEs. Thread safety: one thread at a time changes an SPE's own list;

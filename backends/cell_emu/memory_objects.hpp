@@ -34,7 +34,7 @@ private:
   std::map<ea_t, MemoryObject>::const_iterator first_behind(ea_t ea) const;
 
   mutable std::shared_mutex mutex_;
-  std::map<ea_t, MemoryObject> objects_; ///< by their begin; none overlaps another
+  std::map<ea_t, MemoryObject> objects_; ///< key: begin; none overlaps another
   std::atomic<std::size_t> count_{0};
 };
 

@@ -300,7 +300,7 @@ private:
   TagGroups tag_groups_;
   std::uint32_t used_tags_ = 0;
   std::uint32_t waited_tags_ = 0;
-  std::array<CallSite, kMfcTags> waits_{}; ///< by tag: place of the last wait for it
+  std::array<CallSite, kMfcTags> waits_{}; ///< index: tag; place of the last wait for it
   CallSite last_request_;
   CallSite drain_site_; ///< place where the queue was last seen empty
   bool drain_reported_ = false;

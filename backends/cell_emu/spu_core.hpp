@@ -129,7 +129,7 @@ private:
 
   SpuCycles cycles_; ///< since the machine was made
   Cycle now_;
-  Cycle computing_since_; ///< for the trace
+  Cycle computing_since_; ///< start of the current interval of computing, for the trace
   /// Number of calls of check_limits() for each look at the clock of the host.
   static constexpr std::uint32_t kLooks = 1024;
   Cycle start_;

@@ -76,7 +76,7 @@ private:
   Reservations& reservations_;
   Counters& counters_;
 
-  std::vector<Command> waiting_; ///< in order of issue; empty unless a list has stalled
+  std::vector<Command> waiting_; ///< commands in order of issue; empty unless a list has stalled
   std::uint32_t stalled_tags_ = 0;
 
   std::uint32_t tag_mask_ = 0;

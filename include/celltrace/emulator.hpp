@@ -30,13 +30,13 @@ using EmulatedSpu = cell_emu::Spu;
 
 /// The outcome of a run of programs.
 struct CELLTRACE_EXPORT EmulatedRun {
-  std::vector<Diagnostic> diagnostics; ///< in the order of their discovery
+  std::vector<Diagnostic> diagnostics; ///< diagnostics in the order of their discovery
   /// The errors that ended the SPEs' programs, by SPE; "" for a program that ended well.
   std::vector<std::string> errors;
   /// The message of the SpeError that one of the PPE's calls ended with, a deadlock for instance; or "".
   std::string ppe_error;
-  std::vector<std::uint32_t> exit_codes; ///< by SPE
-  std::vector<SpeStatistics> spes;       ///< by SPE
+  std::vector<std::uint32_t> exit_codes; ///< index: SPE
+  std::vector<SpeStatistics> spes;       ///< index: SPE
   /// Virtual cycles of the SPE that took the longest, from its start to its end.
   std::uint64_t cycles = 0;
 

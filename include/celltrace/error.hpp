@@ -32,7 +32,7 @@ struct Finding {
     error    ///< a fault for which the scene is refused
   };
   Severity severity = Severity::error;
-  std::string file;                    ///< as messages name it
+  std::string file;                    ///< file name as in messages
   std::uint32_t line = 1, column = 1;  ///< both from 1; both 0 for the file as a whole, if it cannot be read
   std::string text;                    ///< the message
   std::vector<std::string> reached_by; ///< the includes and macros on the way there, from the inside out

@@ -67,7 +67,7 @@ struct AnimationFrame {
   int number = 0;
   int initial_number = 0, final_number = 0;
   double initial_clock = 0, final_clock = 0;
-  double clock_delta = 0; ///< from frame to frame
+  double clock_delta = 0; ///< step of the clock from frame to frame
 };
 
 enum class FileUse { read, write };

@@ -210,7 +210,7 @@ struct Mesh {
   struct Coordinates {
     Vec2f corner[3] = {{0, 0}, {0, 0}, {0, 0}};
   };
-  std::vector<Coordinates> coordinates; ///< by triangle; empty: all are 0
+  std::vector<Coordinates> coordinates; ///< index: triangle; empty: all are 0
   /// Direction of any length, in the mesh's space, that defines the inside for CSG: a point is in the mesh if
   /// the ray from there along the direction crosses an odd number of triangles. Zero: nothing is in the mesh,
   /// and nothing in its inverse either.
@@ -259,7 +259,7 @@ struct Cone {
 
 /// A torus around the y axis.
 struct Torus {
-  double major_radius = 1; ///< from the centre to the middle of the tube
+  double major_radius = 1; ///< distance from the centre to the middle of the tube
   double minor_radius = 0.25;
 };
 
@@ -331,7 +331,7 @@ struct Csg {
     difference    ///< the first part without the others
   };
   Operation operation = Operation::union_;
-  std::vector<Object> parts; ///< in the space of the CSG
+  std::vector<Object> parts; ///< parts in the space of the CSG
 };
 
 struct CELLTRACE_EXPORT Scene {
@@ -365,8 +365,8 @@ struct CELLTRACE_EXPORT Scene {
   int max_trace_level = 5;
   double adc_bailout = 1.0 / 255;
   Vec3 irid_wavelength{0.7, 0.52, 0.48}; ///< wavelengths of red, green and blue in thin films
-  int noise_generator = 2;               ///< for patterns that name none: 1 to 3 as POV-Ray counts them
-  int number_of_waves = 10;              ///< for ripples and waves
+  int noise_generator = 2;  ///< generator of patterns that name none: 1 to 3 as POV-Ray counts them
+  int number_of_waves = 10; ///< number of waves of ripples and waves
 
   /// Append `material` or `interior` and return its index.
   Index add(const Material& material);

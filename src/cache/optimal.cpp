@@ -85,7 +85,7 @@ private:
   }
 
   std::vector<std::vector<Event>> sets_;
-  std::unordered_map<std::uint32_t, Version> current_; ///< by line
+  std::unordered_map<std::uint32_t, Version> current_; ///< key: line
   Version versions_ = 0;
 };
 

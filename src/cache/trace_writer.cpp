@@ -98,7 +98,7 @@ private:
     file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
 
-  std::mutex mutex_; ///< for the file
+  std::mutex mutex_; ///< guards the file
   std::ostream& file_;
   std::vector<Spe> spes_;
 };

@@ -36,14 +36,15 @@ struct RenderRequest {
   int bits = 8; ///< per channel of the picture: 8 or 16; OpenEXR 16 or 32; Radiance and blocks 8
   RenderOptions options;
   std::vector<std::filesystem::path> library_paths;
-  std::vector<std::filesystem::path> readable_folders, writable_folders; ///< for files of the scene
+  std::vector<std::filesystem::path> readable_folders,
+      writable_folders; ///< folders where the scene may read and write files
   ParseLimits limits;
-  double most_seconds = 0; ///< for building and rendering, in animations also for reading; 0: no limit
+  double most_seconds = 0; ///< limit on building and rendering, in animations also on reading; 0: none
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
   bool is_sandboxed = false;                                 ///< opens only files that the options name
   bool lenient = false;                                      ///< leaves unsupported features out
   std::filesystem::path header;                              ///< included before the scene; empty: none
-  std::optional<double> language_version;                    ///< for a scene that does not set its own
+  std::optional<double> language_version; ///< version for a scene that does not set its own
   std::optional<double> clock; ///< clock of a still picture; none: the clock is 0, and clock_on is false
   Animation animation;
   bool resume = false;               ///< continues a run that was stopped
@@ -105,8 +106,8 @@ struct ViewRequest {
 
 /// A request for many scenes, each rendered as if alone, and a page with all pictures.
 struct BatchRequest {
-  std::vector<RenderRequest> renders; ///< with distinct outputs
-  std::filesystem::path folder;       ///< for outputs and page
+  std::vector<RenderRequest> renders; ///< renders with distinct outputs
+  std::filesystem::path folder;       ///< folder for outputs and page
 };
 
 /// A request for a text such as that of --help or --version.

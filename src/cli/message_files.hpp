@@ -16,7 +16,7 @@ enum class MessageKind {
   error,
   render,     ///< progress
   statistics, ///< the summary at the end
-  warning     ///< and notes
+  warning     ///< warnings and notes
 };
 
 /// Returns the kind of a line on stderr. Lines that begin with blanks continue the line before.
@@ -26,7 +26,7 @@ struct MessageRequest {
   std::vector<std::pair<MessageKind, std::filesystem::path>> files;
   std::vector<std::filesystem::path> all_files; ///< for messages of every kind
   std::vector<MessageKind> hidden;              ///< kinds that stderr does not get
-  bool appends = false;                         ///< to existing files
+  bool appends = false;                         ///< true: messages are appended to existing files
 
   bool is_empty() const { return files.empty() && all_files.empty() && hidden.empty(); }
 };

@@ -52,7 +52,7 @@ private:
 
   PictureRegion region_;
   PictureRows pictures_;
-  std::vector<bool> finished_; ///< by block
+  std::vector<bool> finished_; ///< index: block
 };
 
 /// Renders the remaining rows of a picture: at once, or on threads of this computer in bands of rows that

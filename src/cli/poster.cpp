@@ -144,7 +144,7 @@ private:
   PictureRegion region_;
   int width_, height_; ///< size of the region
   RowsFile& kept_;
-  bool keeps_all_; ///< at any speed of rendering
+  bool keeps_all_; ///< true: all rows are kept, whatever the speed of rendering
   RowKeeper keeper_;
   const RowCosts& costs_;
   const Progress& progress_;

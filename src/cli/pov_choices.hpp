@@ -38,7 +38,7 @@ std::string_view file_type_name(char letter);
 /// The kinds of messages that are not printed, and files that get messages.
 struct MessageChoice {
   std::map<std::string, bool, std::less<>> printed;      ///< kinds that were switched on or off
-  std::map<std::string, std::string, std::less<>> files; ///< by kind
+  std::map<std::string, std::string, std::less<>> files; ///< key: kind
   bool appends = false;
 
   /// Returns celltrace's options.

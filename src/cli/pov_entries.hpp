@@ -17,7 +17,7 @@ struct PovEntry {
   };
 
   Kind kind;
-  std::string text = {};               ///< as written, for messages
+  std::string text = {};               ///< text as written, for messages
   const PovSetting* setting = nullptr; ///< null for a file, and for an unknown switch or setting
   bool plus = false;                   ///< the sign of a switch
   std::string value = {};              ///< without quotes around it

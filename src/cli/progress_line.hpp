@@ -22,7 +22,7 @@ public:
 private:
   std::optional<double> first_; ///< a fraction
   double fraction_ = 0;         ///< last one reported
-  std::optional<double> end_;   ///< in seconds
+  std::optional<double> end_;   ///< estimated end in seconds
 };
 
 /// Returns the text of the line: percent, elapsed time and remaining time.

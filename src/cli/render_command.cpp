@@ -170,7 +170,7 @@ private:
   const RenderRequest& request_;
   ResumeState state_;
   PovReport report_;
-  std::optional<RunReports> reports_; ///< from render() on: a scene that cannot be read leaves no reports
+  std::optional<RunReports> reports_; ///< made by render(): a scene that cannot be read leaves no reports
   ReadScene read_;
   std::optional<PictureOutcome> outcome_;
 };

@@ -40,7 +40,7 @@ public:
 private:
   struct Part {
     int bottom;
-    std::uint64_t at, bytes; ///< in the file
+    std::uint64_t at, bytes; ///< position and size in the file
     std::uint64_t checksum;
   };
 
@@ -49,7 +49,7 @@ private:
 
   std::filesystem::path path_;
   std::string head_;
-  std::map<int, Part> parts_; ///< by first row
+  std::map<int, Part> parts_; ///< key: first row
   std::uint64_t end_ = 0;     ///< end of the last intact part in the file; 0 if there is no file yet
   image::File file_;          ///< open for appending
 };

@@ -42,9 +42,9 @@ private:
   static Box around(const Box& a, const Box& b);
 
   std::vector<Node> nodes_;        ///< the last one is the root
-  std::vector<std::size_t> ranks_; ///< by object
+  std::vector<std::size_t> ranks_; ///< index: object
   std::vector<bool> is_infinite_;
-  bool is_list_; ///< so few objects that there is no tree
+  bool is_list_; ///< true: there are so few objects that there is no tree
 };
 
 } // namespace celltrace

@@ -282,7 +282,7 @@ private:
 
   FunctionBuilder& builder_;
   const FunctionGraph& graph_;
-  std::vector<FunctionValue> copies_; ///< by value of the function's graph
+  std::vector<FunctionValue> copies_; ///< index: value of the function's graph
 };
 
 FunctionValue FunctionBuilder::call(const FunctionCallee& callee, std::span<const FunctionValue> arguments) {

@@ -37,7 +37,7 @@ inline constexpr FunctionValue kNoValue = ~FunctionValue{0};
 /// Values that are computed together: those of the function itself, of a branch of a select, or of a loop's
 /// body. A block reads its own values and those of enclosing blocks.
 struct FunctionBlock {
-  std::vector<FunctionValue> values; ///< in the order in which they are computed
+  std::vector<FunctionValue> values; ///< values in the order in which they are computed
   FunctionValue result = 0;
   FunctionValue counter = kNoValue; ///< loops only
   FunctionValue start = kNoValue;   ///< loops only: the constant that the result begins with
@@ -125,7 +125,7 @@ private:
 
   FunctionGraph graph_;
   std::vector<OpenBlock> open_;
-  std::vector<std::uint16_t> levels_; ///< by node: number of blocks around its own
+  std::vector<std::uint16_t> levels_; ///< index: node; number of blocks around the node's own
   std::unordered_map<FunctionNode, FunctionValue, Hash> table_;
 };
 

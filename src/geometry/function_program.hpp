@@ -156,7 +156,7 @@ struct FunctionProgram {
   std::vector<FunctionStep> steps;
   std::uint32_t parameters =
       0; ///< number of parameters, which are in the first registers; no step writes to them
-  std::vector<double> constants; ///< in the following registers; no step writes to them
+  std::vector<double> constants; ///< constants, in the registers after the parameters; no step writes to them
   std::uint32_t registers = 0;   ///< number of all registers
   std::vector<std::uint16_t> operands;
   std::vector<FunctionCallee> callees;

@@ -36,7 +36,7 @@ private:
 struct Channel {
   const char* name;
   Imf::PixelType type;
-  std::size_t first, stride; ///< in numbers of its type
+  std::size_t first, stride; ///< first number and stride, in numbers of the channel's type
   enum { colours, depth, normal, object } source;
 };
 

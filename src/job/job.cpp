@@ -221,7 +221,7 @@ private:
   JobScene given_; ///< used by the worker only
   const JobOptions options_;
   std::atomic<bool> cancelled_ = false;
-  mutable std::mutex mutex_; ///< for the members below
+  mutable std::mutex mutex_; ///< guards the members below
   mutable std::condition_variable changed_;
   bool is_claimed_ = false, is_silent_ = false;
   std::thread::id worker_;

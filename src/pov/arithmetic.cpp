@@ -16,7 +16,7 @@ namespace {
 using Number = Parser::token;
 
 constexpr unsigned kDeepestNesting = 64;
-constexpr std::size_t kMostStreams = 64; ///< that are worth saving
+constexpr std::size_t kMostStreams = 64; ///< limit on streams that are worth saving
 
 /// Reads an expression by the rules of the grammar; after something that it does not understand, it reads
 /// nothing more.

@@ -14,7 +14,7 @@ using Operation = Csg::Operation;
 /// A texture of parts that counts at points in one of `solids`, or at all points.
 struct CutTexture {
   TexturePtr texture;
-  Transform transform; ///< from the texture's space to that of the CSG
+  Transform transform; ///< map from the texture's space to that of the CSG
   bool is_everywhere;
   std::vector<ObjectPtr> solids;
 

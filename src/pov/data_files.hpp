@@ -45,7 +45,7 @@ private:
   Location opened_at_;
   std::string name_;
   std::unique_ptr<Scanner> scanner_;
-  std::vector<Token> put_back_; ///< in reverse order
+  std::vector<Token> put_back_; ///< tokens to be read next, in reverse order
   std::unique_ptr<TextWriter> writer_;
 };
 

@@ -35,7 +35,7 @@ struct ElementReference {
   std::shared_ptr<Array> array;
   std::size_t index = 0;
   std::shared_ptr<Slot> slot; ///< slot of the parameter
-  Value value;                ///< at the call
+  Value value;                ///< value at the call
 };
 
 /// A source being read: the scanner of a file, or a recorded range of tokens.
@@ -50,9 +50,9 @@ struct Frame {
   NameId macro_name = 0;
   std::vector<ElementReference> references; ///< macros only
   std::optional<Counter> counter;
-  std::uint64_t iterations = 0; ///< loops only: number so far
+  std::uint64_t iterations = 0; ///< loops only: number of iterations so far
   std::vector<Conditional> conditionals;
-  std::vector<Token> put_back; ///< read before the rest, in reverse order
+  std::vector<Token> put_back; ///< tokens to be read before the rest, in reverse order
 };
 
 /// The stack of frames, with the tokens put back in front of each. Does not know what tokens mean.

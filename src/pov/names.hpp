@@ -57,7 +57,7 @@ public:
     int token = 0;
     int detail = 0; ///< what the token says apart from its kind: which function, constant or colour model
   };
-  using Meanings = std::array<Meaning, kBlocks>; ///< by Block
+  using Meanings = std::array<Meaning, kBlocks>; ///< index: Block
   struct Entry {
     std::string text;
     int token = 0;      ///< the grammar's token for a reserved word, 0 for a free one

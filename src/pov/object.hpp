@@ -57,9 +57,9 @@ struct TriangleDefinition {
   std::array<Vec3, 3> vertices{};
   std::array<Vec3, 3> normals{};
   bool is_smooth = false;
-  std::array<Vec2f, 3> coordinates{}; ///< on the surface
+  std::array<Vec2f, 3> coordinates{}; ///< surface coordinates of the corners
   bool is_mapped = false;             ///< has surface coordinates
-  std::array<TexturePtr, 3> textures; ///< at its corners; null: the mesh's
+  std::array<TexturePtr, 3> textures; ///< textures at the corners; null: the mesh's
 
   bool is_finite() const;
   /// Returns whether POV-Ray shows the triangle if it stands alone: all normals must be nonzero and finite,

@@ -24,7 +24,7 @@ constexpr std::size_t kMostSpaceSteps = 64;
 constexpr double kMostArms = 1e6;
 
 struct Colour {
-  double position; ///< in the default map; the index in lists
+  double position; ///< position in the default map; in lists the index
   Vec3 rgb;
 };
 

@@ -107,7 +107,7 @@ private:
     int depth = 0;                ///< levels of CSG and clipping around it
     Index light_group = kNoIndex; ///< the group whose lights shine on it
     bool is_copy = false;         ///< is part of a named object
-    const char* inside = nullptr; ///< for messages: what uses its inside; null: nothing
+    const char* inside = nullptr; ///< name, for messages, of the feature that uses its inside; null: none
   };
   void place(const ObjectDefinition& object, const Inherited& around, const Location& where);
   [[noreturn]] void exceed_objects(const Location& where) const;

@@ -40,8 +40,8 @@ struct Session {
   FunctionMachine functions;
   std::vector<std::uint32_t> random_streams; ///< states of seed()'s streams
   std::uint64_t text_bytes = 0;
-  std::uint64_t written_bytes = 0;                   ///< by #write
-  std::vector<std::shared_ptr<DataFile>> data_files; ///< that #fopen has opened and nothing closed
+  std::uint64_t written_bytes = 0;                   ///< bytes that #write has written
+  std::vector<std::shared_ptr<DataFile>> data_files; ///< files that are open since an #fopen
   std::uint64_t shape_tests = 0;                     ///< tests of shapes by trace() and similar functions
   std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
   TexturePtr base_texture;        ///< what the pigment or finish being read starts from

@@ -17,7 +17,7 @@ using UnsupportedPtr = std::shared_ptr<const Unsupported>;
 struct Unsupported {
   std::string what;
   Location where;
-  UnsupportedPtr others = nullptr; ///< in reverse order
+  UnsupportedPtr others = nullptr; ///< other constructs in the list, in reverse order
 };
 
 /// Adds the constructs that are not in the list yet. The list is short: a scene does not have many different

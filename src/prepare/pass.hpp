@@ -19,7 +19,7 @@ using PassedLimits = std::set<PictureLimit>;
 /// The inputs of passes besides the scene, and the set to which they add limits.
 struct PassContext {
   const Eye& eye;
-  std::span<const std::uint32_t> material_flags; ///< by material: flags of objects that consist of it
+  std::span<const std::uint32_t> material_flags; ///< index: material; flags of objects that consist of it
   PassedLimits* limits = nullptr;                ///< null: not needed
 
   /// Records that the scene passes a limit.

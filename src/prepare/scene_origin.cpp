@@ -147,7 +147,7 @@ private:
   }
 
   const Transform move_;
-  std::unordered_map<const void*, std::shared_ptr<const void>> moved_; ///< by address of the original
+  std::unordered_map<const void*, std::shared_ptr<const void>> moved_; ///< key: address of the original
 };
 
 } // namespace

@@ -11,7 +11,7 @@ namespace celltrace {
 
 /// A file, or a text.
 struct SceneSource {
-  std::string text; ///< or the file's name
+  std::string text; ///< text of the scene, or name of its file
   bool is_file = false;
 };
 

@@ -79,7 +79,7 @@ constexpr uint32_t kReadableBytes = sizeof(ObjectRecord);
 struct alignas(16) BvhRecord {
   uint32_t node_offset;
   uint32_t node_capacity; ///< nodes
-  uint32_t node_count;    ///< in use, set by PREPARE FRAME
+  uint32_t node_count;    ///< number of nodes in use, set by PREPARE FRAME
   uint32_t list_offset;   ///< offset of one word per object, in the order of the leaves; lists of leaves are
                           ///< parts of this table
 };

@@ -33,7 +33,7 @@ static_assert(sizeof(FogRecord) == 128, "one a line");
 /// each other. Angles are in turns.
 struct alignas(128) RainbowRecord {
   float direction[3];
-  float angle; ///< from the axis to the middle of the bow
+  float angle; ///< angle between the axis and the middle of the bow
   float up[3];
   float inverse_width;
   float right[3];

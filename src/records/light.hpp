@@ -37,9 +37,9 @@ struct alignas(128) LightRecord {
   float fade_power;
 
   // For lights with an area:
-  float across[3]; ///< from the first column of places to the last
+  float across[3]; ///< vector from the first column of places to the last
   uint32_t columns;
-  float along[3]; ///< from the first row to the last
+  float along[3]; ///< vector from the first row of places to the last
   uint32_t rows;
   float inverse_columns, inverse_rows; ///< 1 / (columns - 1), 1 / (rows - 1)
   uint32_t adaptive;                   ///< number of times that the grid of places is always divided

@@ -94,7 +94,7 @@ struct alignas(32) InteriorRecord {
   /// Factor of transmitted light at the surfaces of the interior; its sign is negative if fog is inside.
   float signed_refraction;
   float inverse_fade_distance; ///< 0: light does not fade
-  float fade_power;            ///< from 1000 on: light fades exponentially
+  float fade_power;            ///< exponent of fading; from 1000 on light fades exponentially
   float fade_colour[3];
   float caustics; ///< exponent; 0: none
 

@@ -28,7 +28,7 @@ constexpr uint32_t kGradients = 2048;
 /// A source of ripples or waves and its frequency.
 struct alignas(16) WaveRecord {
   float source[3];
-  float frequency; ///< for waves; all ripples have frequency 1
+  float frequency; ///< frequency of waves; all ripples have frequency 1
 };
 static_assert(sizeof(WaveRecord) == 16, "eight a line");
 

@@ -41,7 +41,7 @@ private:
   double bound_node(kernel::NodeRecord& node, std::uint32_t i);
 
   std::vector<std::uint32_t> nodes_;  ///< indices in ascending order, so that children come after parents
-  std::vector<std::uint32_t> places_; ///< by entry of nodes_: index in bounds_ of its own bounds
+  std::vector<std::uint32_t> places_; ///< index: entry of nodes_; place in bounds_ of the entry's bounds
   std::vector<Member> members_;       ///< leaf by leaf
   // The bounds of the children, four for each entry of nodes_.
   std::vector<kernel::bvh::Reference> bounds_; ///< not padded as the image's bounds are

@@ -10,7 +10,7 @@ namespace {
 constexpr int kColoursOnly = 1;
 constexpr int kNoShadows = 3;
 constexpr int kNoAreas = 4;
-constexpr int kAllSurfaces = 8; ///< and all lights
+constexpr int kAllSurfaces = 8; ///< all surfaces and all lights
 
 /// Reduces the quality of textures. Maps that textures share stay shared.
 class Reducer {

@@ -284,8 +284,8 @@ private:
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
   std::unique_ptr<StageTeam> stages_;
-  ReportPace pace_, sample_pace_; ///< for the passes of the two plans
-  double grid_share_ = 0.5;       ///< as a share of the time of the last picture with antialiasing
+  ReportPace pace_, sample_pace_; ///< pace of the passes of the two plans
+  double grid_share_ = 0.5;       ///< share of the grid in the time of the last picture with antialiasing
   std::vector<WorkRecord> work_;  ///< records of the last pass
   bool is_last_frame_ = false;
 };

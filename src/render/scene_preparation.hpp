@@ -91,7 +91,7 @@ private:
   SceneImage image_;
   std::vector<Medium> media_;
   std::shared_ptr<RayQueryScene> query_scene_; ///< null: no queries of this scene were requested
-  bool has_scene_ = false;                     ///< with an accelerator
+  bool has_scene_ = false;                     ///< true: there is a scene with an accelerator
   Vec3 origin_ =
       Vec3(0); ///< origin of the image, in the scene's coordinates, to which the members below are relative
   Camera camera_; ///< camera of the next frame

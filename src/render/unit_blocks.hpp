@@ -12,7 +12,7 @@ namespace celltrace {
 /// The blocks that units consist of, and their place in the picture.
 struct BlockGrid {
   std::uint32_t columns; ///< blocks per row
-  int edge;              ///< in pixels
+  int edge;              ///< edge of a block in pixels
   int left, top;         ///< position of the first block in the picture
   PictureRegion region;  ///< part of the picture that is rendered
 };

@@ -25,7 +25,7 @@ struct Surroundings {
   /// count in merges; none in intersections and differences. An inverted operation follows the rule of the
   /// operation that it becomes.
   bool hides_shadow = true, hides_image = true, hides_reflection = true;
-  bool is_in_unions = true; ///< in unions alone, none of which is clipped
+  bool is_in_unions = true; ///< true: nothing but unions is around it, and none is clipped
   bool inverse = false;
   bool was_inverse = false; ///< an object around it is inverse
   bool shows = true;

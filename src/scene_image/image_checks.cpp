@@ -119,8 +119,8 @@ private:
   const InstanceRecord* instances_;
   const ObjectRecord* objects_;
   const NodeRecord* nodes_;
-  std::vector<TriangleSpan> spans_;   ///< by node
-  std::vector<std::uint32_t> levels_; ///< by node: number of levels below it
+  std::vector<TriangleSpan> spans_;   ///< index: node
+  std::vector<std::uint32_t> levels_; ///< index: node; number of levels below it
 };
 
 } // namespace

@@ -11,7 +11,7 @@ namespace celltrace {
 /// An object that a camera may be in.
 struct Medium {
   Object object;
-  Index interior;   ///< in which rays begin that start inside
+  Index interior;   ///< interior of rays that start inside
   kernel::Aabb box; ///< bounds of the object
 
   /// Returns whether a point is inside by the rules of CSG; a mesh has an inside if it has an inside vector.

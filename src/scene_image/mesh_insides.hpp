@@ -16,7 +16,7 @@ class MeshInsides {
 public:
   struct Inside {
     std::uint32_t grid;      ///< index in grids()
-    Transform to_grid_space; ///< from the mesh's own space
+    Transform to_grid_space; ///< map from the mesh's own space
   };
   /// Returns the inside of a mesh that has one. Each mesh is added once, and must outlive this object.
   const Inside& of(const Mesh& mesh);

@@ -66,8 +66,8 @@ private:
   const Scene& scene_;
   std::vector<MeshPrototype> prototypes_;
   std::vector<Instance> instances_;
-  std::vector<std::uint32_t> first_group_of_; ///< by prototype: the first group of its first instance
-  std::vector<bool> is_instance_;             ///< by object of the scene
+  std::vector<std::uint32_t> first_group_of_; ///< index: prototype; the first group of its first instance
+  std::vector<bool> is_instance_;             ///< index: object of the scene
   ObjectCensus census_;
   std::uint32_t group_count_ = 0;
   std::uint32_t longest_group_ = 0;

@@ -195,8 +195,8 @@ private:
   }
 
   const std::vector<Vec3f>& points_;
-  std::vector<Index> first_like_; ///< by point: the first one that is equal
-  std::vector<Index> number_;     ///< by such first point
+  std::vector<Index> first_like_; ///< index: point; the first one that is equal
+  std::vector<Index> number_;     ///< index: first point of equal ones
   std::vector<Vec3f> used_;
 };
 

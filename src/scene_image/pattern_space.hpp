@@ -15,7 +15,7 @@ kernel::TurbulenceWords words_of(const Turbulence& turbulence);
 struct PatternSpace {
   std::vector<SpaceStep> steps;
   bool uv_mapping = false;
-  Transform of_normals; ///< with uv_mapping: from that space to the scene
+  Transform of_normals; ///< with uv_mapping: transformation from that space to the scene
 
   bool is_scene() const { return steps.empty() && !uv_mapping; }
 };

@@ -13,7 +13,7 @@ namespace celltrace {
 class Polytope {
 public:
   struct Face {
-    std::vector<Vec3> corners; ///< in order around the face
+    std::vector<Vec3> corners; ///< corners in order around the face
     std::size_t source;
   };
 

@@ -125,10 +125,10 @@ private:
 
   /// The data of its scene that updates need.
   struct Origin {
-    std::vector<std::uint32_t> places; ///< by object that is no instance; kNoPlace if it cannot be hit
+    std::vector<std::uint32_t> places; ///< index: object that is no instance; kNoPlace if it cannot be hit
     std::uint32_t placed = 0;          ///< number of these that can be hit
     std::vector<std::uint32_t> groups; ///< groups of these objects
-    std::vector<ObjectForm> forms;     ///< by object of the scene
+    std::vector<ObjectForm> forms;     ///< index: object of the scene
     std::vector<std::size_t> order;    ///< SceneObjects::order()
     std::vector<std::uint32_t> material_flags;
     std::size_t own_interiors = 0;   ///< number of records of objects without an interior

@@ -104,8 +104,8 @@ private:
   const Scene& scene_;
   std::uint32_t unmapped_nodes_ = 0;        ///< most Traits::nodes of a material of the scene that is no map
   std::vector<std::uint32_t> mapped_nodes_; ///< Traits::nodes of each material that is one
-  std::vector<Child> children_;             ///< by entry: its child
-  std::vector<PatternTable> tables_;        ///< by pattern: the table it reads
+  std::vector<Child> children_;             ///< index: entry; its child
+  std::vector<PatternTable> tables_;        ///< index: pattern; the table it reads
   TextureSharing sharing_;
   /// Maps that several textures share, by address; if sharing is needed, maps inside others are kept apart.
   std::map<std::pair<const void*, Place>, Known> known_;

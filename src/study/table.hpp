@@ -12,7 +12,7 @@ namespace celltrace::study {
 using Value = std::variant<std::monostate, std::string, double>;
 
 struct Column {
-  std::string name; ///< with the unit, if any
+  std::string name; ///< name, with the unit if there is one
   int decimals = 0; ///< decimals of the column's numbers
 };
 
@@ -27,7 +27,7 @@ struct Chart {
   Kind kind = Kind::lines;
   std::string x, y; ///< titles of the axes
   bool logarithmic_x = false, logarithmic_y = false;
-  std::vector<std::string> labels; ///< for the groups of bars
+  std::vector<std::string> labels; ///< labels of the groups of bars
   std::vector<Series> series;
 };
 

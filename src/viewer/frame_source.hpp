@@ -101,7 +101,7 @@ private:
   void publish(Frame frame);
 
   const std::function<void()> notify_;
-  std::mutex mutex_; ///< for the next seven members
+  std::mutex mutex_; ///< guards the next seven members
   std::condition_variable changed_;
   Wanted wanted_;
   std::optional<Frame> frame_;

@@ -55,7 +55,7 @@ private:
   const std::filesystem::path scene_;
   ParseOptions options_;
   const std::function<void()> notify_;
-  std::mutex mutex_; ///< for the next three members
+  std::mutex mutex_; ///< guards the next three members
   std::optional<Loaded> loaded_;
   std::vector<Watched> files_;
   bool is_reading_ = false;

@@ -35,11 +35,11 @@ struct Overlay {
   };
 
   std::vector<Patch> patches;
-  std::vector<std::string> lines; ///< at the top left
-  std::vector<Bar> bars;          ///< below them
-  std::vector<std::string> page;  ///< in the middle
-  std::string hint;               ///< at the top right
-  std::string message;            ///< at the bottom, in any number of lines
+  std::vector<std::string> lines; ///< lines at the top left
+  std::vector<Bar> bars;          ///< bars below the lines
+  std::vector<std::string> page;  ///< lines of a page in the middle
+  std::string hint;               ///< text at the top right
+  std::string message;            ///< text at the bottom, in any number of lines
   bool is_error = false;          ///< true: the message is an error
 };
 

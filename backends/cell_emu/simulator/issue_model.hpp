@@ -110,7 +110,7 @@ private:
 
   const TimingParameters timing_;
   std::array<std::uint8_t, kUnits> latency_{};
-  std::array<Cycle, 129> ready_{}; ///< by register, the last for none
+  std::array<Cycle, 129> ready_{}; ///< index: register, the last for none
   std::array<isa::Unit, 129> producer_{};
   Cycle last_ = 0;
   Cycle blocked_ = 0;
@@ -123,7 +123,7 @@ private:
   Cycle taken_ = 0; ///< cycle up to which take() has counted
   std::array<std::uint64_t, kUnits> units_{};
   std::array<std::uint64_t, kUnits> dependency_{}; ///< stalls by the unit waited for
-  std::array<Cycle, kStallReasons> stalls_{};      ///< by StallReason
+  std::array<Cycle, kStallReasons> stalls_{};      ///< index: StallReason
   std::array<Cycle, kStallReasons> recent_{};      ///< stalls that a profile has not seen yet
   std::uint64_t issued_before_ = 0;                ///< instructions that take() has counted
   std::uint64_t single_cycle_ = 0, dual_cycle_ = 0, nop_cycle_ = 0;

@@ -40,7 +40,7 @@ private:
     std::uint32_t file = 0; ///< number in files_
   };
   struct Sequence {
-    std::vector<Row> rows; ///< by ascending address; the last one ends the sequence
+    std::vector<Row> rows; ///< rows in ascending order of address; the last row ends the sequence
     std::uint32_t first() const { return rows.front().lsa; }
     std::uint32_t end() const { return rows.back().lsa; }
   };

@@ -55,7 +55,7 @@ private:
   void append_listing(std::string& text, const ProfiledFunction& function) const;
   void append_instruction(std::string& text, std::uint32_t lsa) const;
 
-  std::vector<SpuProfile::Word> words_; ///< by word of local store
+  std::vector<SpuProfile::Word> words_; ///< index: word of local store
   CodePlaces places_;
   ProfileSum total_;
   std::vector<ProfiledFunction> functions_;

@@ -78,8 +78,8 @@ private:
   const CallPpe call_ppe_;
   SpuProfile* const profile_;
   isa::State state_of_spu_;
-  std::vector<isa::Instruction> decoded_; ///< by word of local store
-  std::vector<std::uint8_t> watch_;       ///< by quadword of local store
+  std::vector<isa::Instruction> decoded_; ///< index: word of local store
+  std::vector<std::uint8_t> watch_;       ///< index: quadword of local store
   EarlyLoads early_loads_;
   IssueModel model_;
   std::uint32_t left_in_slice_ = 0; ///< instructions until attend()

@@ -13,8 +13,8 @@ namespace celltrace::cell_emu {
 /// A part of the file that belongs into local store.
 struct ElfSegment {
   std::uint32_t lsa = 0;
-  std::uint32_t bytes = 0;               ///< in local store, more than 0; lsa + bytes is at most 256 KB
-  std::span<const std::uint8_t> content; ///< its first bytes, at most `bytes`; the rest is zero
+  std::uint32_t bytes = 0;               ///< size in local store, more than 0; lsa + bytes is at most 256 KB
+  std::span<const std::uint8_t> content; ///< the segment's first bytes, at most `bytes`; the rest is zero
   bool executable = false;
   bool writable = false;
   /// True if it lies in the place of an earlier segment, for the program to fetch itself when needed: not

@@ -112,7 +112,7 @@ private:
 
   std::span<const Pair> edges_;
   std::uint32_t colours_;
-  std::vector<std::uint32_t> edge_at_; ///< by node and colour
+  std::vector<std::uint32_t> edge_at_; ///< index: node and colour
   std::vector<std::uint32_t> colour_;
 };
 

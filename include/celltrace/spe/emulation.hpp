@@ -53,7 +53,7 @@ struct Faults {
 struct MemoryObject {
   ea_t ea = 0;
   std::uint64_t bytes = 0; ///< at least 1
-  std::string name;        ///< for diagnostics; may be empty
+  std::string name;        ///< name for diagnostics; may be empty
 };
 
 /// Options of a machine. make_machine() throws InputError for values out of the ranges that are stated here

@@ -345,7 +345,7 @@ private:
   const BvhRecord& bvh_;
   PacketTraversal<Spu> packet_traversal_;
   const float object_count_, rays_of_frame_;
-  uint32_t max_split_packets_ = 1;              ///< for the current bundle
+  uint32_t max_split_packets_ = 1;              ///< limit for the current bundle
   RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< index: packet; intersect_packet() uses the first
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;
   Frustum<S> bundle_frustum_;              ///< contains all of frusta_

@@ -273,7 +273,7 @@ private:
   NodeRecord* nodes_;
   typename TopBuilder::Task* top_stack_;
   typename TreeletBuilder::Task* treelet_stack_;
-  Reference* references_; ///< in local store, enough for most treelets
+  Reference* references_; ///< references in local store: room for most treelets
   Reference* spare_;
 };
 

@@ -144,7 +144,7 @@ private:
   F cost_;
   CutBounds left_, right_;
   alignas(64) int32_t left_weight_[kSimdLanes];
-  uint16_t on_left_[kFewReferences]; ///< by reference, a bit for each lane
+  uint16_t on_left_[kFewReferences]; ///< index: reference; a bit for each lane
 };
 
 } // namespace celltrace::kernel::bvh

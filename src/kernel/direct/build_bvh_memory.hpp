@@ -15,7 +15,7 @@ struct WorkMemory {
   Treelet* treelets;
   Reference* references; ///< objects of treelets that exceed kLocalReferences; by position in the list
   Reference* spare_references;
-  uint32_t* treelet_of; ///< by group; defined for prototypes
+  uint32_t* treelet_of; ///< index: group; defined for prototypes
 
   explicit WorkMemory(const FrameBlock& frame) {
     const WorkSize size(frame.object_count, frame.group_count, frame.longest_group);

@@ -144,7 +144,7 @@ private:
   Tests& tests_;
   const BundleView<S>* view_;
   LeafTriangles<S> triangles_;
-  uint32_t packets_of_[2 * kMost]; ///< by triangle: the packets that hit its leaf
+  uint32_t packets_of_[2 * kMost]; ///< index: triangle; the packets that hit its leaf
 };
 
 } // namespace celltrace::kernel

@@ -129,7 +129,7 @@ private:
 
   SampleBundle<Spu>* samples_;
   HitSorter<Spu> sorter_;
-  VectorLanes* light_; ///< by member, light of its pixels
+  VectorLanes* light_; ///< index: member; light of its pixels
   uint32_t with_ray_[kPackets];
   uint32_t sorted_ = 0; ///< members whose rays have been sorted
 };

@@ -196,7 +196,7 @@ private:
 
   uint32_t rounds_ = 0;
   const PatternRecord* pattern_ = nullptr; ///< pattern of the known values; null: there are none
-  uint32_t known_[kPackets];               ///< by packet, lanes with known values
+  uint32_t known_[kPackets];               ///< index: packet; lanes with known values
   uint32_t shown_ = 0;
   uint32_t count_ = 0;
   Packet packets_[kPackets];

@@ -132,9 +132,10 @@ private:
 
   Sorted* sorted_;
   uint32_t number_[kPackets], sorted_count_ = 0; ///< packets that are sorted
-  uint8_t class_[kPackets][kSimdLanes];          ///< by packet and lane: number of the material
+  uint8_t class_[kPackets][kSimdLanes];          ///< index: packet and lane; number of the material
   uint32_t materials_[kMaterials], materials_count_ = 0;
-  uint32_t count_[kMaterials + 1], next_[kMaterials + 1]; ///< by material: rays, and place of the next one
+  uint32_t count_[kMaterials + 1],
+      next_[kMaterials + 1]; ///< index: material; rays, and place of the next one
   uint32_t rays_ = 0;
   uint32_t mixed_ = 0; ///< total number of materials of these packets
 };

@@ -37,7 +37,7 @@ public:
   }
 
 private:
-  static constexpr float kRelativeEpsilon = 1e-6f; ///< for the rounding of slopes
+  static constexpr float kRelativeEpsilon = 1e-6f; ///< bound of the rounding error of slopes
   static constexpr float kMostSlope = 1e3f;
   static constexpr float kLeastArea = 1e-12f;
 

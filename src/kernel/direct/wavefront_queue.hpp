@@ -153,7 +153,8 @@ private:
   uint32_t free_[kPackets], free_count_ = 0; ///< numbers of packets, if full ones wait
   Packet full_[kPackets];
   uint32_t full_count_ = 0;
-  uint32_t filling_[kKeys], count_[kKeys]; ///< by key: the packet that fills, and the number of its lanes
+  uint32_t filling_[kKeys],
+      count_[kKeys]; ///< index: key; packet that is being filled, and number of its lanes
 };
 
 } // namespace celltrace::kernel

@@ -162,7 +162,7 @@ private:
     static constexpr bool kHasRoom = S::kLanes == kSimdLanes;
 
     std::conditional_t<kHasRoom, ExponentsOfOne<S>, Exponents<S>> exponents;
-    F inverse_scale, shift; ///< for distances along rays
+    F inverse_scale, shift; ///< scale and offset of distances along rays
     V3<S> o, d;
     V3<S> planes; ///< distances of the planes between octants
     /// The interval in a slightly extended box, so that both ends are certainly outside of the shape.

@@ -310,7 +310,7 @@ private:
     return onward;
   }
 
-  SurfaceLanes* surface_; ///< at the hits; null: no pattern of the scene needs it
+  SurfaceLanes* surface_; ///< surfaces at the hits; null: no pattern of the scene needs them
 };
 
 } // namespace celltrace::kernel

@@ -49,7 +49,7 @@ struct PpeState {
   OpenFiles files;
   Streams streams;
   EaHeap ea_heap;
-  std::vector<std::unique_ptr<ListedFolder>> listed_folders; ///< by the program's number for them, from 1
+  std::vector<std::unique_ptr<ListedFolder>> listed_folders; ///< index: the program's number for them, from 1
   unsigned umask = 022;
   unsigned temporary_files = 0; ///< number of files made so far
 };
