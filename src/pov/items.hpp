@@ -35,10 +35,10 @@ struct ItemWord {
 
 /// Lists the rows of a block's own table; a row's place is the item's number.
 std::vector<ItemWord> item_words(Block block);
-/// Returns the block whose table a block has besides its own; Block::none: no other.
+/// Returns the block whose table also belongs to `block`; Block::none if `block` has only its own table.
 Block base_of(Block block);
 
-/// An item as written. Small, because the grammar's stack has room for one everywhere.
+/// An item as written. The type is small, because each entry of the grammar's stack has room for an item.
 struct Item {
   int row = 0; ///< row_of()
   Location where;

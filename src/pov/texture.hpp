@@ -30,7 +30,7 @@ template <class T> struct MapDefinition {
   int depth = 1;                 ///< levels of nested maps
   bool is_opaque = true;         ///< no entry lets light through
   bool asks_for_surface = false; ///< some entry depends on more of a surface than points
-  UnsupportedPtr unsupported;    ///< first one in any entry
+  UnsupportedPtr unsupported;    ///< first unsupported feature in any entry
 };
 using PigmentMap = MapDefinition<Pigment>;
 using NormalMap = MapDefinition<Normal>;
@@ -41,11 +41,11 @@ using TextureMapPtr = std::shared_ptr<const TextureMap>;
 using SlopeMapPtr = std::shared_ptr<const std::vector<SlopePoint>>;
 
 struct PigmentDefinition {
-  Pigment value; ///< used without a pattern; it has no map
+  Pigment value; ///< pigment without a map, used if there is no pattern
   PatternDefinition pattern;
   PigmentMapPtr map;                   ///< null: the pattern's own colours
   std::optional<Pigment> quick_colour; ///< replaces everything else if the quality is low enough
-  bool uv_mapping = false;             ///< set while it is read: it will be put on surface coordinates
+  bool uv_mapping = false; ///< true while the pigment is read: it will be put on surface coordinates
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<PigmentDefinition> counted;
 
@@ -65,10 +65,10 @@ struct NormalDefinition {
   PatternDefinition pattern; ///< none: the surface is smooth
   double amount = 0.5;
   double accuracy = 0.02;
-  std::vector<SlopePoint> slopes; ///< empty: the pattern's values
+  std::vector<SlopePoint> slopes; ///< slope map; empty: the pattern's own values
   NormalMapPtr map;               ///< null: the pattern's own slopes
   bool uv_mapping = false;        ///< as PigmentDefinition::uv_mapping
-  bool is_undefined = false;      ///< makes its surface black
+  bool is_undefined = false;      ///< true: makes its surface black
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<NormalDefinition> counted;
 
@@ -125,7 +125,8 @@ struct TextureDefinition {
   PatternDefinition pattern; ///< if it exists, the texture map replaces all members above
   TextureMapPtr map;
   bool uv_mapping = false;    ///< as PigmentDefinition::uv_mapping
-  bool is_on_surface = false; ///< all of it is on surface coordinates, so that only its normals still turn
+  bool is_on_surface = false; ///< true: all layers are on surface coordinates, so that transformations turn
+                              ///< nothing but normals
   BuiltMaterial built;        ///< material of a texture that is the same everywhere
   Original original;          ///< for a texture that is the same everywhere and has only been moved
   UnsupportedPtr unsupported;
@@ -135,11 +136,11 @@ struct TextureDefinition {
   int depth() const { return map ? std::max(map->depth, 1 + pattern.inner_depth) : 0; }
   /// Returns whether the texture lets no light through, so that a layer below does not matter.
   bool is_opaque() const;
-  /// Returns whether it depends on more of a surface than points.
+  /// Returns whether the texture depends on more of a surface than points.
   bool asks_for_surface() const;
   /// Returns whether the texture is the same everywhere in space.
   bool is_constant() const;
-  /// Returns whether it has a pigment, normal and finish that can be changed, and can be a layer.
+  /// Returns whether the texture has a pigment, normal and finish that can be changed, and can be a layer.
   bool is_plain() const { return !pattern.exists() && !is_on_surface; }
 };
 
@@ -157,11 +158,11 @@ TexturePtr on_surface(const TexturePtr& texture);
 /// Returns the texture with all its layers moved. A pigment or normal without a pattern is moved, too: as in
 /// POV-Ray, a pattern that it gets later is moved as well.
 TexturePtr transformed(const TexturePtr& texture, const Transform& next);
-/// Returns `top` on `below` (null: nothing), neither with a pattern of textures; only `top` if that is
-/// opaque.
+/// Returns `top` as a layer on `below`, or `top` alone if it is opaque or `below` is null. Neither may have a
+/// pattern of textures.
 TexturePtr layered(const TexturePtr& below, const TexturePtr& top);
-/// Returns the texture with the same material: another one if this texture is the same everywhere and has
-/// only been moved.
+/// Returns the texture that `texture` was moved from if it is the same everywhere, since both have the same
+/// material; otherwise `texture` itself.
 const TexturePtr& original(const TexturePtr& texture);
 
 /// Returns the texture with its layers transmitting what they filter: all layers but the lowest one, or all.

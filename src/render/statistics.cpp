@@ -26,7 +26,7 @@ void add_cache(RenderStatistics::Cache& cache, const ReportRecord& report, DataK
 /// Returns the work of an SPE in a frame, without waiting for others. Host time also depends on the host.
 std::uint64_t load(const RenderStatistics::Spe& spe, Schedule schedule) {
   if (schedule != Schedule::lockstep) return spe.rays;
-  // Stages of a pipeline do not wait for work of their own but for rays, and do not report how long.
+  // Stages of a pipeline report no busy ticks: they wait for rays, not for units of work.
   return spe.busy_ticks != 0 ? spe.busy_ticks : spe.cycles.total_cycle - spe.cycles.channel_stall_cycle;
 }
 

@@ -98,8 +98,8 @@ public:
           const F rounds = squares[k].rounds;
           const M goes_on = squares[k].stays & (rounds < most) & !squares[k].is_at(kept[k]);
           ended[k] = streams[k].busy & ~goes_on.bits();
-          // To detect cycles, numbers are compared with one that is kept; the next one is kept after twice as
-          // many rounds.
+          // Detects cycles (Brent): the number of each round is compared with a kept one. A number is kept
+          // whenever the count of rounds is a power of 2.
           const I whole = S::to_int(rounds);
           const M keeps = (whole & (whole - I::splat(1))) == I::splat(0);
           kept[k] = {S::select(keeps, squares[k].z.a, kept[k].a),

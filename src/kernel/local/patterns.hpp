@@ -18,7 +18,7 @@ struct LocalPatterns {
     static constexpr int32_t kTaken = 0;
     template <class... Arguments> static constexpr bool suffice(const Arguments&...) { return false; }
     template <class... Arguments> static constexpr bool suffice_in(const Arguments&...) { return false; }
-    /// Supports the usual metric alone.
+    /// Returns a bound for the usual metric, and 0, which is no bound, for others.
     [[gnu::always_inline]] static typename S::F least_along(const typename S::F& way, float metric) {
       return metric == 2.0f ? way * way : typename S::F(0.0f);
     }

@@ -205,7 +205,8 @@ private:
       return slope < F(0.0f);
     }
 
-    /// Finds the root of the sum, less 1, and its slope: negative values are inside.
+    /// Finds terms.root() - 1 at distance `t`, and its slope along the ray. The value is negative inside the
+    /// shape.
     CELLTRACE_ONE_COPY void at(const F& t, F& value, F& slope) const {
       const V3<S> p = o + d * t;
       const Terms<S> terms(p, exponents);
