@@ -29,7 +29,7 @@ struct Spe {
 
   /// Empties the arena and resets the MFC and the SPU's own channels.
   void begin();
-  /// Ends the kernel as the PPE sees it.
+  /// Ends the kernel: resets the MFC, and tells the PPE the exit code.
   void end(std::uint32_t exit_code);
 
   /// Returns the arena, for the SPE's thread. Every change of its fill is preceded by a call, which updates

@@ -5,7 +5,7 @@
 
 namespace celltrace::pov {
 
-/// A block's table has the words of base_of() besides its own.
+/// The blocks. The words of a block are those of its own table and of the table of base_of().
 enum class Block : std::uint8_t {
   none, ///< has no items
   scene,

@@ -8,7 +8,7 @@
 
 namespace celltrace::pov {
 
-/// The inside of reflection { }. What it does not say stays as the finish has it.
+/// The contents of reflection { }. Properties that it does not set stay those of the finish.
 struct ReflectionDefinition {
   Vec3 min{0, 0, 0};
   Vec3 max{0, 0, 0};
@@ -21,16 +21,17 @@ struct ReflectionDefinition {
   void apply(Finish& finish) const;
 };
 
-/// The old form, one colour.
 void set_diffuse(FinishDefinition& finish, bool is_albedo, double before, double behind);
-/// Makes of albedos, the shares of light that are sent on to all sides together, what the formulas take.
+/// Turns albedos, which are shares of light reflected to all sides together, into the numbers that the
+/// formulas take.
 void settle_albedos(FinishDefinition& finish);
+/// Sets reflection by the old form, which is one colour.
 void set_reflection(Finish& finish, const Vec3& colour);
 double roughness(Session& session, double value, const Location& where);
 double exponent(Session& session, double value, const Location& where);
-/// 1 for 0, as in POV-Ray; negative ones are taken.
+/// Returns an index of refraction: 1 for 0, as in POV-Ray. Negative values stay.
 double ior(Session& session, double value, const Location& where);
-/// Nothing unless it is positive.
+/// Returns the index of refraction of a finish; nothing unless it is positive.
 std::optional<double> ior_of_finish(Session& session, double value, const Location& where);
 
 } // namespace celltrace::pov

@@ -16,13 +16,13 @@ std::shared_ptr<TriangleDefinition> smooth_triangle(const std::array<Quantity, 3
 /// Sets the textures of a mesh2; fails unless there are as many as announced.
 void set_textures(Session& session, Mesh2Definition& mesh, double count, std::vector<TexturePtr> textures,
                   const Location& where);
-/// Fails unless they are three.
+/// Sets the textures of a triangle's corners. Fails unless there are three.
 void set_textures(Session& session, TriangleDefinition& triangle, const std::vector<TexturePtr>& textures,
                   const Location& where);
-/// Fails unless they are finite.
+/// Sets the surface coordinates of a triangle. Fails unless they are finite.
 void set_coordinates(Session& session, TriangleDefinition& triangle, const std::array<Vec3, 3>& uv,
                      const Location& where);
-/// Fails unless it is finite.
+/// Returns an inside vector; 0, with a warning, if the given one is not finite.
 Vec3 inside_vector(Session& session, const Quantity& vector, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& definition, const Location& where);
@@ -30,9 +30,9 @@ std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& defin
 void check_count(Session& session, double announced, std::size_t found, const Location& where);
 /// Returns a list without the count that leads it, which must be right.
 CountedList counted(Session& session, std::vector<ListEntry>& list, const Location& where);
-/// Returns a list of face_indices likewise, counting its vectors alone.
+/// Returns a list of face_indices in the same way; the count is that of its vectors alone.
 CountedList faces(Session& session, std::vector<ListEntry>& list, const Location& where);
-/// Returns a list likewise, each entry of which must be finite.
+/// Returns a list in the same way; each entry must be finite.
 CountedList vectors(Session& session, std::vector<ListEntry>& list, const Location& where);
 
 } // namespace celltrace::pov

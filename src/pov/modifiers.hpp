@@ -8,10 +8,10 @@
 
 namespace celltrace::pov {
 
-/// Modifier as it has been read; a PatternChange is a warp.
+/// A modifier as it was read; a PatternChange is a warp.
 using Modifier = std::variant<Item, PatternChange, Transform, UnsupportedPtr>;
 
-// Each does what a modifier says.
+// Apply a modifier.
 void modify(Session& session, PigmentDefinition& pigment, const Modifier& modifier, const Location& where);
 void modify(Session& session, NormalDefinition& normal, const Modifier& modifier, const Location& where);
 void modify(Session& session, FinishDefinition& finish, const Modifier& modifier, const Location& where);

@@ -9,14 +9,14 @@
 
 namespace celltrace::pov {
 
-/// The texture with a change to its pattern, which it must have.
+/// Returns the texture with a change to its pattern. The texture must have a pattern.
 TexturePtr changed(Session& session, const TexturePtr& texture, const PatternChange& change,
                    const Location& where);
-/// Fails for a texture whose pattern is one of textures, or which is on surface coordinates: it has no
-/// pigment, normal or finish of its own.
+/// Fails if a texture has no pigment, normal and finish of its own, because it has a pattern of textures or
+/// is on surface coordinates.
 void require_plain(Session& session, const TexturePtr& texture, const Location& where);
-/// `given` on `below`, which may be null. Fails for textures that cannot be layers. Up to version 3.1 layers
-/// that are on other ones transmit what they filter.
+/// Returns `given` as a layer on `below`, which may be null. Fails if a texture cannot be a layer. Up to
+/// version 3.1 all layers but the lowest one transmit what they filter.
 TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& given, const Location& where);
 TexturePtr transformed(Session& session, const TexturePtr& texture, const Transform& next,
                        const Location& where);
@@ -28,10 +28,10 @@ void set_quick_colour(Session& session, PigmentDefinition& pigment, const Pigmen
 /// Fails if the pigment depends on a surface: a sky has none.
 // Textures as they were before version 3.0 (old_textures.cpp)
 
-/// A mere number is how grainy the texture is.
+/// Returns the texture with a colour; a single number is its graininess instead.
 TexturePtr with_old_colour(Session& session, const TexturePtr& texture, const Quantity& colour);
-/// Gives the texture's normal, or else its pigment, the pattern of a word. `number`: what stands behind it,
-/// as the depth of bumps.
+/// Gives the texture's normal the pattern of a word or, if it is no pattern of normals, gives it to the
+/// pigment. `number` is the number behind the word: the amount of the normal, or the graininess.
 TexturePtr with_old_pattern(Session& session, const TexturePtr& texture, int pattern,
                             std::optional<double> number);
 /// Changes the pattern of the texture's pigment.
@@ -56,27 +56,28 @@ void add(Session& session, TextureMap& map, double position, const TexturePtr& t
 void add(Session& session, PigmentMap& map, double position, const Pigment& colour, const Location& where);
 void add_colour(Session& session, PigmentMap& map, double position, const Quantity& colour,
                 const Location& where);
-/// The entries of another one, behind its own.
+/// Appends the entries of another map.
 void add(Session& session, PigmentMap& map, const PigmentMap& entries, const Location& where);
 
 void add(Session& session, std::vector<SlopePoint>& map, double position, const Vec3& height_and_slope,
          const Location& where);
-/// With positions as maps have them.
+/// Returns a slope map with ascending positions, as a Scene's maps need them.
 std::vector<SlopePoint> ascending(std::vector<SlopePoint> map);
 
 void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where);
-/// As before version 3.0 the pattern may follow the map.
+/// Sets a map as before version 3.0, when the pattern could follow the map.
 void set_old_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where);
 void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where);
 TexturePtr with_map(Session& session, const TexturePtr& texture, const TextureMap& map,
                     const Location& where);
-/// Gives a list to a pattern that takes one. Where it is too short, POV-Ray's colours or the defaults follow.
+/// Gives a list to a pattern that takes one. If the list is too short, POV-Ray's colours or the defaults
+/// follow.
 void set_colours(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
                  const Location& where);
 void set_list(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
               const Location& where);
 void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap list, const Location& where);
-// Each also takes the pattern of an object.
+// The same functions for the pattern of an object:
 void set_colours(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
                  const Location& where);
 void set_list(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
@@ -96,35 +97,35 @@ TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit&
 
 // Fail if a pattern lacks what it needs.
 void check(Session& session, const PigmentDefinition& pigment, const Location& where);
-/// Also settles what an `accuracy` of 0 comes to.
+/// Also replaces an `accuracy` of 0, and marks a normal that it makes undefined.
 void check(Session& session, NormalDefinition& normal, const Location& where);
 void check(Session& session, const TexturePtr& texture, const Location& where);
 
-// Each returns the texture with another pigment, normal or finish, and fails if it has none of its own.
+// Return the texture with another pigment, normal or finish. Fail if the texture has none of its own.
 TexturePtr with(Session& session, const TexturePtr& texture, const PigmentPtr& pigment,
                 const Location& where);
 TexturePtr with(Session& session, const TexturePtr& texture, const NormalPtr& normal, const Location& where);
 TexturePtr with(Session& session, const TexturePtr& texture, const FinishPtr& finish, const Location& where);
 /// Returns the texture with the pigment, normal or finish that a name stands for.
 TexturePtr with_named(const TexturePtr& texture, const Value& part);
-/// Fails, besides, if the texture has none of its own.
+/// Returns the same, but fails if the texture has no pigment, normal or finish of its own.
 TexturePtr with_named(Session& session, const TexturePtr& texture, const Value& part, const Location& where);
-// While a part in braces is read, what it is a part of is kept in session.unfinished.
+// While a part in braces is read, the whole that it is a part of is kept in session.unfinished.
 
-/// Takes back what was kept last, which is a T.
+/// Removes and returns the whole that was kept last, which is a T.
 template <class T> T kept(Session& session) {
   T last = std::get<T>(std::move(session.unfinished.back()));
   session.unfinished.pop_back();
   return last;
 }
-/// Keeps a texture, whose pigment, normal or finish is read next and starts from the one that it has.
+/// Keeps a texture. Its pigment, normal or finish is read next, and starts as a copy of the present one.
 void start_part(Session& session, TexturePtr texture);
-/// Keeps an object, whose texture's part is read next.
+/// Keeps an object. A part of its texture is read next.
 void start_part(Session& session, std::shared_ptr<ObjectDefinition> object, const Location& where);
-/// Keeps a material or an object, whose interior is read next.
+// Keep a material or an object. Its interior is read next.
 void start_part(Session& session, MaterialDefinition material);
 void start_interior(Session& session, std::shared_ptr<ObjectDefinition> object);
-/// Keeps a finish, of which irid { } is read next.
+/// Keeps a finish. Its irid { } is read next.
 void start_irid(Session& session, std::shared_ptr<FinishDefinition> finish, double amount);
 /// Returns the kept finish.
 Finish& irid(Session& session);

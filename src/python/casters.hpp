@@ -158,7 +158,7 @@ private:
   }
 };
 
-/// Converts values that a Scene shares and never changes: their Python classes have no setters either.
+/// Converts values that a Scene shares and never changes. Their Python classes have no setters.
 template <class T> struct type_caster<std::shared_ptr<const T>> {
   PYBIND11_TYPE_CASTER(std::shared_ptr<const T>, make_caster<T>::name);
 

@@ -138,7 +138,7 @@ Quadword EarlyLoads::moved(const isa::State& state, const Instruction& instructi
   const bool shuffle = instruction.opcode == Opcode::shufb;
   const std::uint8_t control = shuffle ? instruction.rc : instruction.source[1];
   if (control != isa::kNoRegister && !(early(control) == Quadword::zero())) return all_bytes();
-  // Registers of its own, because one register may be data and control at once.
+  // The copy of the instruction gets other registers: in the original, one register may be data and control.
   enum : std::uint8_t { a, b, controls, result_at };
   isa::State bytes;
   Instruction moving = instruction;

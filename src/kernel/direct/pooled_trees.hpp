@@ -87,7 +87,7 @@ protected:
   template <class Member> void begin_tree(const Member& member) {
     pool_.begin_tree(member.number, tracer().pooling().pixels);
   }
-  /// Returns true for a root, whose points shade_end() has found.
+  /// Returns true for a root: shade_end() has already found its points.
   static bool knows_points(const void* root) { return root != nullptr; }
   uint32_t take_hits() {
     return tracer().take_hits([&](uint32_t missed) { return leave_sky(missed); });

@@ -58,10 +58,11 @@ struct FractalPattern : RarePattern {
                          : outside == 6 ? S::sqrt(square<S>(left)) * factor
                          : outside > 6  ? remaining<S>(rounds, outside, factor)
                                         : counted<S>(left, outside, factor);
-    const F of_inside = inside == 1   ? S::sqrt(least) * inner
-                        : inside == 6 ? z.a * z.a + z.b * z.b * inner // POV-Ray's factor is of one part only
-                        : inside > 6  ? remaining<S>(F(r.parameter[2]), inside, inner)
-                                      : counted<S>(z, inside, inner);
+    const F of_inside =
+        inside == 1   ? S::sqrt(least) * inner
+        : inside == 6 ? z.a * z.a + z.b * z.b * inner // as in POV-Ray, the factor is that of one part only
+        : inside > 6  ? remaining<S>(F(r.parameter[2]), inside, inner)
+                      : counted<S>(z, inside, inner);
     return S::select(stays, of_inside, of_outside);
   }
 
