@@ -89,8 +89,8 @@ Face take_face(const Mesh2Definition& definition, const ListEntry*& entry) {
   return face;
 }
 
-/// Appends the surface coordinates of face number `face`: those of its indices or, if it has none, those with
-/// its vertices' numbers.
+/// Appends the surface coordinates of face number `face` by its uv_indices or, if the mesh has none, by the
+/// indices of its vertices.
 void add_coordinates(const Mesh2Definition& definition, std::size_t face, const Face& of, Mesh& mesh) {
   if (definition.uv_vectors.empty()) return;
   Index indices[3];

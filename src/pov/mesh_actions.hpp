@@ -19,7 +19,7 @@ void set_textures(Session& session, Mesh2Definition& mesh, double count, std::ve
 /// Sets the textures of a triangle's corners. Fails unless there are three.
 void set_textures(Session& session, TriangleDefinition& triangle, const std::vector<TexturePtr>& textures,
                   const Location& where);
-/// Sets the surface coordinates of a triangle. Fails unless they are finite.
+/// Sets the surface coordinates of a triangle; warns if some are not finite, and sets them to 0.
 void set_coordinates(Session& session, TriangleDefinition& triangle, const std::array<Vec3, 3>& uv,
                      const Location& where);
 /// Returns an inside vector; 0, with a warning, if the given one is not finite.
@@ -32,7 +32,7 @@ void check_count(Session& session, double announced, std::size_t found, const Lo
 CountedList counted(Session& session, std::vector<ListEntry>& list, const Location& where);
 /// Returns a list of face_indices in the same way; the count is that of its vectors alone.
 CountedList faces(Session& session, std::vector<ListEntry>& list, const Location& where);
-/// Returns a list in the same way; each entry must be finite.
+/// Returns a list of vectors in the same way; warns of entries that are not finite.
 CountedList vectors(Session& session, std::vector<ListEntry>& list, const Location& where);
 
 } // namespace celltrace::pov

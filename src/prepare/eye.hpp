@@ -22,19 +22,20 @@ public:
   /// Takes the scene into account, on which the start of rays depends.
   Eye(const Camera& camera, const Scene& scene, Moves moves);
 
-  /// Returns the location; the prepared scene depends on it from then on.
+  /// Returns the location. The prepared scene depends on the location from then on.
   const Vec3& location() const noexcept {
     is_asked_ = true;
     return location_;
   }
-  /// Returns a point as far away as the start of rays, which their precision depends on: the location, unless
-  /// it is so far away that rays start just before the scene. The prepared scene depends on it from then on.
+  /// Returns a point that is as far away as the origins of rays, since the precision of rays depends on that:
+  /// the location or, if it is so far away that rays start just before the scene, a nearer point. The
+  /// prepared scene depends on this point from then on.
   const Vec3& start() const noexcept {
     is_asked_ = true;
     return start_;
   }
-  /// Returns start() for boundaries of CSG's solids. Only these depend on it from then on; they are updated
-  /// separately when the camera moves.
+  /// Returns start() for boundaries of CSG's solids. From then on nothing but these boundaries depends on it;
+  /// they are updated separately when the camera moves.
   const Vec3& start_of_boundaries() const noexcept {
     has_boundaries_ = true;
     return start_;
@@ -49,7 +50,7 @@ public:
   bool prepares_alike(const Vec3& location) const {
     return location == location_ || (!has_boundaries_ && prepares_alike_but_boundaries(location));
   }
-  /// Returns whether it is known to be the same except for boundaries.
+  /// Returns whether it is known that the prepared scene is the same for this location except for boundaries.
   bool prepares_alike_but_boundaries(const Vec3& location) const;
   /// Moves the eye to a location for which the prepared scene is the same except for boundaries.
   void move_to(const Camera& camera, const Scene& scene);

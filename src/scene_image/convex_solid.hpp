@@ -12,9 +12,9 @@ namespace celltrace {
 /// An intersection of half-spaces. Each half-space has the material that its face shows.
 class ConvexSolid {
 public:
-  /// Cuts away what is outside of an object, which is placed in the world. Returns false, and leaves the
-  /// solid unusable, if the object is neither a plane with a normal nor a box that is neither inverse nor
-  /// flat, or if its visibility to rays differs from that of the objects before.
+  /// Cuts away everything outside of an object, which is placed in the world. Returns false, and leaves the
+  /// solid unusable, unless the object is a plane with a normal, or a box that is not inverse and not flat,
+  /// and has the same visibility flags as the objects before.
   bool cut(const Object& object);
 
   /// Returns whether the box that has cut the solid lies completely outside of one of the half-spaces, so

@@ -50,7 +50,7 @@ Vec3f in_world(const Transform& transform, const Vec3f& vertex) {
   return Vec3f(transform.point(Vec3(vertex)));
 }
 
-/// Returns the number of objects in the image of a scene if all its triangles have an area.
+/// Returns the largest number of objects in the image of a scene, which it has if all triangles have an area.
 std::uint64_t objects_of(const Scene& scene, const InstancedMeshes& instanced) {
   std::uint64_t count = 0;
   for (const Object& object : scene.objects) {

@@ -102,8 +102,9 @@ private:
   Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);
 
   const Scene& scene_;
-  std::uint32_t unmapped_nodes_ = 0;        ///< most Traits::nodes of a material of the scene that is no map
-  std::vector<std::uint32_t> mapped_nodes_; ///< Traits::nodes of each material that is one
+  std::uint32_t unmapped_nodes_ =
+      0; ///< largest Traits::nodes of the scene's materials that are no texture maps
+  std::vector<std::uint32_t> mapped_nodes_; ///< Traits::nodes of each material that is a texture map
   std::vector<Child> children_;             ///< index: entry; its child
   std::vector<PatternTable> tables_;        ///< index: pattern; the table it reads
   TextureSharing sharing_;

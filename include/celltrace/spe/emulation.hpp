@@ -27,8 +27,8 @@ enum class Schedule : unsigned char {
 /// depends on one of them is wrong.
 enum class TransferTime : unsigned char {
   at_issue, ///< as early as fences and barriers allow
-  at_wait,  ///< gets when the program observes their completion, other commands when the timing model
-            ///< completes them
+  at_wait,  ///< for gets, when the program observes their completion; for other commands, when the timing
+            ///< model completes them
   random,   ///< at a seeded random time in between; unordered commands complete in seeded random order
 };
 

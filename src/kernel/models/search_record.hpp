@@ -25,8 +25,9 @@ struct alignas(128) JobRecord {
 };
 static_assert(sizeof(JobRecord) == 128, "crosses DMA");
 
-/// Light from a source to the origins of shadow rays: its distance, and the rest of the light that the points
-/// would send on, or of the light itself if it comes from a place on an area.
+/// Light from a source to the origins of shadow rays: the distance of the source, and the colour that is left
+/// of the light that the points would reflect. For light from a place on an area it is the colour that is
+/// left of the light itself.
 struct LightOnItsWay {
   FloatLanes distance;
   VectorLanes colour;
