@@ -77,7 +77,7 @@ void set_colours(Session& session, PigmentDefinition& pigment, int pattern, Pigm
 void set_list(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
               const Location& where);
 void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap list, const Location& where);
-// The same functions for the pattern of an object:
+// Overloads for the pattern of an object:
 void set_colours(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
                  const Location& where);
 void set_list(Session& session, PigmentDefinition& pigment, const Limit& object, PigmentMap list,
