@@ -26,25 +26,24 @@ std::string words_with(Keyword::Support support) {
 
 std::string keyword_page() {
   return "# Words of the scene language\n\n"
-         "Every word that POV-Ray's language reserves, and what becomes of it. `celltrace --list-keywords` "
-         "prints this\n"
-         "page. All of them may be declared and passed on; a word counts where the scene or one of its "
-         "objects uses "
-         "it.\n\n"
+         "Every word that POV-Ray's language reserves, and whether celltrace supports it. `celltrace "
+         "--list-keywords` prints\n"
+         "this page. A word is an error only if the scene or one of its objects uses it: everything may be "
+         "declared and\n"
+         "passed on.\n\n"
          "## Supported\n\n"
-         "What they mean may still be wanting in places, such as a pattern in a kind of map: that is an "
-         "error there.\n\n" +
+         "A few uses of these words are not supported and give an error, such as a triangle in "
+         "`clipped_by`.\n\n" +
          words_with(Keyword::Support::full) +
          "\n## Ignored\n\n"
-         "They are read and change nothing, because they are about speed or about what is not supported "
-         "anyway.\n\n" +
+         "These words are read and change nothing: they are about speed, or belong to features that are not "
+         "supported.\n\n" +
          words_with(Keyword::Support::ignored) +
          "\n## Not supported\n\n"
-         "An error, `file:line:column: error: 'blob' is not supported yet`, with one line for each of them "
-         "in a scene; "
-         "with\n"
-         "`--lenient` they are left out, with a warning each: the object, or what the object has of "
-         "them.\n\n" +
+         "A scene that uses such a word gets one error for it, `file:line:column: error: 'blob' is not "
+         "supported yet`. With\n"
+         "`--lenient` celltrace leaves out the object, or the property of the object, and prints a warning "
+         "instead.\n\n" +
          words_with(Keyword::Support::none);
 }
 
