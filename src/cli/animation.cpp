@@ -188,8 +188,8 @@ private:
                 << summary_of(*sum_, parse_seconds_);
     std::cerr << '\n';
     if (complete || !state_.is_kept() || (done_ == 0 && !is_frame_cut_ && !request_.resume)) return;
-    std::cerr << "the same command with +C goes on with the " << frames_.size() - done_
-              << " frames that are missing\n";
+    std::cerr << "missing frames: " << frames_.size() - done_
+              << "; to finish, run the same command with --resume (+C)\n";
   }
 
   const RenderRequest& request_;

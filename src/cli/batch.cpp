@@ -75,7 +75,7 @@ int run_batch(const BatchRequest& batch) {
   if (!first.quiet)
     std::cerr << page.string() << ": " << sheet.count(SheetEntry::State::done) << " of "
               << batch.renders.size() << " scenes rendered"
-              << (interrupted() ? "; the same command with +C goes on" : "") << '\n';
+              << (interrupted() ? "; to finish, run the same command with --resume (+C)" : "") << '\n';
   if (sheet.count(SheetEntry::State::failed) != 0) return 1;
   return interrupted() || sheet.count(SheetEntry::State::partial) != 0 ? 2 : 0;
 }

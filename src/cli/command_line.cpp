@@ -438,7 +438,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   ReplayRequest replay;
   ReplayTexts replay_texts;
   CLI::App& replay_command =
-      *app.add_subcommand("replay", "Ask other software caches what a recorded one was asked");
+      *app.add_subcommand("replay", "Replay a recorded cache trace with other software caches");
   add_replay_options(replay_command, replay, replay_texts);
 
   StudyRequest study;

@@ -144,8 +144,8 @@ public:
     say(partial + std::to_string(statistics.width) + 'x' + std::to_string(height()) + ", " +
         summary_of(statistics, read_.seconds));
     if (!outcome_->complete && state_.is_kept() && outcome_->rows_to_go < height())
-      std::cerr << "the same command with +C goes on with the " << outcome_->rows_to_go
-                << " rows that are missing\n";
+      std::cerr << "missing rows: " << outcome_->rows_to_go
+                << "; to finish, run the same command with --resume (+C)\n";
     return outcome_->complete;
   }
 
