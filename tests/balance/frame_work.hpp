@@ -67,7 +67,7 @@ private:
       if (exchange_.take_unit(unit)) {
         work_on(unit);
       } else {
-        units_.flush(); // an SPE that says it is idle has all that it did in main memory
+        units_.flush(); // an SPE may report idle only when its results are in main memory
         exchange_.wait();
       }
     }

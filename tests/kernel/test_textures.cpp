@@ -63,7 +63,7 @@ TEST_CASE("Checker at whole numbers, and where rounding has moved them") {
     }
 }
 
-TEST_CASE("Bricks where mortar begins, and where rounding has moved that") {
+TEST_CASE("Points on the edge of a brick are mortar, even if rounding has moved them") {
   Pattern pattern;
   pattern.kind = pattern::Brick{};
   const pattern::Brick brick;

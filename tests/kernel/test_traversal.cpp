@@ -249,7 +249,7 @@ TEST_CASE("Through scenes without objects, and with one") {
   check_scene(soup(13, {0, 0, 1}, 1, 1), 60);
 }
 
-TEST_CASE("Through objects in one another") {
+TEST_CASE("Through objects that overlap") {
   Scene scene = soup(14, {100, 0, 100}, 5, 0.5);
   scene.objects.push_back(scene.objects.front());
   scene.objects.back().shape = Sphere{{0, 0, 0}, 30}; // fills everything

@@ -28,7 +28,7 @@ std::string refusal(const std::string& modifiers) {
 
 } // namespace
 
-TEST_CASE("spotlights") {
+TEST_CASE("a spotlight has POV-Ray's defaults, and a second spotlight restores them") {
   const Light plain = light("spotlight");
   CHECK(plain.kind == Light::Kind::spotlight);
   CHECK(plain.point_at == Vec3(0, 0, 1));

@@ -175,7 +175,7 @@ TEST_CASE("a mesh has the last of its inside vectors") {
         Vec3(1, 2, 0));
 }
 
-TEST_CASE("meshes that cannot be") {
+TEST_CASE("a mesh without triangles, or with an index out of range, is an error") {
   CHECK(error_line("mesh { }") == "scene.pov:1:1: error: this mesh has no triangles");
   CHECK(error_line(kSquare + "}") == "scene.pov:1:1: error: this mesh has no triangles");
   CHECK(error_line("mesh2 { vertex_vectors { 2000000000, 0 } }") ==

@@ -1,4 +1,4 @@
-// What is heard of a parse while it runs, and how it is stopped.
+// Progress of a parse while it runs, and how a parse is stopped.
 #include <catch2/catch.hpp>
 
 #include "celltrace/error.hpp"
