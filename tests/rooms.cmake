@@ -3,7 +3,7 @@
 #   cmake -DSOURCE=src -P rooms.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Of each room, what it may include besides itself and public headers.
+# By room, what it may include besides itself and public headers.
 set(allowed_cli "study/|pov/|render/|image/|cache/|viewer/|memory/")
 set(allowed_viewer "")
 set(allowed_python "")
@@ -21,10 +21,12 @@ set(allowed_memory "")
 set(allowed_cache "")
 set(allowed_kernel "records/")
 set(allowed_records "")
+set(allowed_version "")
 
-# Complains about each include of a file that is of a room, or a backend, and that `allowed` does not begin.
+# Fails for each include in `file` that names a room or a backend and does not begin with a match of the regular
+# expression `allowed`.
 function(check_includes file allowed)
-  file(STRINGS ${file} lines REGEX "^#include \"(backends|cache|cli|geometry|image|job|kernel|memory|pov|prepare|python|records|render|scene|scene_image|study|viewer)/")
+  file(STRINGS ${file} lines REGEX "^#include \"(backends|cache|cli|geometry|image|job|kernel|load|memory|pov|prepare|python|records|render|scene|scene_image|study|viewer)/")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" included ${line})
     if(NOT included MATCHES "^(${allowed})")
@@ -33,8 +35,8 @@ function(check_includes file allowed)
   endforeach()
 endfunction()
 
-# Of each room of the kernel, what it may include besides itself and files that are in no room, which include each
-# other alone. The direct and the local strategy do not know each other.
+# By room of the kernel, what it may include besides itself and the files in no room. These include only each other. The
+# direct and the local strategy do not know each other.
 set(kernel_rooms primitives textures lights accel cameras shading program local direct entry models)
 set(kernel_below "records/|kernel/[a-z_]*\\.hpp")
 foreach(room ${kernel_rooms})
@@ -61,7 +63,7 @@ foreach(room IN LISTS folders)
   endforeach()
 endforeach()
 
-foreach(room cli viewer python study job load pov render scene_image prepare geometry scene image memory cache kernel records)
+foreach(room cli viewer python study job load pov render scene_image prepare geometry scene image memory cache kernel records version)
   file(GLOB_RECURSE files ${SOURCE}/${room}/*.[ch]pp ${SOURCE}/${room}/*.[ly])
   if(NOT files)
     message(FATAL_ERROR "there is no ${SOURCE}/${room}")
@@ -75,7 +77,7 @@ foreach(room cli viewer python study job load pov render scene_image prepare geo
   endforeach()
 endforeach()
 
-# A library is silent: what it has to say goes to functions of the application's.
+# Libraries do not print: they call functions of the application's.
 file(GLOB_RECURSE files ${SOURCE}/*.[ch]pp ${SOURCE}/*.[ly] ${SOURCE}/../backends/*.[ch]pp ${SOURCE}/../include/*.[ch]pp)
 list(FILTER files EXCLUDE REGEX "/src/(cli|viewer|study)/")
 foreach(file IN LISTS files)
@@ -86,7 +88,8 @@ foreach(file IN LISTS files)
   endforeach()
 endforeach()
 
-# Where the eye is, passes ask an Eye, which remembers that they did: the image is made anew when it moves.
+# Passes ask an Eye where the eye is. The Eye remembers that it was asked, so that the image is made anew when the eye
+# moves.
 file(GLOB files ${SOURCE}/geometry/*.[ch]pp ${SOURCE}/prepare/*.[ch]pp ${SOURCE}/scene_image/*.[ch]pp)
 list(FILTER files EXCLUDE REGEX "/(eye\\.[ch]pp|scene_origin\\.cpp|validation\\.cpp|scene_image\\.cpp)$")
 foreach(file IN LISTS files)
