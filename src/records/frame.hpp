@@ -29,7 +29,7 @@ struct alignas(128) FrameBlock {
   ea_t strips;    ///< one StripRecord per SPE: the units that it starts the frame with
   ea_t reports;   ///< one ReportRecord per SPE
   ea_t ray_stack; ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
-  /// kGridPacketBytes per packet, row by row; then, with light_way::first_hits, one FirstHitRecord per
+  /// kGridPacketBytes per packet, row by row; then, with light_feature::first_hits, one FirstHitRecord per
   /// packet. No address if all frames are pictures.
   ea_t grid_points;
   ea_t sample_store; ///< sample_store_bytes() per SPE, for its own use; no address if all frames are pictures
@@ -82,10 +82,10 @@ struct alignas(128) FrameBlock {
   uint32_t purpose;      ///< FramePurpose
   SamplingRecord sampling; ///< for frames other than pictures
   uint32_t fog_offset, fog_count;
-  uint32_t light_ways; ///< bits of light_way
+  uint32_t light_features; ///< bits of light_feature
   uint32_t rainbow_offset, rainbow_count;
-  /// Share of what is behind the scene that the background lets through; used with light_way::alpha, and 1
-  /// with light_way::no_backdrop.
+  /// Share of what is behind the scene that the background lets through; used with light_feature::alpha,
+  /// and 1 with light_feature::no_backdrop.
   float background_clear;
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");

@@ -43,7 +43,7 @@ struct alignas(128) ImageHeader {
   uint32_t mesh_triangle_offset, mesh_triangle_count; ///< MeshTriangleRecords
   uint32_t fog_offset, fog_count;                     ///< FogRecords
   uint32_t finish_offset, finish_count;               ///< FinishRecords
-  uint32_t light_ways;                                ///< bits of light_way
+  uint32_t light_features;                            ///< bits of light_feature
   uint32_t feature_offset, feature_count;             ///< kFeatures FeatureRecords, or none
   uint32_t gradient_offset, gradient_count;           ///< kGradients GradientRecords, or none
   uint32_t wave_offset, wave_count;                   ///< WaveRecords

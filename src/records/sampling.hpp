@@ -46,7 +46,7 @@ struct SamplingRecord {
 };
 
 /// The linear colour of a pixel as traced, and the share of what is behind the scene that the pixel lets
-/// through (light_way::alpha).
+/// through (light_feature::alpha).
 struct alignas(16) ColourRecord {
   float channel[4];
 };

@@ -45,7 +45,7 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock:
           &FrameBlock::longest_group, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
           &FrameBlock::wide_leaves, &FrameBlock::far_nodes, &FrameBlock::unbounded_count, &FrameBlock::sky,
           &FrameBlock::light_places, &FrameBlock::purpose, &FrameBlock::sampling, &FrameBlock::fog_offset,
-          &FrameBlock::fog_count, &FrameBlock::light_ways, &FrameBlock::rainbow_offset,
+          &FrameBlock::fog_count, &FrameBlock::light_features, &FrameBlock::rainbow_offset,
           &FrameBlock::rainbow_count, &FrameBlock::background_clear>
 fields_of(const FrameBlock&);
 

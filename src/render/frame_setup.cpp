@@ -3,7 +3,7 @@
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
 #include "kernel/strategy.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 #include "render/picture_options.hpp"
 #include "render/quality.hpp"
 #include "scene_image/record_vectors.hpp"
@@ -19,8 +19,8 @@ using namespace kernel;
 
 namespace {
 
-/// The bits of light_way that depend on pictures; the others depend on scenes.
-constexpr std::uint32_t kWaysOfPictures = light_way::alpha | light_way::first_hits;
+/// The bits of light_feature that depend on pictures; the others depend on scenes.
+constexpr std::uint32_t kPictureFeatures = light_feature::alpha | light_feature::first_hits;
 
 /// Returns the voxels per unit of length for which a box holds `wanted` cubes. An axis too short for more
 /// than one layer is ignored: the others share all cubes.
@@ -80,9 +80,9 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
   frame.purpose = static_cast<std::uint32_t>(brings_colours(options) ? FramePurpose::grid
                                              : options.blocks        ? FramePurpose::blocks
                                                                      : FramePurpose::picture);
-  frame.light_ways &= ~kWaysOfPictures;
-  if (options.alpha) frame.light_ways |= light_way::alpha;
-  if (options.first_hits) frame.light_ways |= light_way::first_hits;
+  frame.light_features &= ~kPictureFeatures;
+  if (options.alpha) frame.light_features |= light_feature::alpha;
+  if (options.first_hits) frame.light_features |= light_feature::first_hits;
   frame.sampling = SamplingRecord{};
   if (const auto& antialiasing = options.antialiasing) {
     frame.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
@@ -128,25 +128,26 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.light_count = header.light_count;
   frame.fog_offset = header.fog_offset;
   frame.fog_count = header.fog_count;
-  frame.light_ways = header.light_ways | (frame.light_ways & kWaysOfPictures);
+  frame.light_features = header.light_features | (frame.light_features & kPictureFeatures);
   // Stages of other models cannot walk through surfaces within POV-Ray's tolerance: these dim the light, too.
-  if (options.model != Model::shared) frame.light_ways &= ~(light_way::near_surfaces | light_way::restarts);
+  if (options.model != Model::shared)
+    frame.light_features &= ~(light_feature::near_surfaces | light_feature::restarts);
   constexpr double kVersionOfTransparency = 3.7;
   const bool has_backdrop = scene.version >= kVersionOfTransparency;
-  if (!has_backdrop) frame.light_ways |= light_way::no_backdrop;
+  if (!has_backdrop) frame.light_features |= light_feature::no_backdrop;
   frame.background_clear =
       has_backdrop ? static_cast<float>(std::clamp(scene.background_transparency, 0.0, 1.0)) : 1.0f;
   frame.rainbow_offset = header.rainbow_offset;
   frame.rainbow_count = header.rainbow_count;
-  if (options.model != Model::shared && (header.light_ways & light_way::stepwise) != 0)
+  if (options.model != Model::shared && (header.light_features & light_feature::stepwise) != 0)
     throw InputError("interiors that fade, throw caustics or look different from inside, and lights that fog "
                      "dims, need the shared model");
-  if (options.model != Model::shared && (header.light_ways & light_way::projectors) != 0)
+  if (options.model != Model::shared && (header.light_features & light_feature::projectors) != 0)
     throw InputError("lights that are projected through something need the shared model");
   frame.light_places = 0;
   if (std::any_of(scene.lights.begin(), scene.lights.end(),
                   [](const Light& light) { return light.area && light.area->jitter; }))
-    frame.light_ways |= light_way::jitter;
+    frame.light_features |= light_feature::jitter;
   for (const Light& light : scene.lights)
     frame.light_places += light.area ? static_cast<std::uint32_t>(light.area->columns * light.area->rows) : 1;
   frame.max_trace_level =
@@ -159,7 +160,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   set_comparison(frame, options);
   frame.sky = header.sky;
   const bool is_mirrored = options.alpha && scene.mirrored_background && frame.sky == kNoOffset;
-  if (is_mirrored) frame.light_ways |= light_way::mirrored_background;
+  if (is_mirrored) frame.light_features |= light_feature::mirrored_background;
   copy(is_mirrored ? *scene.mirrored_background : scene.background, frame.background);
 }
 

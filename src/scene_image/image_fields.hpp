@@ -32,7 +32,7 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::mesh_grid_count, &ImageHeader::mesh_word_offset, &ImageHeader::mesh_word_count,
           &ImageHeader::mesh_triangle_offset, &ImageHeader::mesh_triangle_count, &ImageHeader::fog_offset,
           &ImageHeader::fog_count, &ImageHeader::finish_offset, &ImageHeader::finish_count,
-          &ImageHeader::light_ways, &ImageHeader::feature_offset, &ImageHeader::feature_count,
+          &ImageHeader::light_features, &ImageHeader::feature_offset, &ImageHeader::feature_count,
           &ImageHeader::gradient_offset, &ImageHeader::gradient_count, &ImageHeader::wave_offset,
           &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
           &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,

@@ -1,7 +1,7 @@
 #include "scene_image/image_layout.hpp"
 
 #include "celltrace/error.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 #include "scene_image/image_fields.hpp"
 #include "scene_image/interior_records.hpp"
 #include "scene_image/scene_image.hpp"
@@ -36,26 +36,26 @@ private:
   std::size_t end_;
 };
 
-/// Returns the light_way flags of a scene. `has_blends`: some surfaces have several materials.
-std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, bool has_blends) {
-  std::uint32_t ways = scene.fogs.empty() && textures.rainbows.empty() ? 0 : light_way::atmosphere;
+/// Returns the light_feature flags of a scene. `has_blends`: some surfaces have several materials.
+std::uint32_t light_features_of(const Scene& scene, const TextureTables& textures, bool has_blends) {
+  std::uint32_t features = scene.fogs.empty() && textures.rainbows.empty() ? 0 : light_feature::atmosphere;
   bool has_fading = false;
   for (const Interior& interior : scene.interiors) {
     const InteriorRecord r = make_record(interior);
     has_fading = has_fading || r.inverse_fade_distance != 0;
-    if (r.refraction() != 1) ways |= light_way::fading;
-    if (r.caustics != 0) ways |= light_way::stepwise;
+    if (r.refraction() != 1) features |= light_feature::fading;
+    if (r.caustics != 0) features |= light_feature::stepwise;
   }
-  if (textures.has_clear_side || textures.filters_by_surface) ways |= light_way::stepwise;
-  if (has_blends && textures.by_surface && textures.filters) ways |= light_way::stepwise;
-  if (textures.by_surface) ways |= light_way::by_surface;
+  if (textures.has_clear_side || textures.filters_by_surface) features |= light_feature::stepwise;
+  if (has_blends && textures.by_surface && textures.filters) features |= light_feature::stepwise;
+  if (textures.by_surface) features |= light_feature::by_surface;
   for (const Light& light : scene.lights) {
-    if (light.is_dimmed_by_fog && !scene.fogs.empty()) ways |= light_way::stepwise;
-    if (light.projected_through) ways |= light_way::projectors;
+    if (light.is_dimmed_by_fog && !scene.fogs.empty()) features |= light_feature::stepwise;
+    if (light.projected_through) features |= light_feature::projectors;
   }
-  if (!has_fading) return ways;
-  if ((ways & light_way::stepwise) == 0) ways |= light_way::only_fading;
-  return ways | light_way::fading | light_way::stepwise;
+  if (!has_fading) return features;
+  if ((features & light_feature::stepwise) == 0) features |= light_feature::only_fading;
+  return features | light_feature::fading | light_feature::stepwise;
 }
 
 /// Places the tables that come first, those without positions of objects. `blended` is the number of objects
@@ -77,7 +77,7 @@ void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, std
   layout.place<BlendRecord>(blended, header.blend_offset, header.blend_count);
   layout.place<InteriorRecord>(interiors, header.interior_offset, header.interior_count);
   layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
-  header.light_ways = light_ways_of(scene, textures, blended != 0);
+  header.light_features = light_features_of(scene, textures, blended != 0);
   header.surface_nodes = textures.most_nodes(blended != 0);
   layout.place<FogRecord>(scene.fogs.size(), header.fog_offset, header.fog_count);
   layout.place<RainbowRecord>(textures.rainbows.size(), header.rainbow_offset, header.rainbow_count);
@@ -106,11 +106,11 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   header.version = kImageVersion;
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, interior_records(scene), light_sets, textures, census.blended);
-  if (has_near_surfaces) header.light_ways |= light_way::near_surfaces;
+  if (has_near_surfaces) header.light_features |= light_feature::near_surfaces;
   // A ray that continues behind a surface may find crossings that it did not find from its first origin.
   if (textures.filters && !objects.csg().crossed_meshes.records().empty())
-    header.light_ways |= light_way::near_surfaces | light_way::restarts;
-  if (!objects.are_all_seen()) header.light_ways |= light_way::unseen;
+    header.light_features |= light_feature::near_surfaces | light_feature::restarts;
+  if (!objects.are_all_seen()) header.light_features |= light_feature::unseen;
   const CsgParts& csg = objects.csg();
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
   layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);
@@ -152,13 +152,14 @@ ImageHeader with_surfaces(const ImageHeader& old, const Scene& scene, std::size_
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, scene.interiors.size() + own_interiors, light_sets, textures,
                  old.blend_count);
-  header.light_ways |= old.light_ways & (light_way::near_surfaces | light_way::unseen | light_way::restarts);
+  header.light_features |=
+      old.light_features & (light_feature::near_surfaces | light_feature::unseen | light_feature::restarts);
   return header;
 }
 
 bool have_same_layout(const ImageHeader& a, const ImageHeader& b) {
   ImageHeader other = b;
-  other.light_ways = a.light_ways;
+  other.light_features = a.light_features;
   other.sky = a.sky;
   other.surface_nodes = a.surface_nodes;
   std::copy(a.bounds_min, a.bounds_min + 3, other.bounds_min);

@@ -1,7 +1,7 @@
 // Checks the tables of textures in a scene image.
 #include "kernel/textures/list.hpp"
 #include "kernel/textures/map_walk.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 #include "scene_image/image_checks.hpp"
 #include "scene_image/patterns.hpp"
 
@@ -283,9 +283,9 @@ private:
         object_asks = asks(material, has(object_flag::two_sided));
       }
       if (!object_asks) continue;
-      const std::uint32_t ways =
-          light_way::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_way::stepwise});
-      if (!has(object_flag::by_surface) || (h_.light_ways & ways) != ways) return false;
+      const std::uint32_t features =
+          light_feature::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_feature::stepwise});
+      if (!has(object_flag::by_surface) || (h_.light_features & features) != features) return false;
     }
     // Triangles of instances cannot be flagged: their patterns may need nothing but points.
     const auto is_plain = [&](std::uint32_t offset) {

@@ -4,7 +4,7 @@
 #include "celltrace/image.hpp"
 #include "celltrace/pov.hpp"
 #include "models/models.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 #include "render/scenes.hpp"
 #include "scene_image/scene_image.hpp"
 
@@ -42,13 +42,13 @@ RenderResult render_by(Model model, const Machine& machine, unsigned spes, const
 
 /// Whether its shadow rays go from surface to surface.
 bool needs_shared_model(const Scene& scene) {
-  return (SceneImage(scene).header().light_ways &
-          (kernel::light_way::stepwise | kernel::light_way::projectors)) != 0;
+  return (SceneImage(scene).header().light_features &
+          (kernel::light_feature::stepwise | kernel::light_feature::projectors)) != 0;
 }
 
 /// Whether other models multiply what shadow rays cross, though not all of it counts.
 bool has_near_surfaces(const Scene& scene) {
-  return (SceneImage(scene).header().light_ways & kernel::light_way::near_surfaces) != 0;
+  return (SceneImage(scene).header().light_features & kernel::light_feature::near_surfaces) != 0;
 }
 
 void check_models(const Scene& scene, const std::vector<unsigned>& spe_counts = {2, 3, 5, 8}) {

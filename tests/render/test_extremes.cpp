@@ -2,7 +2,7 @@
 #include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
 #include "prepare/coplanar_faces.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
@@ -459,7 +459,7 @@ TEST_CASE("Shadow rays miss what is near behind a translucent surface") {
     return scene;
   };
   const auto is_flagged = [](const Scene& scene) {
-    return (SceneImage(scene).header().light_ways & kernel::light_way::near_surfaces) != 0;
+    return (SceneImage(scene).header().light_features & kernel::light_feature::near_surfaces) != 0;
   };
   struct Case {
     std::vector<std::pair<double, double>> boxes;

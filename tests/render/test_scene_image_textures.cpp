@@ -1,7 +1,7 @@
 // SceneImage: the records of textures.
 #include "celltrace/error.hpp"
 #include "kernel/textures/list.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 #include "render/image_bytes.hpp"
 #include "render/scenes.hpp"
 
@@ -260,8 +260,8 @@ TEST_CASE("A sealed scene image that asks for more of surfaces than is found out
       ++objects;
     return objects;
   };
-  refused([](Bytes&, ImageHeader& h) { h.light_ways &= ~light_way::by_surface; });
-  refused([](Bytes&, ImageHeader& h) { h.light_ways &= ~light_way::stepwise; });
+  refused([](Bytes&, ImageHeader& h) { h.light_features &= ~light_feature::by_surface; });
+  refused([](Bytes&, ImageHeader& h) { h.light_features &= ~light_feature::stepwise; });
   refused([&](Bytes& b, ImageHeader& h) {
     object_with(b, h, object_flag::by_surface)->kind_and_flags &= ~object_flag::by_surface;
   });
@@ -300,7 +300,7 @@ TEST_CASE("Surface coordinates of a mesh are in its image where a material asks 
   for (Material& material : scene.materials)
     material = matte({1, 1, 1});
   const SceneImage plain(scene);
-  CHECK((plain.header().light_ways & (light_way::by_surface | light_way::stepwise)) == 0);
+  CHECK((plain.header().light_features & (light_feature::by_surface | light_feature::stepwise)) == 0);
   auto mesh = std::make_shared<Mesh>(*std::get<std::shared_ptr<const Mesh>>(scene.objects.back().shape));
   mesh->coordinates.pop_back();
   scene.objects.back().shape = std::shared_ptr<const Mesh>(mesh);

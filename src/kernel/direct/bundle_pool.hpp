@@ -9,7 +9,7 @@
 #include "kernel/direct/hit_sorting.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/lighting.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 
 namespace celltrace::kernel {
 
@@ -32,7 +32,7 @@ public:
 
   /// Returns true if rays stay in the lanes of their pixels.
   static constexpr bool has_own_lanes(const FrameBlock& frame) {
-    return (frame.light_ways & light_way::jitter) != 0;
+    return (frame.light_features & light_feature::jitter) != 0;
   }
   /// Sorts the members of a bundle, with their rays' hits. The members stay as they are if first hits are
   /// wanted by pixel.
@@ -41,7 +41,7 @@ public:
       with_ray_[i] = members[i].lanes;
     sorted_ = 0;
     if (frame.object_count <= tuning::kObjectsInCoreCache &&
-        (frame.light_ways & light_way::first_hits) == 0 && !has_own_lanes(frame))
+        (frame.light_features & light_feature::first_hits) == 0 && !has_own_lanes(frame))
       sorted_ = sorter_.sort(scene, members);
   }
   /// Returns the lanes of a member's pixels that have a ray.

@@ -35,7 +35,7 @@ protected:
     const FrameBlock& frame = all().frame_;
     const PinholeBundle<S> bundle(frame, column, row);
     const bool missed = !traversal().enter(bundle);
-    const bool asks_more = has_atmosphere(frame) || (frame.light_ways & light_way::first_hits) != 0;
+    const bool asks_more = has_atmosphere(frame) || (frame.light_features & light_feature::first_hits) != 0;
     const bool plain = frame.sky == kNoOffset && !asks_more;
     if (missed && plain && is_whole(column, row)) {
       fill(column * kEdge, row * kEdge, all().tracer_.background(kPackets * kSimdLanes));

@@ -16,11 +16,11 @@ protected:
   using F = typename S::F;
 
   bool is_at_pinhole(const LightRecord& light) const {
-    constexpr uint32_t kOtherWays =
+    constexpr uint32_t kUnsupportedLights =
         light_flag::area | light_flag::parallel | light_flag::projected | light_flag::dimmed;
     const FrameBlock& frame = tracer().frame_;
-    if ((light.kind_and_flags & kOtherWays) != 0 || !is_pinhole(frame.camera) ||
-        (frame.light_ways & light_way::unseen) != 0 || frame.camera_interior_count != 0)
+    if ((light.kind_and_flags & kUnsupportedLights) != 0 || !is_pinhole(frame.camera) ||
+        (frame.light_features & light_feature::unseen) != 0 || frame.camera_interior_count != 0)
       return false;
     const float(&eye)[3] = frame.camera.origin;
     return light.location[0] == eye[0] && light.location[1] == eye[1] && light.location[2] == eye[2];

@@ -13,7 +13,7 @@
 #include "kernel/lights/spotlight.hpp"
 #include "kernel/type_list.hpp"
 #include "records/frame.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 
 namespace celltrace::kernel {
 
@@ -53,19 +53,19 @@ constexpr bool has_areas(const FrameBlock& frame) {
 
 /// Returns true if all shadow rays that cross a translucent surface are walked (ShadowWalk).
 constexpr bool walks_translucent(const FrameBlock& frame) {
-  return (frame.light_ways & light_way::stepwise) != 0;
+  return (frame.light_features & light_feature::stepwise) != 0;
 }
 /// Returns true if such walks only need to know all surfaces that a ray crosses.
 constexpr bool walks_for_fading(const FrameBlock& frame) {
-  return (frame.light_ways & light_way::only_fading) != 0;
+  return (frame.light_features & light_feature::only_fading) != 0;
 }
 /// Returns true if any shadow rays are walked.
 constexpr bool walks_shadows(const FrameBlock& frame) {
-  return (frame.light_ways & (light_way::stepwise | light_way::near_surfaces)) != 0;
+  return (frame.light_features & (light_feature::stepwise | light_feature::near_surfaces)) != 0;
 }
 /// Returns true if some walks need a new search from each surface on.
 constexpr bool restarts_shadows(const FrameBlock& frame) {
-  return (frame.light_ways & light_way::restarts) != 0;
+  return (frame.light_features & light_feature::restarts) != 0;
 }
 constexpr bool is_parallel(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::parallel) != 0;

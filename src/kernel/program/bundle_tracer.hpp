@@ -195,7 +195,7 @@ private:
 
   bool wants_first_hits() const {
     return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::grid &&
-           (frame_.light_ways & light_way::first_hits) != 0;
+           (frame_.light_features & light_feature::first_hits) != 0;
   }
   /// Puts the first hits of a member's primary rays to main memory.
   CELLTRACE_ONE_COPY void put_first_hits(Member& member) {

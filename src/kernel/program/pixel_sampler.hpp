@@ -10,14 +10,14 @@
 #include "kernel/modules.hpp"
 #include "kernel/program/pixel_writer.hpp"
 #include "records/frame.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 
 namespace celltrace::kernel {
 
 /// A packet of samples: x and y are first positions in pixels from the middle of the picture; then x, y and z
 /// are colours.
 struct SampleLanes : VectorLanes {
-  FloatLanes clear; ///< transparency, with light_way::alpha; 0 while the packet is not being traced
+  FloatLanes clear; ///< transparency, with light_feature::alpha; 0 while the packet is not being traced
 
   const FloatLanes& operator[](uint32_t axis) const {
     return axis == 3 ? clear : VectorLanes::operator[](axis);
@@ -81,13 +81,13 @@ constexpr uint32_t sample_store_bytes(uint32_t edge, bool alpha) {
 
 /// Returns true if the transparency of pixels is wanted.
 constexpr bool wants_alpha(const FrameBlock& frame) {
-  return (frame.light_ways & light_way::alpha) != 0;
+  return (frame.light_features & light_feature::alpha) != 0;
 }
 
 /// Services of samplers for a block: takes the points of the grid, encodes colours for comparison, makes
 /// samples, and writes pixels. A sampler does everything but tracing, by one method; it is code of a module,
-/// which processes lanes part by part. Colours have three channels or, with light_way::alpha, four: the last
-/// one is the transparency, which is compared without encoding.
+/// which processes lanes part by part. Colours have three channels or, with light_feature::alpha, four:
+/// the last is the transparency, which is compared without encoding.
 template <class Spu, SamplingMethod kMethod, uint32_t kChannels>
 class PixelSampler : public Strategy<Spu>::template Transfers<Spu, PixelSampler<Spu, kMethod, kChannels>> {
   /// Moves data between main memory and local store:

@@ -11,13 +11,13 @@
 #include "kernel/shading/ray_stack.hpp"
 #include "kernel/textures/noise.hpp"
 #include "kernel/textures/sky.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 
 namespace celltrace::kernel {
 
 /// Returns true if a frame has fogs or rainbows, or if the transparency of pixels is wanted.
 constexpr bool has_atmosphere(const FrameBlock& frame) {
-  return (frame.light_ways & (light_way::atmosphere | light_way::alpha)) != 0;
+  return (frame.light_features & (light_feature::atmosphere | light_feature::alpha)) != 0;
 }
 
 /// Effect of a medium on light: `pass` times the light from behind, plus `add`.
@@ -234,7 +234,7 @@ template <class Spu>
     light.template store_from<S>(first, select<S>(take, before + throughput * (sum.add * share), before));
     ray.throughput.template store_from<S>(first,
                                           select<S>(take, throughput * (sum.pass * share), throughput));
-    if ((frame.light_ways & light_way::alpha) != 0) dim_clear<S>(take, clear_sum * share, ray, first);
+    if ((frame.light_features & light_feature::alpha) != 0) dim_clear<S>(take, clear_sum * share, ray, first);
   });
 }
 
@@ -251,8 +251,9 @@ template <class Spu>
   scene.spu().run_in_module(modules::kSky);
   const uint32_t missed = ray.lanes & ~hit_lanes<W>(hits, ray.lanes) & ~ray.reflected;
   if (missed == 0) return;
-  const bool is_hidden = (frame.light_ways & light_way::no_backdrop) != 0;
-  const bool dims = (frame.light_ways & (light_way::no_backdrop | light_way::mirrored_background)) != 0;
+  const bool is_hidden = (frame.light_features & light_feature::no_backdrop) != 0;
+  const bool dims =
+      (frame.light_features & (light_feature::no_backdrop | light_feature::mirrored_background)) != 0;
   const bool has_sky = !is_hidden && frame.sky != kNoOffset;
   V3<W> seen[2]; // the sky over black, and over white
   for (uint32_t i = 0; i < 2 && has_sky; ++i) {

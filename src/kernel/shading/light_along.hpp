@@ -37,7 +37,7 @@ public:
     light.template store_from<S>(
         first, select<S>(take, before + undimmed_.template load_from<S>(first) * passage.add, before));
     ray.throughput.template store_from<S>(first, select<S>(take, throughput * passage.pass, throughput));
-    if ((frame.light_ways & light_way::alpha) != 0)
+    if ((frame.light_features & light_feature::alpha) != 0)
       detail::dim_clear<S>(take, grey<S>(passage.pass), ray, first);
   }
   void see_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t lanes) {

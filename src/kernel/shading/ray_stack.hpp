@@ -30,8 +30,8 @@ struct alignas(128) RayNode : RayInteriors {
   VectorLanes throughput; ///< factor of the ray's colour in the pixel
   FloatLanes weight;      ///< POV-Ray's weight of the ray, which adaptive depth control compares
   WordLanes level;        ///< trace level, 0 for primary rays
-  /// In a node that gathers: the exponent. In other nodes, with light_way::alpha: the transparency along the
-  /// way from the camera.
+  /// In a node that gathers: the exponent. In other nodes, with light_feature::alpha: transparency up to
+  /// the camera.
   FloatLanes power;
   uint32_t lanes;     ///< bit l: lane l has a ray
   uint32_t reflected; ///< lanes of rays that came by a mirror

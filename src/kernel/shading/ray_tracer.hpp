@@ -74,7 +74,7 @@ public:
     if (has_atmosphere(frame_)) {
       scene_.spu().enter_module(modules::kAtmosphere);
       light_along<SeenLight>(scene_, frame_, hits_, node_, light_[node_.target]);
-      if ((frame_.light_ways & light_way::alpha) != 0) {
+      if ((frame_.light_features & light_feature::alpha) != 0) {
         scene_.spu().enter_module(modules::kSky);
         see_through(scene_, frame_, hits_, node_, *clear_);
       }

@@ -64,7 +64,7 @@ public:
   }
   const VectorLanes& light() const { return light_[0]; }
 
-  /// Sets where later trees add the transparency of their pixels. Necessary with light_way::alpha.
+  /// Sets where later trees add the transparency of their pixels. Necessary with light_feature::alpha.
   void add_clear_to(FloatLanes& clear) { clear_ = &clear; }
 
   /// Returns the state of pooling: the rays that go to a pool, and the pixels of the rays that are traced.
@@ -208,8 +208,8 @@ private:
   CELLTRACE_ONE_COPY void fade_child(const WordLanes& interior, const V3<S>& through, uint32_t lanes) {
     RayNode& child = stack_.next();
     scene_.spu().run_in_module(modules::kFading);
-    const bool fades = (frame_.light_ways & light_way::fading) != 0;
-    if ((frame_.light_ways & light_way::alpha) != 0) {
+    const bool fades = (frame_.light_features & light_feature::fading) != 0;
+    if ((frame_.light_features & light_feature::alpha) != 0) {
       const VectorLanes throughput = child.throughput;
       child.throughput.template store<S>(through);
       if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child.throughput, false);
@@ -292,7 +292,7 @@ private:
     if (prepare_child(surfaces, direction, select<S>(total_mask, onward.reflected_inside, onward.through),
                       F::load(node_.weight.lane) * onward.through_weight, onward.clear & ~refraction.straight,
                       onward.clear)) {
-      if ((frame_.light_ways & (light_way::fading | light_way::alpha)) != 0) {
+      if ((frame_.light_features & (light_feature::fading | light_feature::alpha)) != 0) {
         scene_.spu().enter_module(modules::kFading);
         fade_child(interior, onward.through, onward.clear);
       }
@@ -313,7 +313,7 @@ protected:
   /// Number of accumulators. Reflections with exponents that are nested deeper stay without their exponents.
   static constexpr uint32_t kAccumulators = 8;
   VectorLanes light_[kAccumulators]; ///< index: RayNode::target
-  FloatLanes* clear_ = nullptr;      ///< transparency of the packet's pixels; with light_way::alpha
+  FloatLanes* clear_ = nullptr;      ///< transparency of the packet's pixels; with light_feature::alpha
   uint32_t accumulators_in_use_ = 1;
   LightRound round_ = {}; ///< current round of shading; secondary rays are spawned in the first
   RayCounters counters_;

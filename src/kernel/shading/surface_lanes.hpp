@@ -5,13 +5,13 @@
 #include "kernel/modules.hpp"
 #include "kernel/shading/hit_points.hpp"
 #include "kernel/textures/pattern_points.hpp"
-#include "records/light_way.hpp"
+#include "records/light_feature.hpp"
 
 namespace celltrace::kernel {
 
 /// Returns true if some objects of a frame have object_flag::by_surface.
 constexpr bool has_surface_lanes(const FrameBlock& frame) {
-  return (frame.light_ways & light_way::by_surface) != 0;
+  return (frame.light_features & light_feature::by_surface) != 0;
 }
 /// Allocates local store for surface coordinates and normals, if a frame needs them.
 template <class Spu> SurfaceLanes* allocate_surface_lanes(Spu& spu, const FrameBlock& frame) {

@@ -5,8 +5,8 @@
 
 namespace celltrace::kernel {
 
-/// Bits for rare features that light may meet on its way.
-namespace light_way {
+/// Bits for rare features of a scene or frame; code for a feature runs only if its bit is set.
+namespace light_feature {
 constexpr uint32_t atmosphere = 0x1; ///< fogs or rainbows
 constexpr uint32_t fading = 0x2;     ///< interiors that fade, or whose surfaces dim what they transmit
 /// Shadow rays go from surface to surface, as the light that a surface lets through depends on more than the
@@ -32,6 +32,6 @@ constexpr uint32_t no_backdrop = 0x40;
 constexpr uint32_t mirrored_background = 0x800;
 constexpr uint32_t first_hits = 0x80; ///< the first hit of each primary ray is also written
 constexpr uint32_t jitter = 0x100;    ///< places on lights are moved, differently in each lane
-} // namespace light_way
+} // namespace light_feature
 
 } // namespace celltrace::kernel
