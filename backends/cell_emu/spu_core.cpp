@@ -114,8 +114,8 @@ void SpuCore::spend(SpuCycles cycles) {
   cycles_ += cycles;
 }
 
-void SpuCore::look_at_limits() {
-  looks_left_ = kLooks;
+void SpuCore::check_clocks() {
+  checks_left_ = kClockCheckInterval;
   const EmulationConfig& config = context_.mfc.config;
   if (now_ >= cycle_end_) report_limit(std::to_string(config.cycle_limit) + " cycles");
   if (host_end_ && std::chrono::steady_clock::now() >= *host_end_)

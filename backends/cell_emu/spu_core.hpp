@@ -70,8 +70,8 @@ protected:
   /// Breaks Rule::time_limit if the program takes longer than the configuration allows. Cheap enough for
   /// every access to a channel; a program without accesses has to call it now and then.
   void check_limits() {
-    if (now_ >= cycle_end_ || --looks_left_ == 0) [[unlikely]]
-      look_at_limits();
+    if (now_ >= cycle_end_ || --checks_left_ == 0) [[unlikely]]
+      check_clocks();
   }
   /// Adds cycles of accesses to channels.
   void spend_on_channels(const SpuCycles& cycles) {
@@ -99,7 +99,7 @@ protected:
 
 private:
   void spend_on_fault(std::uint64_t cycles);
-  void look_at_limits();
+  void check_clocks();
   void report_limit(const std::string& passed);
   void command_word(std::uint32_t word);
   std::uint32_t read_in_mailbox_channel();
@@ -131,10 +131,10 @@ private:
   Cycle now_;
   Cycle computing_since_; ///< start of the current interval of computing, for the trace
   /// Number of calls of check_limits() for each look at the clock of the host.
-  static constexpr std::uint32_t kLooks = 1024;
+  static constexpr std::uint32_t kClockCheckInterval = 1024;
   Cycle start_;
   Cycle cycle_end_ = kNever;
-  std::uint32_t looks_left_ = kLooks;
+  std::uint32_t checks_left_ = kClockCheckInterval;
   std::optional<std::chrono::steady_clock::time_point> host_end_;
   std::uint64_t slowness_ = kUnit; ///< factor of configured faults for each cycle of work, in 1/65536
 };

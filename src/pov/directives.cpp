@@ -279,7 +279,8 @@ TokenStream::read_file(const std::string& what, const std::string& wanted, const
                              "scene read what is in a folder");
   if (session_.options.reads_file) session_.options.reads_file(file->path);
   try {
-    return {file->path, read_text(file->path, session_.options.limits.file_bytes, [this] { look(); })};
+    return {file->path,
+            read_text(file->path, session_.options.limits.file_bytes, [this] { check_limits(); })};
   } catch (const InputError& error) {
     session_.fail(where, what + ' ' + quoted_name(wanted) + ": " + error.what());
   }

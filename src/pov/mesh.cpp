@@ -239,14 +239,14 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStrea
   }
   // Frees each list once it has been used, instead of all of them at the end.
   definition.face_indices = {};
-  tokens.look();
+  tokens.check_limits();
   reserve(mesh.vertices, vertices.size());
   for (const ListEntry& vertex : vertices) {
     tokens.spend(1);
     mesh.vertices.push_back(is_finite(vertex.v) ? to_single(vertex.v) : Vec3f(0));
   }
   definition.vertex_vectors = {};
-  tokens.look();
+  tokens.check_limits();
   reserve(mesh.normals, definition.normal_vectors.size());
   for (const ListEntry& normal : definition.normal_vectors) {
     tokens.spend(1);

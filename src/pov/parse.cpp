@@ -26,7 +26,7 @@ template <class Work> Scene within_memory(Work work) {
 
 /// Tells the application that no byte of the scene has been parsed yet. Throws Cancelled if it does not want
 /// to go on.
-void look(const ParseOptions& options, std::uint64_t bytes) {
+void check_cancelled(const ParseOptions& options, std::uint64_t bytes) {
   if (options.progress && !options.progress(0, bytes)) throw Cancelled();
 }
 
@@ -35,8 +35,8 @@ void open_header(pov::Session& session, const std::filesystem::path& header) {
   if (header.empty()) return;
   if (session.options.reads_file) session.options.reads_file(header);
   try {
-    std::string text =
-        pov::read_text(header, session.options.limits.file_bytes, [&] { look(session.options, 0); });
+    std::string text = pov::read_text(header, session.options.limits.file_bytes,
+                                      [&] { check_cancelled(session.options, 0); });
     session.symbols.enter_scope();
     session.tokens.open(std::move(text), header.lexically_normal().string(), header.parent_path());
     session.input.top().opened_at = pov::Location(); // the scene's beginning
@@ -79,7 +79,8 @@ Scene parse_file(const std::filesystem::path& path, const ParseOptions& options)
     const std::uint64_t bytes = std::filesystem::file_size(path, none);
     std::string text;
     try {
-      text = pov::read_text(path, options.limits.file_bytes, [&] { look(options, none ? 0 : bytes); });
+      text = pov::read_text(path, options.limits.file_bytes,
+                            [&] { check_cancelled(options, none ? 0 : bytes); });
     } catch (const InputError& error) {
       pov::refuse_scene(path.string(), error.what(), options);
     }
@@ -91,7 +92,7 @@ Scene parse_string(std::string_view text, const ParseOptions& options, std::stri
   return within_memory([&] {
     std::string copy = pov::make_text(text.size());
     for (std::size_t at = 0; at < text.size(); at += kCopiedAtOnce) {
-      look(options, text.size());
+      check_cancelled(options, text.size());
       copy += text.substr(at, kCopiedAtOnce);
     }
     return parse(std::move(copy), options, name, {});

@@ -47,7 +47,7 @@ std::optional<Quantity> TokenStream::replay(std::optional<Quantity> (*take)(Sess
   const auto position = static_cast<std::size_t>(rest.begin - first);
   tokens_read_ += position - frame.position;
   frame.position = position;
-  if (tokens_read_ + work_ > next_pause_) pause();
+  if (tokens_read_ + work_ > next_check_) check_limits();
   return taken;
 }
 
@@ -301,9 +301,9 @@ bool advance(Counter& counter, bool is_first) {
 } // namespace
 
 void TokenStream::start_iteration(bool is_first) {
-  constexpr std::uint64_t kIterationsBeforeALook = 1000;
+  constexpr std::uint64_t kIterationsBeforeCheck = 1000;
   Frame& frame = session_.input.top();
-  const double least = ++frame.iterations == kIterationsBeforeALook ? least_iterations(session_, frame) : 0;
+  const double least = ++frame.iterations == kIterationsBeforeCheck ? least_iterations(session_, frame) : 0;
   if (std::isinf(least))
     session_.fail(frame.opened_at, "this loop never ends: nothing in it changes what that depends on");
   const std::uint64_t most = session_.options.limits.loop_iterations;

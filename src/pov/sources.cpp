@@ -207,7 +207,7 @@ std::string make_text(std::size_t bytes) {
   return text;
 }
 
-std::string read_text(const fs::path& path, std::uint64_t limit, const std::function<void()>& look) {
+std::string read_text(const fs::path& path, std::uint64_t limit, const std::function<void()>& check) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError("there is no such file");
@@ -222,7 +222,7 @@ std::string read_text(const fs::path& path, std::uint64_t limit, const std::func
   // read.
   std::string text = make_text(static_cast<std::size_t>(std::min(size, limit)) + 1);
   for (;;) {
-    look();
+    check();
     const std::size_t read = text.size();
     if (read > limit) throw InputError("this file is larger than " + std::to_string(limit) + " bytes");
     constexpr std::size_t kReadAtOnce = 1u << 20;

@@ -68,10 +68,10 @@ std::filesystem::path portable_path(std::string_view name);
 /// Returns a buffer for a text of `bytes` bytes, and for the padding that the scanner adds.
 std::string make_text(std::size_t bytes);
 
-/// Returns the text of a file of at most `limit` bytes. Calls `look` every now and then. Throws InputError,
+/// Returns the text of a file of at most `limit` bytes. Calls `check` every now and then. Throws InputError,
 /// without a position, if the file is missing, is no regular file, is longer, or cannot be read to its end.
 std::string read_text(const std::filesystem::path& path, std::uint64_t limit,
-                      const std::function<void()>& look);
+                      const std::function<void()>& check);
 
 /// A text file being written. The destructor writes the rest if it can.
 class TextWriter {

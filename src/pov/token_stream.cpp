@@ -21,7 +21,7 @@ using tokens = Parser::token;
 /// The deepest nesting of directives that enter the grammar: each entry takes a part of the thread's stack.
 constexpr std::size_t kMostLevels = 200;
 
-constexpr std::uint64_t kTokensWithoutPause = 1u << 13;
+constexpr std::uint64_t kTokensBetweenChecks = 1u << 13;
 constexpr std::size_t kLiteralsAtOnce = 1u << 16;
 
 int number_of(const Token& punctuation) {
@@ -233,7 +233,7 @@ bool TokenStream::is_inside_value() const {
 }
 
 Token TokenStream::read() {
-  if (++tokens_read_ + work_ > next_pause_) pause();
+  if (++tokens_read_ + work_ > next_check_) check_limits();
   Token token = session_.input.read();
   if (token.kind == Token::Kind::directive && is_plain_word(token)) token.kind = Token::Kind::word;
   return token;
@@ -257,13 +257,13 @@ std::pair<std::size_t, std::size_t> TokenStream::read_and_left() const {
 }
 
 /// Checks limits and progress; called once in a while.
-void TokenStream::pause() {
+void TokenStream::check_limits() {
   const ParseLimits& limits = session_.options.limits;
   if (tokens_read_ > limits.tokens)
     session_.exceed(here(), &ParseLimits::tokens, "the scene has", "tokens, with those that are repeated");
   if (processor_seconds() - started_ > static_cast<double>(limits.seconds))
     session_.exceed(here(), &ParseLimits::seconds, "reading the scene takes", "seconds");
-  next_pause_ = std::min(tokens_read_ + kTokensWithoutPause, limits.tokens) + work_;
+  next_check_ = std::min(tokens_read_ + kTokensBetweenChecks, limits.tokens) + work_;
   const Scanner& scene = *session_.input.frames().front().scanner;
   const auto& progress = session_.options.progress;
   if (progress && !progress(scene.offset(), scene.size())) throw Cancelled();
@@ -464,7 +464,7 @@ void TokenStream::take_literals(std::vector<ListEntry>& list) {
        before = list.size()) {
     tokens_read_ += 2 * (list.size() - before); // entries with their commas
     if (before == 0) make_room(list, scanner);
-    pause();
+    check_limits();
   }
 }
 

@@ -78,11 +78,11 @@ public:
   /// middle of it. Throws Cancelled, or SceneError for a limit.
   void spend(std::uint64_t work) {
     work_ += work;
-    if (tokens_read_ + work_ > next_pause_) pause();
+    if (tokens_read_ + work_ > next_check_) check_limits();
   }
 
   /// Throws as spend() does, whatever has been counted.
-  void look() { pause(); }
+  void check_limits();
 
   /// Returns how many bytes of the scene's own file have been read, and how many are left.
   std::pair<std::size_t, std::size_t> read_and_left() const;
@@ -139,7 +139,6 @@ private:
   bool is_inside_value() const;
   Token read();
   bool is_plain_word(const Token& directive) const;
-  void pause();
   static void make_room(std::vector<ListEntry>& list, const Scanner& scanner);
   const Location& here() const;
   void deliver(const Token& token, Terminal& terminal);
@@ -220,7 +219,7 @@ private:
   bool skips_semicolon_ = false;         ///< true: one semicolon behind the frame's end is skipped
   std::optional<Token> lacks_semicolon_; ///< name declared at the frame's end, which needs a semicolon
   std::uint64_t work_ = 0;               ///< work besides reading tokens
-  std::uint64_t next_pause_ = 0;         ///< the number of tokens and work at which to pause next
+  std::uint64_t next_check_ = 0;         ///< the number of tokens and work at which to pause next
   std::uint64_t tokens_recorded_ = 0;
   std::uint64_t iterations_ = 0;
   unsigned macro_calls_ = 0;

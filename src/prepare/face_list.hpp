@@ -5,7 +5,7 @@
 #include "celltrace/scene.hpp"
 #include "geometry/extent.hpp"
 #include "records/object.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -134,7 +134,7 @@ public:
               [](const Face& a, const Face& b) { return a.extent.min.x < b.extent.min.x; });
     for (std::size_t i = first; i < last; ++i) {
       for (std::size_t k = i + 1; k < last && faces_[k].extent.min.x <= faces_[i].extent.max.x; ++k) {
-        BuildWatch::look_at(pairs_);
+        ProgressMonitor::check_cancelled(pairs_);
         if (++pairs_ > kMostPairs || !visit(faces_[i], faces_[k])) return false;
       }
     }

@@ -18,14 +18,14 @@ namespace {
 
 /// Limit on objects, and on vertices of a mesh, that are examined: more take time and hardly
 /// move the median.
-constexpr std::size_t kMostLooks = 256;
+constexpr std::size_t kMostExamined = 256;
 
 double largest(const Vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 std::size_t stride(std::size_t count) {
-  return count / kMostLooks + 1;
+  return count / kMostExamined + 1;
 }
 
 /// A box that has no points at first.

@@ -27,14 +27,14 @@ constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
 constexpr std::uint64_t kLinesWorthMarking = 16;
 
 /// Watches the work memory of a BVH while the BVH is built.
-class BvhWatch {
+class BvhProgress {
 public:
-  BvhWatch(const AlignedBlock& work, const Progress& go_on)
+  BvhProgress(const AlignedBlock& work, const Progress& go_on)
       : team_(*reinterpret_cast<bvh::TeamRecord*>(work.data())), go_on_(go_on) {}
 
   /// Asks whether to go on; if not, makes the SPEs take and copy no more treelets.
-  void look(bool treelets) {
-    if (stopped() || go_on_.ask(treelets ? fraction() : 0)) return;
+  void poll(bool treelets) {
+    if (stopped() || go_on_.report(treelets ? fraction() : 0)) return;
     if (!treelets) return;
     std::atomic_ref(team_.next).store(bvh::kStopped, std::memory_order_relaxed);
     std::atomic_ref(team_.next_copy).store(bvh::kStopped, std::memory_order_relaxed);
@@ -166,7 +166,7 @@ bool AcceleratorBuilder::build_bvh_for_spes(const Progress& go_on) {
 
 bool AcceleratorBuilder::build_bvh_on(SpeTeam& team, FrameBlock& frame, unsigned spes,
                                       const Progress& go_on) {
-  BvhWatch watch(work_[0], go_on);
+  BvhProgress progress(work_[0], go_on);
   // A few objects are not worth sharing among SPEs.
   const unsigned builders = frame_.group_count == 0 ? 1 : std::min(spes, bvh::kMaxBuilders);
   // A build in steps lets SPEs wait for each other, and can be stopped.
@@ -174,12 +174,12 @@ bool AcceleratorBuilder::build_bvh_on(SpeTeam& team, FrameBlock& frame, unsigned
   frame.prepare_spes = at_once ? 0 : builders;
   frame.prepare_step = 0;
   const std::uint32_t steps = at_once || frame_.group_count == 0 ? 1 : bvh::kSteps;
-  std::function<void()> look;
-  if (go_on) look = [&] { watch.look(frame.prepare_step != 0); };
-  for (; frame.prepare_step < steps && !watch.stopped(); ++frame.prepare_step)
-    team.prepare_frame(builders, look);
-  watch.rethrow();
-  return !watch.stopped();
+  std::function<void()> poll;
+  if (go_on) poll = [&] { progress.poll(frame.prepare_step != 0); };
+  for (; frame.prepare_step < steps && !progress.stopped(); ++frame.prepare_step)
+    team.prepare_frame(builders, poll);
+  progress.rethrow();
+  return !progress.stopped();
 }
 
 void AcceleratorBuilder::enter_work_memory(std::uint64_t pairs) {

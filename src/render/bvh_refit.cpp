@@ -2,8 +2,8 @@
 
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_subtree.hpp"
-#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
+#include "scene/progress_monitor.hpp"
 
 #include <algorithm>
 
@@ -70,7 +70,7 @@ void BvhRefit::refit(std::byte* base, const BvhRecord& bvh, unsigned threads) {
   auto* const nodes = reinterpret_cast<NodeRecord*>(base + bvh.node_offset);
   cost_ = 0;
   for (auto i = static_cast<std::uint32_t>(nodes_.size()); i-- > 0;) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     cost_ += bound_node(nodes[nodes_[i]], i);
   }
 }
@@ -85,7 +85,7 @@ void BvhRefit::find_nodes(const std::byte* base, const BvhRecord& bvh) {
   first_cost_ = 0;
   place_of[0] = 0; // the root has none
   for (std::uint32_t number = 0; number < bvh.node_count; ++number) {
-    BuildWatch::look_at(number);
+    ProgressMonitor::check_cancelled(number);
     if (place_of[number] == kGap) continue;
     nodes_.push_back(number);
     places_.push_back(place_of[number]);
@@ -130,7 +130,7 @@ std::span<const BvhRefit::Member> BvhRefit::members_of(unsigned part, unsigned p
 void BvhRefit::bound_leaves(const std::byte* base, std::span<const Member> members) {
   bvh::Reference* const all = bounds_.data();
   for (std::size_t i = 0; i < members.size(); ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     if (members.size() - i > kAhead) __builtin_prefetch(base + members[i + kAhead].object);
     bvh::Reference& leaf = all[members[i].slot];
     LaneAabb bounds = LaneAabb::of(leaf);

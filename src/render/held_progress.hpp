@@ -9,7 +9,7 @@
 namespace celltrace {
 
 /// The time to wait for SPEs that may have no message: short if somebody may ask to stop, long if nobody can.
-constexpr std::chrono::milliseconds kBetweenQuestions(5), kBetweenLooksAtSpes(50);
+constexpr std::chrono::milliseconds kCancellablePollInterval(5), kPollInterval(50);
 
 /// Calls the caller's function, and holds its exception until the SPEs are idle.
 class HeldProgress {
@@ -18,7 +18,7 @@ public:
   explicit HeldProgress(const Progress& progress) : progress_(progress) {}
 
   /// Returns whether to go on. Once the result is false, the function is not called again.
-  bool ask(double fraction) {
+  bool report(double fraction) {
     if (stopped_ || !progress_) return !stopped_;
     try {
       stopped_ = !progress_(fraction);
@@ -28,8 +28,8 @@ public:
     }
     return !stopped_;
   }
-  /// Calls another function of the caller's; an exception stops the work as one of ask() does.
-  template <class Function> void tell(Function function) {
+  /// Calls another function of the caller's; an exception stops the work as one of report() does.
+  template <class Function> void call(Function function) {
     if (stopped_) return;
     try {
       function();

@@ -8,7 +8,7 @@
 #include "render/quality.hpp"
 #include "render/statistics.hpp"
 #include "render/stopwatch.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -117,7 +117,7 @@ template <class Work> bool ScenePreparation::while_building(const Progress& prog
       return (!options_.build_progress || options_.build_progress(reached)) && (!progress || progress(0));
     };
   const Progress of_image = part_of(go_on, 0, kImageShare);
-  const BuildWatch watch(of_image);
+  const ProgressMonitor monitor(of_image);
   try {
     const bool is_built =
         diagnostics_.reporting_failures([&] { return work(part_of(go_on, kImageShare, 1)); });
@@ -127,7 +127,7 @@ template <class Work> bool ScenePreparation::while_building(const Progress& prog
     forget_scene();
     return false;
   } catch (...) {
-    if (watch.has_stopped()) forget_scene();
+    if (monitor.has_stopped()) forget_scene();
     throw;
   }
 }

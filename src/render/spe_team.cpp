@@ -44,8 +44,8 @@ void SpeTeam::dismiss() {
     machine_.wait(spe);
 }
 
-bool SpeTeam::prepare_frame(unsigned spes, const std::function<void()>& look) {
-  asks_ = static_cast<bool>(look);
+bool SpeTeam::prepare_frame(unsigned spes, const std::function<void()>& poll) {
+  is_cancellable_ = static_cast<bool>(poll);
   for (Member& member : members_)
     member.answered = member.spe >= spes;
   signal_first(spes, command::prepare_frame);
@@ -55,7 +55,7 @@ bool SpeTeam::prepare_frame(unsigned spes, const std::function<void()>& look) {
       if (kind == ReportKind::needs_memory) built = false;
       member.answered = member.answered || kind == ReportKind::prepared || kind == ReportKind::needs_memory;
     });
-    if (look) look();
+    if (poll) poll();
   }
   return built;
 }
@@ -82,16 +82,16 @@ void SpeTeam::command_synchronize() {
 
 bool SpeTeam::render_frame(StripTally& tally, const Progress& progress, const UnitDone& unit_done) {
   HeldProgress held(progress);
-  asks_ = static_cast<bool>(progress);
+  is_cancellable_ = static_cast<bool>(progress);
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     members_[spe] = Member{spe, 0, false};
   signal_all(command::render_frame);
-  bool go_on = held.ask(0);
+  bool go_on = held.report(0);
   while (go_on && !tally.frame_complete()) {
     receive([&](Member& member, ReportKind kind, std::uint32_t count) {
       if (kind == ReportKind::unit) {
         ++member.units;
-        held.tell([&] { unit_done(count, member.spe); });
+        held.call([&] { unit_done(count, member.spe); });
       }
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
       member.units = count;
@@ -99,10 +99,10 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress, const Un
       if (kind == ReportKind::idle) tally.report(member.spe, count);
     });
     // Holds 1 back for the finished frame.
-    go_on = held.ask(std::min(static_cast<double>(units_completed()) / tally.units(), 0.999));
+    go_on = held.report(std::min(static_cast<double>(units_completed()) / tally.units(), 0.999));
   }
   end_frame(go_on);
-  if (go_on) held.ask(1);
+  if (go_on) held.report(1);
   held.rethrow();
   return go_on;
 }
@@ -127,7 +127,7 @@ template <class Handle> bool SpeTeam::receive(Handle handle) {
   }
   if (any) return true;
   throw_if_stopped();
-  machine_.wait_for_mail(asks_ ? kBetweenQuestions : kBetweenLooksAtSpes);
+  machine_.wait_for_mail(is_cancellable_ ? kCancellablePollInterval : kPollInterval);
   return false;
 }
 
@@ -147,16 +147,16 @@ std::uint32_t SpeTeam::units_completed() const {
 
 void SpeTeam::end_frame(bool complete) {
   const std::uint32_t over = strip_word::frame_over(frame_[0].epoch);
-  const auto tell = [&] {
+  const auto send_over = [&] {
     for (unsigned spe = 0; spe < members_.size(); ++spe)
       if (!members_[spe].answered && machine_.in_mailbox_space(spe) != 0)
         machine_.write_in_mailbox(spe, over);
   };
-  tell();
+  send_over();
   while (!all_answered()) {
     // In the middle of a frame a mailbox may be full of neighbours' messages, or lose ours to one of them:
     // repeat it.
-    if (!receive_answers(ReportKind::finished) && !complete) tell();
+    if (!receive_answers(ReportKind::finished) && !complete) send_over();
   }
   if (!complete) synchronize({}); // cached lines are as valid as before
 }

@@ -31,10 +31,10 @@ public:
   void dismiss();
   void assemble();
 
-  /// Makes the first `spes` SPEs build the accelerator, or do the frame block's step of building it; `look`
+  /// Makes the first `spes` SPEs build the accelerator, or do the frame block's step of building it; `poll`
   /// is called now and then, and must not throw. Returns false if they need more room than the frame block
   /// offers.
-  bool prepare_frame(unsigned spes, const std::function<void()>& look);
+  bool prepare_frame(unsigned spes, const std::function<void()>& poll);
   /// Makes every SPE discard the messages in its mailbox, and fetch all cached lines of the image again.
   void synchronize();
   /// Does the same, but only for the cached lines at these offsets.
@@ -74,7 +74,7 @@ private:
   std::vector<Member> members_;
   const kernel::AcceleratorKind accelerator_;
   bool assembled_ = false;
-  bool asks_ = false; ///< a caller may end the frame
+  bool is_cancellable_ = false; ///< a caller may end the frame
 };
 
 } // namespace celltrace

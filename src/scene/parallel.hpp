@@ -1,7 +1,7 @@
 // Runs work in parts, in threads of the host.
 #pragma once
 
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -23,12 +23,12 @@ struct HostPart {
 };
 
 /// Calls work(part) for each part, in a thread each, and returns when all are done. The exception of the
-/// first part that threw passes through. All threads share this thread's BuildWatch, which is asked as long
-/// as any of them is at work.
+/// first part that threw passes through. All threads share this thread's ProgressMonitor, which is asked as
+/// long as any of them is at work.
 template <class Work> void for_each_part(unsigned parts, Work work) {
-  constexpr std::chrono::milliseconds kBetweenLooks(5);
+  constexpr std::chrono::milliseconds kPollInterval(5);
   std::vector<std::exception_ptr> failures(parts);
-  BuildWatch* const watch = BuildWatch::current();
+  ProgressMonitor* const monitor = ProgressMonitor::current();
   std::mutex mutex;
   std::condition_variable ended;
   unsigned at_work = parts;
@@ -42,9 +42,9 @@ template <class Work> void for_each_part(unsigned parts, Work work) {
     --at_work;
     ended.notify_one();
   };
-  const auto look = [&]() noexcept {
+  const auto check = [&]() noexcept {
     try {
-      BuildWatch::look();
+      ProgressMonitor::check_cancelled();
     } catch (...) {
       if (!failures[0]) failures[0] = std::current_exception();
     }
@@ -53,14 +53,14 @@ template <class Work> void for_each_part(unsigned parts, Work work) {
     std::vector<std::jthread> others;
     for (unsigned part = 1; part < parts; ++part)
       others.emplace_back([&, part] {
-        BuildWatch::follow(watch);
+        ProgressMonitor::adopt(monitor);
         run(part);
       });
     run(0);
     std::unique_lock lock(mutex);
-    while (!ended.wait_for(lock, kBetweenLooks, [&] { return at_work == 0; })) {
+    while (!ended.wait_for(lock, kPollInterval, [&] { return at_work == 0; })) {
       lock.unlock();
-      look();
+      check();
       lock.lock();
     }
   }

@@ -2,7 +2,7 @@
 
 #include "geometry/bounding_tree.hpp"
 #include "geometry/object_extents.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/object_order.hpp"
 #include "scene_image/shapes.hpp"
 
@@ -65,7 +65,7 @@ public:
         ++last;
       for (std::size_t a = first; a < last; ++a)
         for (std::size_t b = a + 1; b < last; ++b) {
-          BuildWatch::look_at(pairs);
+          ProgressMonitor::check_cancelled(pairs);
           if (++pairs > kMostSurfacePairs) return false;
           if (surfaces_[a].object == surfaces_[b].object) continue;
           const std::optional<Vec3> middle = middle_of(surfaces_[a].bounds, surfaces_[b].bounds);

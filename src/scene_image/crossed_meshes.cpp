@@ -1,7 +1,7 @@
 #include "scene_image/crossed_meshes.hpp"
 
 #include "geometry/triangles.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -40,7 +40,7 @@ public:
   /// Appends a box around the triangles, followed by its contents, which are halved along the axis with the
   /// largest extent.
   void add(std::span<Corners> triangles) {
-    BuildWatch::look_at(records_.size());
+    ProgressMonitor::check_cancelled(records_.size());
     const std::size_t box = records_.size();
     Vec3f least(std::numeric_limits<float>::max()), greatest = -least, nearest = least, farthest = greatest;
     for (const Corners& triangle : triangles) {

@@ -1,6 +1,6 @@
 #include "scene_image/csg_parts.hpp"
 
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/box_bounds.hpp"
 #include "scene_image/convex_solid.hpp"
 #include "scene_image/csg_bounds.hpp"
@@ -168,7 +168,7 @@ private:
     if (solid.is_surely_empty()) return true;
     std::optional<Object> object = solid.as_object(solid_bounds(node, kEverywhere));
     if (!object) return false;
-    BuildWatch::look_at(to_.parts.size());
+    ProgressMonitor::check_cancelled(to_.parts.size());
     CsgPart part;
     part.object = *std::move(object);
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&part.object.shape)) {
@@ -193,7 +193,7 @@ private:
 
   void show_solid(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     if (node.shape.is_empty) return;
-    BuildWatch::look_at(to_.parts.size());
+    ProgressMonitor::check_cancelled(to_.parts.size());
     CsgPart part;
     part.object = node.object;
     part.shape = node.shape;
@@ -268,7 +268,7 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
   parts.reserve(
       static_cast<std::size_t>(std::count_if(scene.objects.begin(), scene.objects.end(), contains)));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     if (!contains(scene.objects[i])) continue;
     const std::size_t first_part = parts.size(), first_replaced = replaced.size();
     const std::size_t first_solid = solids.size(), first_step = steps.size();

@@ -2,7 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "geometry/shape_geometry.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/box_bounds.hpp"
 #include "scene_image/csg_bounds.hpp"
 #include "scene_image/object_records.hpp"
@@ -164,7 +164,7 @@ bool is_plane(const Node& node) {
 Aabb bounds_of(const Mesh& mesh, const Transform& transform) {
   Aabb box = kNowhere;
   for (const Mesh::Triangle& triangle : mesh.triangles) {
-    BuildWatch::look_at(static_cast<std::size_t>(&triangle - mesh.triangles.data()));
+    ProgressMonitor::check_cancelled(static_cast<std::size_t>(&triangle - mesh.triangles.data()));
     for (const Index vertex : triangle.vertex) {
       const Vec3 at = transform.point(Vec3(mesh.vertices[vertex]));
       for (int i = 0; i < 3; ++i) {

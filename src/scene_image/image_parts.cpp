@@ -1,7 +1,7 @@
 #include "scene_image/image_parts.hpp"
 
 #include "prepare/projectors.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/image_layout.hpp"
 #include "scene_image/near_surfaces.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 /// Reports the progress that has been made before the next part is built; returns the scene.
 const Scene& reached(double fraction, const Scene& scene) {
-  BuildWatch::reach(fraction);
+  ProgressMonitor::report(fraction);
   return scene;
 }
 
@@ -75,7 +75,7 @@ void ImageParts::write(std::byte* base, const ImageHeader& header, const ObjectP
     writer.write_objects(objects, *places.in_order, places.cells, threads);
   else if (!places.are_written)
     writer.send_objects(objects, places.by_object, threads);
-  BuildWatch::reach(0.9);
+  ProgressMonitor::report(0.9);
   // If there are no instances, groups are only used to build a BVH.
   if (!places.are_known || header.prototype_count != 0) writer.write_groups(places.groups, threads);
   writer.write_instances(instances, threads);

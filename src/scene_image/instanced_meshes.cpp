@@ -2,7 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "geometry/triangles.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/csg_parts.hpp"
 #include "scene_image/mesh_bvh.hpp"
 #include "scene_image/object_records.hpp"
@@ -123,7 +123,7 @@ InstancedMeshes::InstancedMeshes(const Scene& scene, std::size_t objects,
   if (triangles <= kMostCopies) return;
   instance_of_.assign(objects, kNoIndex);
   for (std::size_t i = 0; i < objects; ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     const Object& object = scene.objects[i];
     const auto found = uses.find(mesh_of(object));
     if (found == uses.end() || !found->second.is_shared) continue;
@@ -206,7 +206,7 @@ void InstancedMeshes::write(const SharedMesh& mesh, const InstancedMeshTables& t
   ObjectRecord* to = tables.objects + mesh.first_object;
   std::uint32_t extra = tables.first_extra + mesh.first_extra;
   for (const MeshPrototype::Triangle& triangle : prototype.triangles()) {
-    BuildWatch::look_at(static_cast<std::size_t>(&triangle - prototype.triangles().data()));
+    ProgressMonitor::check_cancelled(static_cast<std::size_t>(&triangle - prototype.triangles().data()));
     ObjectRecord r{};
     r.kind_and_flags = static_cast<std::uint32_t>(ObjectKind::triangle);
     r.material = r.extra = kNoOffset;

@@ -1,7 +1,7 @@
 #include "scene_image/mesh_bvh.hpp"
 
 #include "records/instance.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 
 #include <algorithm>
 #include <array>
@@ -55,7 +55,7 @@ private:
 
   /// Adds a node of at most `levels` levels, itself included.
   std::uint32_t add_node(const TriangleRange& all, std::uint32_t levels) {
-    BuildWatch::look_at(nodes_.size());
+    ProgressMonitor::check_cancelled(nodes_.size());
     std::array<TriangleRange, 4> children = {all};
     std::size_t count = 1;
     // Splits the range first that does not fit into the levels below, then the most expensive one.

@@ -1,7 +1,7 @@
 #include "scene_image/mesh_insides.hpp"
 
 #include "geometry/basis.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/shapes.hpp"
 
 #include <algorithm>
@@ -136,7 +136,7 @@ MeshInsides::Inside MeshInsides::add(const Mesh& mesh) {
     triangles_.resize(first);
     std::uint64_t entries = 0;
     for (const Mesh::Triangle& triangle : mesh.triangles) {
-      BuildWatch::look_at(static_cast<std::size_t>(&triangle - mesh.triangles.data()));
+      ProgressMonitor::check_cancelled(static_cast<std::size_t>(&triangle - mesh.triangles.data()));
       Vec3f corners[3];
       for (int i = 0; i < 3; ++i)
         corners[i] = Vec3f(to_grid.point(Vec3(mesh.vertices[triangle.vertex[i]])));
@@ -159,7 +159,7 @@ void MeshInsides::add_lists(MeshGridRecord& grid, std::uint32_t first_triangle) 
   const auto triangle_count = static_cast<std::uint32_t>(triangles_.size());
   std::vector<std::uint32_t> ends(cells);
   for (std::uint32_t i = first_triangle; i < triangle_count; ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     CellRange(triangles_[i], grid).for_each(grid, [&](std::uint32_t cell) { ++ends[cell]; });
   }
   grid.starts = static_cast<std::uint32_t>(words_.size());
@@ -172,7 +172,7 @@ void MeshInsides::add_lists(MeshGridRecord& grid, std::uint32_t first_triangle) 
   }
   words_.resize(at);
   for (std::uint32_t i = triangle_count; i-- > first_triangle;) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     CellRange(triangles_[i], grid).for_each(grid, [&](std::uint32_t cell) { words_[--ends[cell]] = i; });
   }
 }

@@ -4,8 +4,8 @@
 #include "celltrace/spe/simd_host.hpp"
 #include "geometry/triangles.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
-#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/csg_parts.hpp"
 #include "scene_image/object_order.hpp"
 #include "scene_image/world_box.hpp"
@@ -72,7 +72,7 @@ MeshInstances::MeshInstances(const Scene& scene, const InstancedMeshes& instance
   for_each_part(parts, [&](unsigned part) {
     const HostPart mine(count, part, parts);
     for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
-      BuildWatch::look();
+      ProgressMonitor::check_cancelled();
       instances_[i].is_sound = keeps_areas(instances_[i]);
     }
   });
@@ -193,7 +193,7 @@ public:
     start(instance, prototype);
     ObjectRecord* to = tables_.objects + instance.first_object;
     for (std::uint32_t group = 0; group < prototype.group_count(); ++group) {
-      BuildWatch::look_at(group);
+      ProgressMonitor::check_cancelled(group);
       const std::uint32_t begin = prototype.groups()[group], end = prototype.groups()[group + 1];
       LaneAabb around = LaneAabb::empty();
       for (std::uint32_t i = begin; i < end; ++i)
@@ -216,7 +216,7 @@ private:
     object_ = instance.object;
     vertices_.clear();
     for (const Vec3f& vertex : prototype.vertices()) {
-      BuildWatch::look_at(vertices_.size());
+      ProgressMonitor::check_cancelled(vertices_.size());
       const Vec3f at = in_world(object_->transform, vertex);
       vertices_.push_back({{at.x, at.y, at.z, 0.0f}});
     }
@@ -285,7 +285,7 @@ void MeshInstances::write(const InstanceTables& tables, unsigned threads) const 
     const HostPart mine(static_cast<std::uint32_t>(instances_.size()), part, threads);
     Writer writer(*this, tables);
     for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
-      BuildWatch::look();
+      ProgressMonitor::check_cancelled();
       writer.write(instances_[i]);
     }
   });

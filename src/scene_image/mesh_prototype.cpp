@@ -3,7 +3,7 @@
 #include "celltrace/spe/simd_host.hpp"
 #include "geometry/triangles.hpp"
 #include "kernel/direct/build_bvh_split.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/object_order.hpp"
 #include "scene_image/record_vectors.hpp"
 
@@ -52,7 +52,7 @@ public:
     if (begin == end) return;
     std::vector<Range> open = {bvh::range_of<Simd>(references_.data(), begin, end)};
     while (!open.empty()) {
-      BuildWatch::look_at(looks_++);
+      ProgressMonitor::check_cancelled(checks_++);
       const Range range = open.back();
       open.pop_back();
       if (!part(range) || range.count() < 2) continue;
@@ -66,7 +66,7 @@ public:
 private:
   std::vector<Reference>& references_;
   std::vector<Reference> spare_;
-  std::size_t looks_ = 0;
+  std::size_t checks_ = 0;
 };
 
 /// Returns the triangles with an area, in the order of the mesh.
@@ -74,7 +74,7 @@ std::vector<Reference> references_to_triangles(const Mesh& mesh) {
   std::vector<Reference> references;
   references.reserve(mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     const Index(&vertex)[3] = mesh.triangles[i].vertex;
     if (has_area(mesh.vertices[vertex[0]], mesh.vertices[vertex[1]], mesh.vertices[vertex[2]]))
       references.push_back(reference_to(i, mesh));
@@ -183,9 +183,9 @@ public:
 private:
   void find_equal() {
     std::vector<Index> order = first_like_;
-    std::size_t looks = 0;
+    std::size_t checks = 0;
     const auto less = [&](Index a, Index b) {
-      BuildWatch::look_at(looks++);
+      ProgressMonitor::check_cancelled(checks++);
       const Vec3f &p = points_[a], &q = points_[b];
       return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
     };
@@ -220,7 +220,7 @@ MeshPrototype::MeshPrototype(const Mesh& mesh, unsigned threads) {
   PointTable normals(mesh.normals, mesh.triangles.size());
   triangles_.reserve(references.size());
   for (const Reference& reference : references) {
-    BuildWatch::look_at(triangles_.size());
+    ProgressMonitor::check_cancelled(triangles_.size());
     const Mesh::Triangle& from = mesh.triangles[reference.value];
     Triangle triangle = {{0, 0, 0}, {kNoIndex, kNoIndex, kNoIndex}, from.material[0]};
     for (int corner = 0; corner < 3; ++corner) {
@@ -245,7 +245,7 @@ void MeshPrototype::measure() {
   }
   least_height_ = std::numeric_limits<double>::max();
   for (const Triangle& triangle : triangles_) {
-    BuildWatch::look_at(static_cast<std::size_t>(&triangle - triangles_.data()));
+    ProgressMonitor::check_cancelled(static_cast<std::size_t>(&triangle - triangles_.data()));
     const Vec3 a(vertices_[triangle.vertex[0]]);
     const Vec3 u = Vec3(vertices_[triangle.vertex[1]]) - a;
     const Vec3 v = Vec3(vertices_[triangle.vertex[2]]) - a;

@@ -3,7 +3,7 @@
 #include "geometry/object_extents.hpp"
 #include "kernel/primitives/crossings.hpp"
 #include "records/object.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 
 #include <algorithm>
 
@@ -87,7 +87,7 @@ bool has_near_surfaces(const Scene& scene, const std::vector<std::uint32_t>& mat
   if (std::all_of(material_flags.begin(), material_flags.end(), is_opaque)) return false;
   TranslucentBoxes boxes(material_flags);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     boxes.add(scene.objects[i], Transform());
   }
   return boxes.any_near();

@@ -2,8 +2,8 @@
 
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
-#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
+#include "scene/progress_monitor.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -150,7 +150,7 @@ public:
       const auto last = std::lower_bound(begins.begin(), begins.end(), mine.end);
       std::copy(spare_ + *first, spare_ + *last, objects_ + *first);
       for (auto cell = first; cell != last; ++cell) {
-        BuildWatch::look_at(static_cast<std::size_t>(cell - first));
+        ProgressMonitor::check_cancelled(static_cast<std::size_t>(cell - first));
         finish(cell[0], cell[1], 1, groups[part]);
       }
     });
@@ -164,7 +164,7 @@ private:
   std::vector<std::uint32_t> count_cells(const CurveGrid& grid, std::uint32_t begin, std::uint32_t end) {
     std::vector<std::uint32_t> counts(grid.count());
     for (std::uint32_t i = begin; i < end; ++i) {
-      BuildWatch::look_at(i);
+      ProgressMonitor::check_cancelled(i);
       cells_[i] = grid.cell_of(objects_[i].centre);
       ++counts[cells_[i]];
     }
@@ -191,7 +191,7 @@ private:
 
   void send(std::vector<std::uint32_t>& next, std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) {
-      BuildWatch::look_at(i);
+      ProgressMonitor::check_cancelled(i);
       spare_[next[cells_[i]]++] = objects_[i];
     }
   }

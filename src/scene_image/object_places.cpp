@@ -1,7 +1,7 @@
 #include "scene_image/object_places.hpp"
 
-#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/image_layout.hpp"
 #include "scene_image/touch_memory.hpp"
 
@@ -56,7 +56,7 @@ NewPlaces::NewPlaces(const SceneObjects& objects, bool copies, AlignedBlock& wor
     : objects_(objects), memory_(work, objects.count()) {
   touch(work, work.size(), threads);
   census_ = place_all(objects, memory_.objects, threads);
-  BuildWatch::reach(0.4);
+  ProgressMonitor::report(0.4);
   if (census_.objects != 0 && (census_.objects >= kMinObjectsToOrder || copies))
     groups_ = order_along_curve(memory_.objects, memory_.spare, memory_.cells, census_.objects, threads);
 }
@@ -73,7 +73,7 @@ ObjectPlaces NewPlaces::places() const {
 std::vector<std::uint32_t> NewPlaces::by_object() const {
   std::vector<std::uint32_t> places(objects_.count(), SceneObjects::kNoPlace);
   for (std::uint32_t i = 0; i < census_.objects; ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     places[memory_.objects[i].source] = i;
   }
   return places;
@@ -96,7 +96,7 @@ std::optional<ObjectCensus> send_placed(TableWriter& writer, const SceneObjects&
 std::span<const PlacedObject> in_order_of(std::span<const std::uint32_t> places, std::uint32_t placed,
                                           const OrderMemory& memory) {
   for (std::uint32_t i = 0; i < places.size(); ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     if (const std::uint32_t place = places[i]; place != SceneObjects::kNoPlace)
       memory.objects[place].source = i;
   }

@@ -2,7 +2,7 @@
 #include "celltrace/spe/simd_host.hpp"
 #include "geometry/triangles.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/scene_objects.hpp"
 
 #include <algorithm>
@@ -143,7 +143,7 @@ template <class Visit>
 void SceneObjects::visit_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end,
                                 ObjectCensus& census, Visit visit) const {
   for (std::uint32_t number = begin; number < end; ++number) {
-    BuildWatch::look_at(number);
+    ProgressMonitor::check_cancelled(number);
     const Placed object = placed_at(piece, number);
     Aabb box;
     if (object.part != nullptr) {
@@ -172,7 +172,7 @@ void SceneObjects::visit_triangles(const Piece& piece, std::uint32_t begin, std:
   const bool is_limited = piece.is_limited_mesh(), may_be_mapped = !mesh.coordinates.empty();
   LaneAabb around = LaneAabb::empty();
   for (std::uint32_t number = begin; number < end; ++number) {
-    BuildWatch::look_at(number);
+    ProgressMonitor::check_cancelled(number);
     const Mesh::Triangle& triangle = mesh.triangles[number - piece.first];
     const Vec3f &a = piece.vertices[triangle.vertex[0]], &b = piece.vertices[triangle.vertex[1]],
                 &c = piece.vertices[triangle.vertex[2]];
@@ -193,7 +193,7 @@ ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) c
   ObjectCensus census;
   const Piece* near = nullptr;
   for (const PlacedObject& object : objects) {
-    BuildWatch::look_at(static_cast<std::size_t>(&object - objects.data()));
+    ProgressMonitor::check_cancelled(static_cast<std::size_t>(&object - objects.data()));
     const Piece& piece = piece_of(object.source, near);
     near = &piece;
     if (piece.mesh == nullptr) {
@@ -373,7 +373,7 @@ void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTabl
   Writer writer(*this, tables, before);
   const Piece* near = nullptr;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     const Piece& piece = piece_of(objects[i].source, near);
     near = &piece;
     const std::uint32_t number = objects[i].source;
@@ -417,7 +417,7 @@ void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, std::span
     const Piece& piece = piece_of(begin, nullptr);
     const std::uint32_t piece_end = std::min(end, end_of(piece));
     for (std::uint32_t number = begin; number < piece_end; ++number) {
-      BuildWatch::look_at(number);
+      ProgressMonitor::check_cancelled(number);
       if (piece_end - number > kAhead && places[number + kAhead] != kNoPlace)
         __builtin_prefetch(to + places[number + kAhead], 1);
       if (places[number] == kNoPlace) continue;

@@ -2,7 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/direct/build_bvh_plan.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/image_layout.hpp"
 #include "scene_image/image_parts.hpp"
 #include "scene_image/object_places.hpp"
@@ -48,7 +48,7 @@ SceneImage::SceneImage(const Scene& scene) {
 
 void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads,
                         std::uint32_t objects_a_thread, const ImageMemory& remembered) {
-  BuildWatch::reach(0);
+  ProgressMonitor::report(0);
   validate(given);
   ImageParts parts(given, eye_of(given, remembered.eye_moves), threads);
   threads = parts.threads_for(objects_a_thread, threads);
@@ -56,7 +56,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   const ObjectPlaces places = placed.places();
   const ImageHeader header = parts.header(places);
 
-  BuildWatch::reach(0.6);
+  ProgressMonitor::report(0.6);
   const std::size_t bytes = header.bytes + bvh_bytes(header);
   if (remembered.most_bytes != 0 && bytes > remembered.most_bytes)
     throw InputError("the scene takes " + std::to_string(bytes) + " bytes with its BVH, and " +

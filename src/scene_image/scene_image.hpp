@@ -61,7 +61,7 @@ public:
   /// Becomes the image of `scene`, using up to `threads` threads with at least `objects_a_thread` objects
   /// each; the result does not depend on their number. Reuses its memory if that is large enough, and uses
   /// `work`, which may grow. After an InputError it is unchanged; after another exception it may be empty.
-  /// Reports progress to a BuildWatch, as update() does; either may leave no image when it is stopped.
+  /// Reports progress to a ProgressMonitor, as update() does; either may leave no image when it is stopped.
   void assign(const Scene& scene, AlignedBlock& work, unsigned threads,
               std::uint32_t objects_a_thread = kObjectsAThread, const ImageMemory& memory = {});
   /// Updates the image in place for a scene that differs from that of assign() in numbers only: every record

@@ -3,8 +3,8 @@
 #include "celltrace/error.hpp"
 #include "geometry/polygons.hpp"
 #include "geometry/triangles.hpp"
-#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/coincident_surfaces.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
   for_each_part(parts, [&](unsigned part) {
     const HostPart mine(count, part, parts);
     for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
-      BuildWatch::look_at(i);
+      ProgressMonitor::check_cancelled(i);
       to[i] = change(from[i]);
     }
   });
@@ -50,7 +50,7 @@ SceneObjects::SceneObjects(const Scene& scene, const Eye& eye, std::size_t proje
       csg_(scene, eye, patterns, projectors, material_flags) {
   order_ = order_of_tests(scene, eye, projectors, csg_, limits);
   for (const std::size_t i : order_) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     const Object& object = scene.objects[i];
     if (CsgParts::contains(object)) {
       add_parts(i, threads);

@@ -1,6 +1,6 @@
 #include "scene_image/shared_image.hpp"
 
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/image_fields.hpp"
 
 #include <cstdint>
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> SharedImage::publish_changes() {
 /// Copies a range of bytes word by word; both ends are multiples of a word.
 void SharedImage::copy(std::size_t begin, std::size_t end) {
   for (std::size_t at = begin; at < end; at += sizeof(std::uint32_t)) {
-    BuildWatch::look_at(at / sizeof(std::uint32_t));
+    ProgressMonitor::check_cancelled(at / sizeof(std::uint32_t));
     std::uint32_t word;
     std::memcpy(&word, image_.base() + at, sizeof word);
     word = word >> 24 | (word >> 8 & 0xFF00) | (word << 8 & 0xFF0000) | word << 24;

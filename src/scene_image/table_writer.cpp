@@ -2,8 +2,8 @@
 
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
-#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/image_layout.hpp"
 #include "scene_image/surface_records.hpp"
 
@@ -181,7 +181,7 @@ void TableWriter::write_objects(const SceneObjects& objects, std::span<const Pla
   if (!has_tables) {
     std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
     for (std::uint32_t i = 0; i < placed.size(); ++i) {
-      BuildWatch::look_at(i);
+      ProgressMonitor::check_cancelled(i);
       places[placed[i].source] = i;
     }
     return send_objects(objects, {places, objects.count()}, threads);
@@ -209,7 +209,7 @@ void TableWriter::write_groups(std::span<const std::uint32_t> groups, unsigned t
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(count, part, threads);
     for (std::uint32_t group = mine.begin; group < mine.end; ++group) {
-      BuildWatch::look_at(group);
+      ProgressMonitor::check_cancelled(group);
       auto lanes = bvh::LaneAabb<Simd>::empty();
       for (std::uint32_t i = groups[group]; i < groups[group + 1]; ++i)
         lanes.grow(bvh::box_of<Simd>(objects[i], base_));

@@ -15,7 +15,7 @@
 #include "geometry/triangles.hpp"
 #include "prepare/projectors.hpp"
 #include "records/light.hpp"
-#include "scene/build_watch.hpp"
+#include "scene/progress_monitor.hpp"
 #include "scene_image/light_sets.hpp"
 #include "scene_image/shapes.hpp"
 #include "scene_image/texture_checks.hpp"
@@ -134,7 +134,7 @@ bool are_sound(const Mesh& mesh, std::size_t materials) {
   }
   const std::size_t whole = mesh.triangles.size() / kAtATime * kAtATime;
   for (std::size_t first = 0; first < whole; first += kAtATime) {
-    BuildWatch::look_at(first);
+    ProgressMonitor::check_cancelled(first);
     const auto* const bytes = reinterpret_cast<const std::byte*>(&mesh.triangles[first]);
     for (std::size_t i = 0; i < kWords; ++i) {
       Index index;
@@ -176,7 +176,7 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
     throw InputError(name.text() + " has an inside vector that is not finite");
   if (are_sound(mesh, materials)) return;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     if (!is_sound(mesh, mesh.triangles[i], materials))
       throw InputError(name.text() + Name{", triangle", i}.text() + " has an index that is out of range");
   }
@@ -270,7 +270,7 @@ void validate_all_but_objects(const Scene& scene) {
 void validate(const Scene& scene) {
   validate_all_but_objects(scene);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    BuildWatch::look_at(i);
+    ProgressMonitor::check_cancelled(i);
     check_object(scene, scene.objects[i], {"object", i}, 0);
   }
   std::unordered_set<const Mesh*> meshes;

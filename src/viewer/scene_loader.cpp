@@ -28,7 +28,7 @@ SceneLoader::Watched SceneLoader::state_of(const std::filesystem::path& path) {
   return watched;
 }
 
-void SceneLoader::look() {
+void SceneLoader::check_files() {
   {
     const std::lock_guard lock(mutex_);
     if (is_reading_) return;

@@ -37,7 +37,7 @@ public:
 
   /// Checks whether a file of the scene was written since it was read, and reads it again then. Cheap: call
   /// it several times a second.
-  void look();
+  void check_files();
   std::optional<Loaded> take();
 
 private:

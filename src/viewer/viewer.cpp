@@ -40,7 +40,7 @@ constexpr double kDegreesPerPixel = 0.2;
 constexpr double kZoomPerStep = 1.1;
 /// Pixels that the mouse may move with its button down without turning the camera.
 constexpr int kClick = 2;
-constexpr std::chrono::milliseconds kBetweenLooks(250);
+constexpr std::chrono::milliseconds kFileCheckInterval(250);
 constexpr std::chrono::seconds kMessage(3), kLongMessage(10), kHint(5);
 /// Time without input after which a picture is still.
 constexpr std::chrono::milliseconds kStill(500);
@@ -429,9 +429,9 @@ private:
   }
 
   void look_at_files() {
-    if (is_paused_ || Clock::now() < next_look_) return;
-    next_look_ = Clock::now() + kBetweenLooks;
-    loader_.look();
+    if (is_paused_ || Clock::now() < next_file_check_) return;
+    next_file_check_ = Clock::now() + kFileCheckInterval;
+    loader_.check_files();
   }
 
   // --- display ---
@@ -591,7 +591,7 @@ private:
   Frame frame_;                        ///< the frame that is shown
   std::uint64_t machine_ = 1, number_ = 0, shown_number_ = 0;
   bool is_final_ = false;
-  Clock::time_point asked_ = start_, next_look_ = start_, message_ends_ = start_, hint_ends_ = start_;
+  Clock::time_point asked_ = start_, next_file_check_ = start_, message_ends_ = start_, hint_ends_ = start_;
   double latency_ = 0; ///< seconds from the last input to the first picture of what it asked for
   std::deque<Clock::time_point> times_; ///< times of the frames of the last second
   std::map<Action, Clock::time_point> held_;

@@ -16,10 +16,10 @@ public:
   /// Sleeps until a bit is rung.
   void wait() {
     rung_ |= by_mailbox_ ? spu_.read_in_mailbox() : spu_.read_signal_2();
-    look();
+    poll();
   }
   /// Collects bits that were rung meanwhile.
-  void look() {
+  void poll() {
     if (by_mailbox_) {
       while (spu_.in_mailbox_count() != 0)
         rung_ |= spu_.read_in_mailbox();

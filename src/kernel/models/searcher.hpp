@@ -74,7 +74,7 @@ private:
     return true;
   }
   bool next_job(Item& item) {
-    doorbell_.look();
+    doorbell_.poll();
     item.index = 0;
     return doorbell_.take_context(item.context);
   }

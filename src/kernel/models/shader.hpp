@@ -35,7 +35,7 @@ public:
       if (!ahead) fetch(context);
       const uint32_t present = context;
       current_ ^= 1;
-      doorbell_.look();
+      doorbell_.poll();
       if (doorbell_.take(bell::stop)) stop();
       ahead = doorbell_.take_context(context);
       if (ahead) fetch(context);
@@ -106,7 +106,7 @@ private:
 
   /// Waits for the answer to a context. Returns false if the frame is over.
   bool wait_for_answer(uint32_t& context) {
-    doorbell_.look();
+    doorbell_.poll();
     while (!doorbell_.take_context(context)) {
       if (doorbell_.take(bell::stop))
         stop();

@@ -42,8 +42,8 @@ bool StageTeam::render_frame(const Progress& progress) {
   HeldProgress held(progress);
   reports_.clear();
   if (failed_) throw SpeError("an SPE has failed in a frame before");
-  const bool complete = held.ask(0) && render_frame_while(held);
-  if (complete) held.ask(1);
+  const bool complete = held.report(0) && render_frame_while(held);
+  if (complete) held.report(1);
   held.rethrow();
   return complete;
 }
@@ -61,7 +61,7 @@ bool StageTeam::render_frame_while(HeldProgress& held) {
         std::accumulate(pipelines_.begin(), pipelines_.end(), std::uint64_t{0},
                         [](std::uint64_t sum, const Pipeline& p) { return sum + p.packets; });
     // Holds 1 back for the finished frame.
-    go_on = held.ask(std::min(static_cast<double>(complete) / packets, 0.999));
+    go_on = held.report(std::min(static_cast<double>(complete) / packets, 0.999));
     if (!go_on) stop();
   }
   leave();
@@ -111,7 +111,7 @@ bool StageTeam::receive() {
   }
   if (any) return true;
   throw_if_stopped();
-  machine_.wait_for_mail(kBetweenQuestions);
+  machine_.wait_for_mail(kCancellablePollInterval);
   return false;
 }
 
