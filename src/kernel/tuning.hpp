@@ -68,17 +68,16 @@ constexpr uint32_t kLeastMixedPackets = 4;
 /// on. Rays of the models, and of legocar most of all, which leaves much of its picture empty.
 constexpr uint32_t kMaxEnteredNodes = 24;
 
-/// Nodes that a packet's frustum, but none of its rays, has hit when it counts as loose. From then on the
-/// rays are tested as well. Larger: more nodes are hit in vain; smaller: rays are tested where frusta would
-/// do. The threshold matters at silhouettes, where the origins of shadow rays lie far apart. Rays of the
-/// models; also for SPEs.
-constexpr uint32_t kMissesOfLoose = 2;
-/// Factor by which the rectangle of a packet of shadow rays, as the light sees it, has to exceed its share of
-/// the bundle's rectangle to count as wide: the origins then lie on several surfaces, and only the frustum
-/// hits leaves between these. Rays of wide packets are tested against leaves' bounds as well. Larger:
-/// triangles are tested in vain; smaller: rays are tested where frusta would do. 'refitted every
-/// frame/(hills|random)-100000'.
-constexpr float kWidePacket = 1.5f;
+/// Nodes that a packet's frustum, but none of its rays, has hit when it counts as incoherent. From then on
+/// the rays are tested as well. Larger: more nodes are hit in vain; smaller: rays are tested where frusta
+/// would do. The threshold matters at silhouettes, where the origins of shadow rays lie far apart. Rays of
+/// the models; also for SPEs.
+constexpr uint32_t kMissesOfIncoherent = 2;
+/// Factor by which the rectangle of a packet of shadow rays, seen from the light, exceeds its share of the
+/// bundle's if the packet is incoherent: its origins lie on several surfaces, and only its frustum hits
+/// leaves between. Its rays are tested against leaves' bounds as well. Larger: triangles tested in vain;
+/// smaller: rays are tested where frusta would do. 'refitted every frame/(hills|random)-100000'.
+constexpr float kIncoherentOrigins = 1.5f;
 
 /// Most objects of a scene, besides planes, in which packets are tested against all objects instead of a
 /// bundle's traversal. Larger: objects are tested that a frustum would miss; smaller: frusta are computed for
@@ -179,25 +178,25 @@ struct LeafRule {
   uint32_t sphere_weight; ///< weight of a sphere, which is tested in little time and fills most of its bounds
   uint32_t other_weight;  ///< weight of other objects; most tests of thin cylinders are in vain
 };
-/// Rule for wide leaves, whose triangles SPEs test many at once. Larger: fewer nodes are built and expanded;
+/// Rule for large leaves, whose triangles SPEs test many at once. Larger: fewer nodes are built and expanded;
 /// smaller: fewer objects are tested in vain. 'rebuilt every frame' and rays of the models; for weights
 /// 'trace time' of molecules and of scenes with a few simple shapes.
-constexpr LeafRule kWideLeaves = {12, 32, 0.5f, 2, 3};
+constexpr LeafRule kLargeLeaves = {12, 32, 0.5f, 2, 3};
 /// Most rays of a packet that are traced one by one in an instance's mesh. Larger: fewer lanes idle; smaller:
 /// fewer nodes are expanded more than once. 'trace time' of scenes with many instances.
 constexpr int kMostRaysAlone = 1;
-/// Rule for narrow leaves, whose objects are tested one by one. `celltrace render --backend cell_emu
+/// Rule for small leaves, whose objects are tested one by one. `celltrace render --backend cell_emu
 /// --schedule lockstep --stats -`, whose cycles count.
-constexpr LeafRule kNarrowLeaves = {3, 16, 2.0f, 2, 2};
+constexpr LeafRule kSmallLeaves = {3, 16, 2.0f, 2, 2};
 /// Rule for copied treelets, in which four objects share a leaf: a node for them would take memory in every
 /// copy, and rays would wait for it longer than the tests take. 'first frame' of a scene with many instances
 /// of one mesh.
 constexpr LeafRule kCopiedLeaves = {4, 8, 2.0f, 1, 1};
-/// Bytes of a scene up to which leaves are wide: the cache that a PC's cores share holds all of them. Larger:
-/// objects that no ray hits are fetched from main memory; smaller: more nodes are built and expanded. Rays of
-/// generated models, '--primitives 100000 1000000'.
+/// Bytes of a scene up to which leaves are large: the cache that a PC's cores share holds all of them.
+/// Larger: objects that no ray hits are fetched from main memory; smaller: more nodes are built and expanded.
+/// Rays of generated models, '--primitives 100000 1000000'.
 constexpr uint32_t kSharedCacheBytes = 50'000'000;
-constexpr uint32_t kMostObjectsOfWideLeaves = objects_in(kSharedCacheBytes);
+constexpr uint32_t kMostObjectsOfLargeLeaves = objects_in(kSharedCacheBytes);
 
 /// Treelets that an SPE takes at a time. Larger: fewer atomic operations; smaller: a more even distribution.
 /// 'rebuilt every frame' of the models, with '--threads' of all CPUs.

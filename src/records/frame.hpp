@@ -72,9 +72,9 @@ struct alignas(128) FrameBlock {
   uint32_t group_offset, group_count; ///< GroupRecords
   uint32_t longest_group;             ///< number of objects
   uint32_t prototype_offset;          ///< offset of one word per group; 0: no group is a copy
-  uint32_t units_per_word; ///< number of units between an SPE's reports of progress; 0: none; or kEachUnit
-  uint32_t wide_leaves; ///< 0 or 1: leaves of the BVH are for SPEs that test many triangles of a leaf at once
-  uint32_t far_nodes;   ///< 0 or 1: the BVH exceeds the caches, and SPEs wait long for a node
+  uint32_t units_per_word;  ///< number of units between an SPE's reports of progress; 0: none; or kEachUnit
+  uint32_t large_leaves;    ///< 0 or 1: leaves of the BVH have many triangles, which SPEs test together
+  uint32_t far_nodes;       ///< 0 or 1: the BVH exceeds the caches, and SPEs wait long for a node
   uint32_t unbounded_count; ///< number of objects in no accelerator, which precede the others in the table
   uint32_t sky;             ///< as in ImageHeader
   uint32_t light_places; ///< number of places on lights toward which shadow rays go; the number of lights if

@@ -136,7 +136,7 @@ bool AcceleratorBuilder::build_bvh(const Progress& go_on) {
   const std::uint32_t nodes = bvh::most_nodes(objects, header.group_count, header.prototype_count != 0);
   image_.reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
   frame_.bvh = {image_.table_offset(), nodes, 0, image_.list_offset()};
-  frame_.wide_leaves = machine_.direct_memory() && objects <= tuning::kMostObjectsOfWideLeaves;
+  frame_.large_leaves = machine_.direct_memory() && objects <= tuning::kMostObjectsOfLargeLeaves;
   frame_.far_nodes = machine_.direct_memory() && objects > tuning::kMostObjectsOfNearNodes;
   enter_work_memory(work.pairs());
   frame_.image = to_ea(image_.base());

@@ -43,7 +43,7 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock:
           &FrameBlock::exchange_parameter, &FrameBlock::camera_interior_count, &FrameBlock::accelerator,
           &FrameBlock::camera_interiors, &FrameBlock::group_offset, &FrameBlock::group_count,
           &FrameBlock::longest_group, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
-          &FrameBlock::wide_leaves, &FrameBlock::far_nodes, &FrameBlock::unbounded_count, &FrameBlock::sky,
+          &FrameBlock::large_leaves, &FrameBlock::far_nodes, &FrameBlock::unbounded_count, &FrameBlock::sky,
           &FrameBlock::light_places, &FrameBlock::purpose, &FrameBlock::sampling, &FrameBlock::fog_offset,
           &FrameBlock::fog_count, &FrameBlock::light_features, &FrameBlock::rainbow_offset,
           &FrameBlock::rainbow_count, &FrameBlock::background_clear>

@@ -92,7 +92,7 @@ public:
     return frame_.bvh.node_count = nodes.back();
   }
 
-  void use_wide_leaves(bool wide) { frame_.wide_leaves = wide; }
+  void use_large_leaves(bool large) { frame_.large_leaves = large; }
   const kernel::FrameBlock& frame() const { return frame_; }
   std::uint32_t capacity() const { return capacity_; }
   const kernel::NodeRecord& root() const { return node(frame_.bvh.node_offset); }

@@ -23,8 +23,8 @@ public:
   }
 
   /// Has a BVH built in place of the grid.
-  void use_bvh(bool wide_leaves, bool far_nodes = false) {
-    frame_.wide_leaves = wide_leaves;
+  void use_bvh(bool large_leaves, bool far_nodes = false) {
+    frame_.large_leaves = large_leaves;
     frame_.far_nodes = far_nodes;
     const std::uint32_t nodes =
         kernel::bvh::most_nodes(object_count(), header().group_count, header().prototype_count != 0);

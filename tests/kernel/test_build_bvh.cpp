@@ -124,7 +124,7 @@ Shape check(BuiltBvh& tree, const Objects& objects) {
   REQUIRE(shape.objects.size() == objects.size());
   REQUIRE(shape.depth <= bvh::kMaxDepth);
   REQUIRE(shape.largest_leaf <=
-          (tree.frame().wide_leaves != 0 ? bvh::kMaxLeaf : bvh::leaf_rule(false, false).most));
+          (tree.frame().large_leaves != 0 ? bvh::kMaxLeaf : bvh::leaf_rule(false, false).most));
   return shape;
 }
 
@@ -133,22 +133,22 @@ bool same_bytes(const BuiltBvh& a, const BuiltBvh& b) {
   return a.bytes() == b.bytes();
 }
 
-Shape check(const Objects& objects, bool wide_leaves) {
+Shape check(const Objects& objects, bool large_leaves) {
   BuiltBvh tree(objects);
-  tree.use_wide_leaves(wide_leaves);
+  tree.use_large_leaves(large_leaves);
   const Shape shape = check(tree, objects);
   BuiltBvh again(objects);
-  again.use_wide_leaves(wide_leaves);
+  again.use_large_leaves(large_leaves);
   again.build(3);
   REQUIRE(same_bytes(tree, again));
   return shape;
 }
 
 Shape check(const Objects& objects) {
-  const Shape narrow = check(objects, false);
-  const Shape wide = check(objects, true);
-  CHECK(wide.nodes <= narrow.nodes);
-  return narrow;
+  const Shape small = check(objects, false);
+  const Shape large = check(objects, true);
+  CHECK(large.nodes <= small.nodes);
+  return small;
 }
 
 } // namespace
@@ -175,16 +175,16 @@ TEST_CASE("A BVH over few objects") {
 }
 
 TEST_CASE("Few objects that are far apart lie alone in their leaves, though they fill no nodes") {
-  const bool wide_leaves = GENERATE(false, true);
+  const bool large_leaves = GENERATE(false, true);
   Random random(5);
   for (unsigned count = 1; count <= 40; ++count) {
     INFO(count << " objects");
     const auto anywhere = [&](unsigned) { return sphere(random.point(10), 0.01); };
-    CHECK(check(objects(count, anywhere), wide_leaves).largest_leaf == 1);
+    CHECK(check(objects(count, anywhere), large_leaves).largest_leaf == 1);
     const auto in_pairs = [](unsigned i) {
       return sphere({i / 2 * 1000.0, i / 2 % 3 * 1000.0, i % 2 * 10.0}, 0.01);
     };
-    CHECK(check(objects(2 * count, in_pairs), wide_leaves).largest_leaf == 1);
+    CHECK(check(objects(2 * count, in_pairs), large_leaves).largest_leaf == 1);
   }
 }
 

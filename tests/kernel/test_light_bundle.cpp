@@ -226,15 +226,15 @@ TEST_CASE("Packets beside a sharp corner of a triangle do not see it") {
   }
 }
 
-TEST_CASE("Packets are wide that cover much more of a light's view than their shares") {
+TEST_CASE("Packets are incoherent that cover much more of a light's view than their shares") {
   for (const double height : {30.0, 3e4}) {
     Random random(125);
     ShadowBundle shadows(random, Vec3(0), 1, {2, 2, height});
     start_on_grid(shadows);
-    CHECK(LightBundle<Simd>(shadows.place, shadows.queries, kPackets).wide == 0);
+    CHECK(LightBundle<Simd>(shadows.place, shadows.queries, kPackets).incoherent == 0);
     shadows.start_at({0, 0, 0}, 5, 0);
     shadows.start_at({1.5, 1.5, 0}, 5, 15);
-    CHECK(LightBundle<Simd>(shadows.place, shadows.queries, kPackets).wide == 1u << 5);
+    CHECK(LightBundle<Simd>(shadows.place, shadows.queries, kPackets).incoherent == 1u << 5);
   }
 }
 
@@ -251,9 +251,9 @@ TEST_CASE("Light comes to a bundle as it comes to its packets") {
   with_planes.objects.back().material = 5;
   for (const Scene& scene : {soup(40, {0, 0, 400}, 10, 1), soup(41, {60, 60, 60}, 10, 1),
                              soup(42, {0, 0, 30}, 10, 4), with_planes})
-    for (const bool wide_leaves : {false, true}) {
+    for (const bool large_leaves : {false, true}) {
       PreparedScene prepared(scene);
-      prepared.use_bvh(wide_leaves, !wide_leaves);
+      prepared.use_bvh(large_leaves, !large_leaves);
       REQUIRE(prepared.prepare().built);
       FrameBlock& frame = prepared.frame();
       for (int k = 0; k < times(300); ++k)

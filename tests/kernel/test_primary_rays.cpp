@@ -118,9 +118,9 @@ TEST_CASE("A bundle of primary rays hits what its packets hit, and nothing where
   int lost = 0, found = 0;
   for (const Scene& scene :
        {soup(30, {0, 0, 400}, 10, 1), soup(31, {60, 60, 60}, 10, 1), soup(32, {0, 0, 30}, 10, 4)}) {
-    for (const bool wide_leaves : {false, true}) {
+    for (const bool large_leaves : {false, true}) {
       PreparedScene prepared(scene);
-      prepared.use_bvh(wide_leaves, !wide_leaves);
+      prepared.use_bvh(large_leaves, !large_leaves);
       REQUIRE(prepared.prepare().built);
       FrameBlock& frame = prepared.frame();
       for (int k = 0; k < times(300); ++k) {

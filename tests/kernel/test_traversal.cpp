@@ -196,10 +196,10 @@ void check_accelerator(PreparedScene& prepared, const Rounds& rounds) {
 
 /// As they are for few objects, for many, and for more than that.
 void check_hierarchies(PreparedScene& prepared, const Rounds& rounds) {
-  const struct { bool wide_leaves, far_nodes; } kinds[] = {{true, false}, {false, false}, {false, true}};
+  const struct { bool large_leaves, far_nodes; } kinds[] = {{true, false}, {false, false}, {false, true}};
   for (const auto& kind : kinds) {
-    INFO("wide leaves: " << kind.wide_leaves << ", far nodes: " << kind.far_nodes);
-    prepared.use_bvh(kind.wide_leaves, kind.far_nodes);
+    INFO("large leaves: " << kind.large_leaves << ", far nodes: " << kind.far_nodes);
+    prepared.use_bvh(kind.large_leaves, kind.far_nodes);
     check_accelerator(prepared, rounds);
   }
 }

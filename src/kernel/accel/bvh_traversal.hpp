@@ -153,7 +153,7 @@ private:
   void traverse_bundle(RayQuery* queries, const SlabOrder& order, const SlabOrder& ray_order,
                        uint32_t bundled) {
     max_tfar_ = PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance; // until the first leaf has been tested
-    loose_ = 0;
+    incoherent_ = 0;
     known_rays_ = known_frusta_ = 0;
     typename Steps::LeafTests leaves(objects_, Steps::view());
     BundleVisitor visitor = {*this, leaves, queries, order, ray_order, bundled};
@@ -246,7 +246,7 @@ private:
   }
 
   /// Intersects the children of node `ref` with the frusta of packets; see PacketTraversal::expand(). Rays
-  /// are tested only for leaves, for packets that split from the bundle, and for loose frusta.
+  /// are tested only for leaves, for packets that split from the bundle, and for incoherent packets.
   bool expand(const RayQuery* queries, const SlabOrder& order, const SlabOrder& ray_order, uint32_t packets,
               NodeRef& ref) {
     objects_.scene().spu().compute(scalar_work::kBvhNode);
@@ -274,7 +274,7 @@ private:
       if (lanes == 0) continue;
       objects_.scene().hint(child);
       lanes &= ~packets_that_miss(node.bounds, ray_order, i, queries,
-                                  tests_rays ? lanes : lanes & (loose_ | Steps::doubted_at(child)));
+                                  tests_rays ? lanes : lanes & (incoherent_ | Steps::doubted_at(child)));
       if (tests_rays && !child.is_leaf())
         for_each_lane(lanes, [&](uint32_t packet) {
           stack.push(first, {child, 1u << packet, enter[i], hit_rays_[packet]});
@@ -311,7 +311,7 @@ private:
       const uint32_t missed = static_cast<uint32_t>(rays == 0);
       missing |= missed << packet;
       misses_[packet] += missed;
-      loose_ |= static_cast<uint32_t>(misses_[packet] >= tuning::kMissesOfLoose) << packet;
+      incoherent_ |= static_cast<uint32_t>(misses_[packet] >= tuning::kMissesOfIncoherent) << packet;
     });
     return missing;
   }
@@ -352,7 +352,7 @@ private:
   uint32_t hit_rays_[kBundlePackets<Spu>]; ///< index: packet; rays that hit the child that was tested last
   uint32_t misses_[kBundlePackets<Spu>]; ///< index: packet; number of nodes that its frustum hit, but none of
                                          ///< its rays
-  uint32_t loose_ = 0;                   ///< packets whose frusta are loose
+  uint32_t incoherent_ = 0;              ///< packets whose frusta hit nodes in vain
   float max_tfar_ = 0.0f;                ///< maximum of tfar_
   uint32_t octant_ = 0;                  ///< octant of all rays of the bundle
   uint32_t known_rays_ = 0, known_frusta_ = 0; ///< packets whose rays or frusta in ray_groups_ are set

@@ -69,7 +69,7 @@ struct RaySegment {
 ///   test_closest_shortly(rays, record, self, hits)    tests an object that is not simple; false: it did not
 ///   test_occlusion_shortly(rays, record, self, distance, light, dark)   tests an opaque object that is not
 ///                                       simple against shadow rays; false: it did not
-///   forget_occluders()                  is called when the records may be another scene's
+///   clear_shadow_cache()                  is called when the records may be another scene's
 template <class Spu>
 class ObjectTests : public Strategy<Spu>::template ObjectShortcuts<ObjectTests<Spu>, Spu> {
   using Shortcuts = typename Strategy<Spu>::template ObjectShortcuts<ObjectTests, Spu>;
@@ -163,7 +163,7 @@ public:
   /// Resets counters and forgets occluders: the records may be another scene's from now on.
   void begin_frame() {
     counters_ = TraversalCounters();
-    Shortcuts::forget_occluders();
+    Shortcuts::clear_shadow_cache();
   }
 
 private:

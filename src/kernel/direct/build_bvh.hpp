@@ -203,7 +203,7 @@ private:
       references = memory_.references + treelet.first;
       spare = memory_.spare_references + treelet.first;
     }
-    const LeafRule rule = leaf_rule(frame_.wide_leaves != 0, prototypes_.of(group_of(treelet)) != kNoGroup);
+    const LeafRule rule = leaf_rule(frame_.large_leaves != 0, prototypes_.of(group_of(treelet)) != kNoGroup);
     Range<S> all = {0, 0, 0, LaneAabb<S>::empty()};
     for (uint32_t r = treelet.begin; r < treelet.end; ++r) {
       const GroupRecord& group = groups_[memory_.groups[r].value];
@@ -240,7 +240,7 @@ private:
     const uint32_t count = frame_.object_count;
     const bool local = count <= kLocalReferences;
     Reference* references = local ? references_ : memory_.references;
-    const LeafRule rule = leaf_rule(frame_.wide_leaves != 0, false);
+    const LeafRule rule = leaf_rule(frame_.large_leaves != 0, false);
     Range<S> all = {0, 0, 0, LaneAabb<S>::empty()};
     add_references(0, count, rule, references, all);
     Leaves<S> leaves(image_, list_offset(0), references, rule, 2);

@@ -11,9 +11,9 @@ using tuning::LeafRule;
 /// Largest number of objects in a leaf.
 constexpr uint32_t kMaxLeaf = 16;
 
-inline LeafRule leaf_rule(bool wide, bool copied) {
-  if (wide) return tuning::kWideLeaves;
-  return copied ? tuning::kCopiedLeaves : tuning::kNarrowLeaves;
+inline LeafRule leaf_rule(bool large, bool copied) {
+  if (large) return tuning::kLargeLeaves;
+  return copied ? tuning::kCopiedLeaves : tuning::kSmallLeaves;
 }
 inline uint32_t weight_of(const ObjectRecord& object, const LeafRule& rule) {
   if (is_instance(object.kind_and_flags)) return rule.most; // an instance has a BVH of its own

@@ -46,12 +46,12 @@ public:
   }
 
   /// Sets whether opaque objects that occlude rays are kept in the shadow cache.
-  void remember_occluders(bool remembers) { traversal().objects_.remember_occluders(remembers); }
+  void record_occluders(bool recording) { traversal().objects_.record_occluders(recording); }
   /// Returns the `lanes` that cross none of the objects in the shadow cache; `light` is unchanged.
   uint32_t unoccluded_by_recent(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
                                 VectorLanes& light) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
-    traversal().objects_.test_recent(query);
+    traversal().objects_.test_shadow_cache(query);
     return query.lanes;
   }
 

@@ -107,7 +107,7 @@ protected:
   const BundleView<S>* view() const { return view_; }
   /// Returns true if all rays pass through one point, as their frusta are then tight.
   bool trusts_frusta() const { return view_ != nullptr; }
-  uint32_t doubted_at(const NodeRef& child) const { return child.is_leaf() ? wide_ : 0; }
+  uint32_t doubted_at(const NodeRef& child) const { return child.is_leaf() ? incoherent_origins_ : 0; }
   void set_own_frustum(uint32_t packet, const RayQuery& query, Frustum<S>& frustum) {
     if (reversed_)
       frustum.set(bounds_of<S>(*query.rays, query.lanes), search().octant_);
@@ -149,7 +149,7 @@ private:
     search().frusta_.set(bundle.bounds, bundle.octant);
     search().bundle_frustum_.set(bundle.all, bundle.octant);
     view_ = &bundle.view;
-    wide_ = bundle.wide;
+    incoherent_origins_ = bundle.incoherent;
     search().set_max_split_packets(bundle.density != 0.0f ? bundle.density : search().rays_of_frame_);
     search().octant_ = bundle.turned ? bundle.octant ^ 7 : bundle.octant;
     reversed_ = bundle.turned;
@@ -196,7 +196,7 @@ private:
 
   const bool mixes_octants_, mixes_always_;
   const BundleView<S>* view_ = nullptr; ///< null if the rays do not pass through one point
-  uint32_t wide_ = 0;                   ///< ViewBundle::wide; undefined without a view
+  uint32_t incoherent_origins_ = 0;     ///< ViewBundle::incoherent; undefined without a view
   bool reversed_ = false;               ///< the frusta are those of reversed rays
   /// By packet; see shortening(). Undefined for rays that do not pass through one point.
   alignas(64) float shortening_[kBundlePackets<Spu>] = {};

@@ -12,7 +12,7 @@ template <class S> class LightBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
   using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
-      ViewBundle<S>::turned, ViewBundle<S>::packets, ViewBundle<S>::wide;
+      ViewBundle<S>::turned, ViewBundle<S>::packets, ViewBundle<S>::incoherent;
 
   F reach; ///< by packet: greatest length of its rays on the major axis
 
@@ -38,7 +38,7 @@ public:
     else
       bound_far(light);
     set_origins(light);
-    find_wide();
+    find_incoherent_origins();
   }
 
 private:
@@ -211,7 +211,7 @@ private:
     view.shadows = &shadows_;
   }
   /// Finds packets whose rectangles are much larger than their shares of the whole bundle's rectangle.
-  void find_wide() {
+  void find_incoherent_origins() {
     F area(1.0f);
     float whole = 1.0f;
     for (uint32_t i = 0; i < 2; ++i) {
@@ -220,7 +220,7 @@ private:
       whole *= extent.high - extent.low;
     }
     const float share = whole / static_cast<float>(__builtin_popcount(packets));
-    wide = (area > F(tuning::kWidePacket * share)).bits() & packets;
+    incoherent = (area > F(tuning::kIncoherentOrigins * share)).bits() & packets;
   }
   float some_origin(uint32_t axis) const {
     const RayQuery& first = queries_[__builtin_ctz(packets)];

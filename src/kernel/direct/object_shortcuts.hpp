@@ -5,7 +5,7 @@
 #include "kernel/accel/object_tests.hpp"
 #include "kernel/direct/clipping.hpp"
 #include "kernel/direct/kept_crossings.hpp"
-#include "kernel/direct/recent_occluders.hpp"
+#include "kernel/direct/shadow_cache.hpp"
 #include "kernel/direct/shape_shadows.hpp"
 
 namespace celltrace::kernel {
@@ -38,11 +38,11 @@ public:
   }
 
   /// Sets whether opaque objects that occlude rays are kept in the shadow cache.
-  void remember_occluders(bool remembers) { recent_.remembers = remembers; }
+  void record_occluders(bool recording) { shadow_cache_.recording = recording; }
   /// Removes the lanes that objects in the shadow cache occlude from a query.
-  void test_recent(RayQuery& query) {
+  void test_shadow_cache(RayQuery& query) {
     tests().hit_filter().begin_packet();
-    recent_.test([&](uint32_t self) {
+    shadow_cache_.test([&](uint32_t self) {
       if (query.lanes == 0) return true;
       const uint32_t dark =
           tests().occluded(*query.rays, self, query.lanes, *query.distance, *query.light) & query.lanes;
@@ -79,7 +79,7 @@ public:
   /// Tests an opaque object whose test takes long against the `lanes`, by packet, that may hit it.
   void test_occlusion_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes, uint32_t self) {
     const ObjectRecord& object = *scene().object(self);
-    if (tells_shadows(object) && tell_shadows_of_some(queries, packets, lanes, object, self)) return;
+    if (has_shadow_test(object) && test_shadows_of_some(queries, packets, lanes, object, self)) return;
     for_each_lane(packets, [&](uint32_t i) {
       RayQuery& query = queries[i];
       FloatLanes distance;
@@ -106,7 +106,7 @@ public:
             triangle.crossed_between(direction, lanes_that_start_on<S>(rays, self), first, last).bits() &
             query.lanes;
         query.lanes &= ~dark;
-        if (recent_.remembers && dark != 0) recent_.add(self);
+        if (shadow_cache_.recording && dark != 0) shadow_cache_.add(self);
       } else {
         query.lanes &= ~tests().occluded(rays, self, lanes, *query.distance, *query.light);
       }
@@ -126,9 +126,9 @@ public:
 protected:
   void begin_occlusion(uint32_t self) { crossed_ = self; }
   void end_occlusion(uint32_t self, uint32_t flags, uint32_t dark) {
-    if (recent_.remembers && (flags & object_flag::opaque) != 0 && dark != 0) recent_.add(self);
+    if (shadow_cache_.recording && (flags & object_flag::opaque) != 0 && dark != 0) shadow_cache_.add(self);
   }
-  void forget_occluders() { recent_.forget(); }
+  void clear_shadow_cache() { shadow_cache_.forget(); }
 
   bool dims_at_once(const F& at, const Crossings<S>& c, uint32_t lanes, VectorLanes*& light, uint32_t& dark) {
     if (translucency_ == Translucency::attenuates) return true;
@@ -150,8 +150,8 @@ protected:
       dark = ~query.lanes & 0xFFFF;
       return true;
     }
-    return tells_shadows(record) && lanes_that_start_on<S>(rays, self).bits() == 0 &&
-           tell_shadows(rays, record, self, distance, dark);
+    return has_shadow_test(record) && lanes_that_start_on<S>(rays, self).bits() == 0 &&
+           test_shadows(rays, record, self, distance, dark);
   }
 
 private:
@@ -205,17 +205,17 @@ private:
     }
   }
 
-  static bool tells_shadows(const ObjectRecord& object) {
-    return Primitives::tells_shadows(object.kind_and_flags & object_flag::kind_mask);
+  static bool has_shadow_test(const ObjectRecord& object) {
+    return Primitives::has_shadow_test(object.kind_and_flags & object_flag::kind_mask);
   }
-  template <class Asked> static void ask_for_shadows(const ObjectRecord& object, const Asked& asked) {
+  template <class Test> static void dispatch_shadow_test(const ObjectRecord& object, const Test& test) {
     Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
-      if constexpr (decltype(shape)::kTellsShadows) asked(shape);
+      if constexpr (decltype(shape)::kHasShadowTest) test(shape);
     });
   }
-  /// Finds the lanes that an opaque object with kTellsShadows occludes, if none of them starts on it. False:
+  /// Finds the lanes that an opaque object with kHasShadowTest occludes, if none of them starts on it. False:
   /// the condition of its CSG is not known before the crossings are.
-  [[gnu::noinline]] bool tell_shadows(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
+  [[gnu::noinline]] bool test_shadows(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
                                       const FloatLanes& distance, uint32_t& dark) {
     const ExtraRecord& extra = *scene().extra(object.extra);
     ClippingObject clipping;
@@ -227,7 +227,7 @@ private:
     ClippedRays clipped;
     if (clipping.object != nullptr) clipping.template clip<S>(rays, clipped);
     const ClippedRays* const where = clipping.object != nullptr ? &clipped : nullptr;
-    ask_for_shadows(object, [&](auto shape) {
+    dispatch_shadow_test(object, [&](auto shape) {
       using Shape = decltype(shape);
       const M wanted = Shape::template may_hit<S>(local, parameter);
       dark = Shape::template crossed<S>(wanted, local, parameter, where).bits();
@@ -235,7 +235,7 @@ private:
     return true;
   }
   /// Removes the lanes that such an object occludes from several queries; candidates are `lanes` by packet.
-  [[gnu::noinline]] bool tell_shadows_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes,
+  [[gnu::noinline]] bool test_shadows_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes,
                                               const ObjectRecord& object, uint32_t self) {
     const ExtraRecord& extra = *scene().extra(object.extra);
     ClippingObject clipping;
@@ -246,7 +246,7 @@ private:
     if (starting != 0) return false;
     counters().tests[object.kind_and_flags & object_flag::kind_mask] +=
         static_cast<uint32_t>(__builtin_popcount(packets));
-    ask_for_shadows(object, [&](auto shape) {
+    dispatch_shadow_test(object, [&](auto shape) {
       ShapeShadows<decltype(shape), S> shadows(extra.value[0], clipping, queries);
       for_each_lane(packets, [&](uint32_t i) {
         const AskedCrossings asked = {kShadowEpsilon, queries[i].distance};
@@ -267,7 +267,7 @@ private:
 
   Translucency translucency_ = Translucency::attenuates;
   uint32_t crossed_ = kNoOffset; ///< the object against which shadow rays are tested
-  RecentOccluders recent_;
+  ShadowCache shadow_cache_;
 };
 
 } // namespace celltrace::kernel

@@ -171,7 +171,7 @@ private:
   void look_at_occluded_area(const LightRecord& light, const AreaOccluders<Spu>* occluders,
                              VectorLanes& colour) {
     AreaShadow<S>& area = *tracer().area_;
-    tracer().traversal_.remember_occluders(true);
+    tracer().traversal_.record_occluders(true);
     // Returns false if no light comes; `of_place` is then unchanged.
     const auto trace = [&](const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
                            VectorLanes& of_place) {
@@ -188,13 +188,13 @@ private:
         }))
       while (next_place(tracer().scene_.spu(), light, area))
         if (!trace(area.to_place->rays, area.lanes, area.to_place->distance, area.light())) answer(area, 0);
-    tracer().traversal_.remember_occluders(false);
+    tracer().traversal_.record_occluders(false);
     tracer().take_area_light(colour);
   }
   /// Samples an area light if the crossings of rays are kept.
   void look_at_crossed_area(const LightRecord& light, VectorLanes& colour) {
     AreaShadow<S>& area = *tracer().area_;
-    tracer().traversal_.remember_occluders(true);
+    tracer().traversal_.record_occluders(true);
     const RayInteriors* const of_surfaces = tracer().interiors_;
     const auto trace = [&](const RayQuery& query, const int32_t* surfaces, VectorLanes& of_place) {
       const uint32_t lanes =
@@ -214,7 +214,7 @@ private:
     if (!sample_pairs(light, trace))
       while (next_place(tracer().scene_.spu(), light, area))
         trace_crossings(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light());
-    tracer().traversal_.remember_occluders(false);
+    tracer().traversal_.record_occluders(false);
     tracer().take_area_light(colour);
   }
   /// Samples an area light in pairs of a surface and a place, if there is room for them. `trace(query,

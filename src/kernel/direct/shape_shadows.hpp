@@ -1,5 +1,5 @@
-// Shadow rays of several packets against one object of a shape with kTellsShadows. Kernel dialect, for direct
-// memory.
+// Shadow rays of several packets against one object of a shape with kHasShadowTest. Kernel dialect, for
+// direct memory.
 //
 // In most packets that reach such an object's bounds only few rays come near its surface, such as the tube of
 // a torus. The near rays of all packets wait for each other, so that its equation is solved for as many at a
@@ -27,27 +27,27 @@ public:
 
   void begin() { run_count_ = 0; }
   void put(const Source& from, uint32_t lanes, uint32_t to) {
-    const auto numbers = S::lane_numbers(lanes);
-    const auto keep = [&](uint32_t i, const F& of_rays) {
-      S::pick(of_rays, numbers).store_unaligned(numbers_[i] + to);
+    const auto order = S::lane_numbers(lanes);
+    const auto store = [&](uint32_t i, const F& of_rays) {
+      S::pick(of_rays, order).store_unaligned(values_[i] + to);
     };
-    keep(0, from.rays.origin.x);
-    keep(1, from.rays.origin.y);
-    keep(2, from.rays.origin.z);
-    keep(3, from.rays.direction.x);
-    keep(4, from.rays.direction.y);
-    keep(5, from.rays.direction.z);
-    keep(6, F::load(from.distance.lane));
+    store(0, from.rays.origin.x);
+    store(1, from.rays.origin.y);
+    store(2, from.rays.origin.z);
+    store(3, from.rays.direction.x);
+    store(4, from.rays.direction.y);
+    store(5, from.rays.direction.z);
+    store(6, F::load(from.distance.lane));
     if (from.clipped != nullptr) {
-      keep(7, F::load(from.clipped->enter.lane));
-      keep(8, F::load(from.clipped->leave.lane));
+      store(7, F::load(from.clipped->enter.lane));
+      store(8, F::load(from.clipped->leave.lane));
     }
     runs_[run_count_++] = {from.query, lanes, to};
   }
   /// Removes the lanes that the object occludes from their queries.
   [[gnu::noinline]] void run(uint32_t, uint32_t lanes, float parameter, const ClippingObject& clipping,
                              RayQuery* queries) const {
-    const auto at = [&](uint32_t i) { return F::load(numbers_[i]); };
+    const auto at = [&](uint32_t i) { return F::load(values_[i]); };
     FloatLanes limit;
     at(6).store(limit.lane);
     ClippedRays clipped;
@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  static constexpr uint32_t kNumbers = 9; ///< numbers per ray
+  static constexpr uint32_t kValues = 9; ///< values per ray
   /// Lanes of a query, which begin at lane `first`.
   struct Run {
     uint32_t query, lanes, first;
@@ -71,7 +71,7 @@ private:
 
   uint32_t run_count_;
   Run runs_[S::kLanes];
-  alignas(64) float numbers_[kNumbers][2 * S::kLanes] = {}; ///< vectors are stored at any lane
+  alignas(64) float values_[kValues][2 * S::kLanes] = {}; ///< vectors are stored at any lane
 };
 
 /// Removes lanes that an object, clipped by `clipping`, occludes from queries of shadow rays.

@@ -11,7 +11,7 @@ protected:
 
   static void begin_occlusion(uint32_t) {}
   static void end_occlusion(uint32_t, uint32_t, uint32_t) {}
-  static void forget_occluders() {}
+  static void clear_shadow_cache() {}
   [[gnu::always_inline]] static bool dims_at_once(const typename S::F&, const Crossings<S>&, uint32_t,
                                                   VectorLanes*&, uint32_t&) {
     return true;

@@ -35,8 +35,8 @@ template <class... P> struct PrimitiveList : TypeList<P...> {
   static constexpr bool is_heavy(uint32_t kind) {
     return ((P::kIsHeavy ? kind == TypeList<P...>::template number<P>() : false) || ...);
   }
-  static constexpr bool tells_shadows(uint32_t kind) {
-    return ((P::kTellsShadows ? kind == TypeList<P...>::template number<P>() : false) || ...);
+  static constexpr bool has_shadow_test(uint32_t kind) {
+    return ((P::kHasShadowTest ? kind == TypeList<P...>::template number<P>() : false) || ...);
   }
   static constexpr bool has_edges(uint32_t kind) {
     return ((P::kHasEdges ? kind == TypeList<P...>::template number<P>() : false) || ...);

@@ -33,7 +33,7 @@ struct ShapeTraits {
   /// True if the shape has may_hit(), crossed() and surely_crossed(), which decide what is in shadow where
   /// solving for its crossings would take longer. Only direct memory uses them (direct/shape_shadows.hpp).
   /// Shapes with this trait are local, and have only the first parameter.
-  static constexpr bool kTellsShadows = false;
+  static constexpr bool kHasShadowTest = false;
 };
 
 } // namespace celltrace::kernel

@@ -17,7 +17,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static constexpr bool kHasParameters = true;
   static constexpr bool kIsHeavy = true;
   static constexpr bool kHasCoordinates = true;
-  static constexpr bool kTellsShadows = true;
+  static constexpr bool kHasShadowTest = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,

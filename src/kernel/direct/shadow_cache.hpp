@@ -8,9 +8,9 @@ namespace celltrace::kernel {
 /// The opaque objects that occluded shadow rays of a packet toward the previous place of a light: they
 /// probably do so again (Haines and Greenberg, The light buffer, 1986), and a test costs less than a
 /// traversal.
-class RecentOccluders {
+class ShadowCache {
 public:
-  bool remembers = false; ///< true if occluders are to be added
+  bool recording = false; ///< true if occluders are to be added
 
   /// Adds an object, in place of the oldest one if there is no room.
   void add(uint32_t object) {
@@ -23,9 +23,9 @@ public:
   void forget() { count_ = next_ = 0; }
   /// Keeps the objects for which `occlude(object)` returns true. None is added meanwhile.
   template <class Occlude> void test(Occlude occlude) {
-    RecentOccluders kept;
-    kept.remembers = remembers;
-    remembers = false;
+    ShadowCache kept;
+    kept.recording = recording;
+    recording = false;
     for (uint32_t i = 0; i < count_; ++i)
       if (occlude(objects_[i])) kept.add(objects_[i]);
     *this = kept;
