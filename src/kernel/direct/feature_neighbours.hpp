@@ -33,7 +33,7 @@ public:
 
   static constexpr uint32_t kCount = 27;
   /// Returns the vectors from points of all lanes to point `i`.
-  [[gnu::always_inline]] V3<S> way_to(uint32_t i, const V3<S>& from) const {
+  [[gnu::always_inline]] V3<S> offset_to(uint32_t i, const V3<S>& from) const {
     return {F(place_[0][i]) - from.x, F(place_[1][i]) - from.y, F(place_[2][i]) - from.z};
   }
 

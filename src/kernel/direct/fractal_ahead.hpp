@@ -47,13 +47,13 @@ public:
     if (pattern_ != &r || lanes == 0) return;
     const SquareIteration iteration{r};
     const Complex<S> c = iteration.constant<S>(at);
-    const M inside = iteration.is_julia() ? M::none() : surely_stays<S>(c);
+    const M inside = iteration.is_julia() ? M::none() : surely_bounded<S>(c);
     IteratedSquares<S, false> squares(at);
-    uint32_t waits = lanes & ~inside.bits();
-    for (uint32_t i = 0; i < kFirstRounds && waits != 0; i += kRounds) {
+    uint32_t pending = lanes & ~inside.bits();
+    for (uint32_t i = 0; i < kFirstRounds && pending != 0; i += kRounds) {
       for (uint32_t round = 0; round < kRounds; ++round)
-        squares.go_on(c);
-      waits &= squares.stays.bits();
+        squares.iterate(c);
+      pending &= squares.bounded.bits();
     }
     known_[packet] |= lanes;
     Packet& to = packets_[packet];
@@ -63,13 +63,13 @@ public:
     put(to.x, at.a);
     put(to.y, at.b);
     put(to.value, S::select(inside, F(iteration.inner()), iteration.outer<S>(squares.rounds)));
-    if (waits == 0) return;
+    if (pending == 0) return;
     FloatLanes a, b, c_a, c_b;
     squares.z.a.store(a.lane);
     squares.z.b.store(b.lane);
     c.a.store(c_a.lane);
     c.b.store(c_b.lane);
-    for_each_lane(waits, [&](uint32_t lane) {
+    for_each_lane(pending, [&](uint32_t lane) {
       points_[count_++] = {a.lane[lane], b.lane[lane], c_a.lane[lane], c_b.lane[lane],
                            packet * kSimdLanes + lane};
     });
@@ -93,11 +93,11 @@ public:
       do {
         for (uint32_t round = 0; round < kRounds; ++round)
           for (uint32_t k = 0; k < kStreams; ++k)
-            squares[k].go_on(c[k]);
+            squares[k].iterate(c[k]);
         for (uint32_t k = 0; k < kStreams; ++k) {
           const F rounds = squares[k].rounds;
-          const M goes_on = squares[k].stays & (rounds < most) & !squares[k].is_at(kept[k]);
-          ended[k] = streams[k].busy & ~goes_on.bits();
+          const M iterating = squares[k].bounded & (rounds < most) & !squares[k].is_at(kept[k]);
+          ended[k] = streams[k].busy & ~iterating.bits();
           // Detects cycles (Brent): the number of each round is compared with a kept one. A number is kept
           // whenever the count of rounds is a power of 2.
           const I whole = S::to_int(rounds);
@@ -109,7 +109,7 @@ public:
       for (uint32_t k = 0; k < kStreams; ++k) {
         streams[k].keep(squares[k], kept[k]);
         FloatLanes values;
-        S::select(squares[k].stays | (squares[k].rounds >= most), inner,
+        S::select(squares[k].bounded | (squares[k].rounds >= most), inner,
                   iteration.outer<S>(squares[k].rounds))
             .store(values.lane);
         for_each_lane(ended[k], [&](uint32_t lane) {

@@ -20,7 +20,7 @@ struct FractalSquares {
     if (iteration.wants_least()) return counted_squares<S, true>(at, c, M::none(), iteration, rounds);
     auto* const ahead = scene.known_patterns().fractals;
     F value(iteration.inner());
-    M known = iteration.is_julia() ? M::none() : surely_stays<S>(c);
+    M known = iteration.is_julia() ? M::none() : surely_bounded<S>(c);
     if (ahead != nullptr) known = known | ahead->find(iteration.record, at, value);
     if (known.bits() == (1u << S::kLanes) - 1) return value;
     value = S::select(known, value, counted_squares<S, false>(at, c, known, iteration, rounds));
@@ -41,25 +41,25 @@ struct FractalSquares {
     constexpr uint32_t kRoundsAtATime = 4;
     const uint32_t most = iteration.most();
     IteratedSquares<S, kWantsLeast> squares(first);
-    M goes_on = !known;
+    M iterating = !known;
     Complex<S> kept = first;
     uint32_t keeps_next = 4 * kRoundsAtATime;
     uint32_t i = 0;
-    for (; most - i >= kRoundsAtATime && goes_on.bits() != 0; i += kRoundsAtATime) {
+    for (; most - i >= kRoundsAtATime && iterating.bits() != 0; i += kRoundsAtATime) {
       if (i == keeps_next) {
         kept = squares.z;
         keeps_next *= 2;
       }
       for (uint32_t round = 0; round < kRoundsAtATime; ++round)
-        squares.go_on(c);
-      goes_on = goes_on & squares.stays & !squares.is_at(kept);
+        squares.iterate(c);
+      iterating = iterating & squares.bounded & !squares.is_at(kept);
     }
-    if (goes_on.bits() != 0)
+    if (iterating.bits() != 0)
       for (; i < most; ++i)
-        squares.go_on(c);
+        squares.iterate(c);
     rounds = i;
     const F inner(iteration.inner());
-    return S::select(squares.stays, kWantsLeast ? S::sqrt(squares.least) * inner : inner,
+    return S::select(squares.bounded, kWantsLeast ? S::sqrt(squares.least) * inner : inner,
                      iteration.outer<S>(squares.rounds));
   }
 };

@@ -37,8 +37,8 @@ public:
   }
 
   /// Returns the least that a distance along an axis contributes to distance^metric.
-  [[gnu::always_inline]] static typename S::F least_along(const typename S::F& way, float metric) {
-    return Crackle::along<S>(way, metric);
+  [[gnu::always_inline]] static typename S::F least_along(const typename S::F& offset, float metric) {
+    return Crackle::along<S>(offset, metric);
   }
 
 private:
@@ -55,7 +55,7 @@ private:
     const auto take_all = [&](float of_metric) __attribute__((always_inline)) {
       Nearest found = nearest;
       for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
-        const V3<S> d = neighbours.way_to(i, from);
+        const V3<S> d = neighbours.offset_to(i, from);
         Crackle::take<S>(S::select(here, Crackle::power<S>(d, of_metric), F(Crackle::kFar)), d, p, found);
       }
       return found;
@@ -101,21 +101,21 @@ private:
     FloatLanes least[3];
     for (uint32_t i = 0; i <= wanted.last; ++i)
       nearest.power[i].store(least[i].lane);
-    VectorLanes way = {};
+    VectorLanes offset = {};
     uint32_t nearer = 0;
-    const auto take_pairs = [&](const V3<S>& ways, const int32_t* lanes, uint32_t count) {
+    const auto take_pairs = [&](const V3<S>& offsets, const int32_t* lanes, uint32_t count) {
       FloatLanes found;
       VectorLanes to;
-      Crackle::power<S>(ways, metric).store(found.lane);
-      to.template store<S>(ways);
+      Crackle::power<S>(offsets, metric).store(found.lane);
+      to.template store<S>(offsets);
       for (uint32_t i = 0; i < count; ++i) {
         const auto lane = static_cast<uint32_t>(lanes[i]);
         float next = found.lane[i];
         if (next < least[0].lane[lane]) {
           nearer |= 1u << lane;
-          way.x.lane[lane] = to.x.lane[i];
-          way.y.lane[lane] = to.y.lane[i];
-          way.z.lane[lane] = to.z.lane[i];
+          offset.x.lane[lane] = to.x.lane[i];
+          offset.y.lane[lane] = to.y.lane[i];
+          offset.z.lane[lane] = to.z.lane[i];
         }
         for (uint32_t rank = 0; rank <= wanted.last; ++rank) {
           float& known = least[rank].lane[lane];
@@ -132,7 +132,7 @@ private:
     for (uint32_t i = 0; i <= wanted.last; ++i)
       nearest.power[i] = S::F::load(least[i].lane);
     if (wanted.point && nearer != 0)
-      nearest.point = select<S>(S::M::from_bits(nearer), p + way.template load<S>(), nearest.point);
+      nearest.point = select<S>(S::M::from_bits(nearer), p + offset.template load<S>(), nearest.point);
   }
 
   /// Returns true if no point beyond the inner cells, which are at least 1 away along an axis, is nearer.

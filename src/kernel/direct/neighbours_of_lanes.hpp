@@ -42,7 +42,7 @@ public:
     return left != 0;
   }
 
-  /// Calls `take(way)` for the eight nearest cells with the vectors from each lane's point to the feature
+  /// Calls `take(offset)` for the eight nearest cells with the vectors from each lane's point to the feature
   /// point.
   template <class Take> [[gnu::always_inline]] void for_each_near(const Take& take) const {
     F step[3][2];
@@ -57,13 +57,13 @@ public:
       for (uint32_t y = 0; y < 2; ++y) {
         const I column = hash_at(plane ^ (y == 0 ? cell_[1] : next[1]));
         for (uint32_t z = 0; z < 2; ++z)
-          take(way_to(hash_at(column ^ (z == 0 ? cell_[2] : next[2])), {step[0][x], step[1][y], step[2][z]},
-                      from_));
+          take(offset_to(hash_at(column ^ (z == 0 ? cell_[2] : next[2])),
+                         {step[0][x], step[1][y], step[2][z]}, from_));
       }
     }
   }
 
-  /// Calls `take(ways, lanes, count)` for the other cells of the 26 around each lane's cell, in pairs:
+  /// Calls `take(offsets, lanes, count)` for the other cells of the 26 around each lane's cell, in pairs:
   /// lanes[i] is the lane of the i-th vector. `along(gap)` returns the contribution of a gap along one axis
   /// to distance^metric, `reaching(sum)` the lanes that need points whose gaps add up to `sum`.
   template <class Along, class Reaching, class Take>
@@ -118,14 +118,14 @@ private:
       step[axis] = to_near(from[axis]) * F::load(pairs.factor[axis]);
       number = hash_at(number ^ (S::pick(cell_[axis], lanes) + S::to_int(step[axis])));
     }
-    take(way_to(number, {step[0], step[1], step[2]}, from), pairs.lane, count);
+    take(offset_to(number, {step[0], step[1], step[2]}, from), pairs.lane, count);
   }
 
   /// Returns the step along an axis to the nearer neighbour: 1 or -1.
   static F to_near(const F& from) { return S::select(from < F(0.5f), F(-1.0f), F(1.0f)); }
   /// Returns the vectors from points in cells to the feature point of the cell with a number, which is some
   /// steps away.
-  [[gnu::always_inline]] V3<S> way_to(const I& number, const V3<S>& steps, const F (&from)[3]) const {
+  [[gnu::always_inline]] V3<S> offset_to(const I& number, const V3<S>& steps, const F (&from)[3]) const {
     WordLanes first;
     first_word(number).store(reinterpret_cast<int32_t*>(first.lane));
     const auto record_of = [&](uint32_t lane) __attribute__((always_inline)) {

@@ -19,8 +19,8 @@ struct LocalPatterns {
     template <class... Arguments> static constexpr bool suffice(const Arguments&...) { return false; }
     template <class... Arguments> static constexpr bool suffice_in(const Arguments&...) { return false; }
     /// Returns a bound for the usual metric, and 0, which is no bound, for others.
-    [[gnu::always_inline]] static typename S::F least_along(const typename S::F& way, float metric) {
-      return metric == 2.0f ? way * way : typename S::F(0.0f);
+    [[gnu::always_inline]] static typename S::F least_along(const typename S::F& offset, float metric) {
+      return metric == 2.0f ? offset * offset : typename S::F(0.0f);
     }
   };
 

@@ -36,7 +36,7 @@ struct FractalPattern : RarePattern {
     const uint32_t outside = r.table >> fractal_word::exterior_shift & fractal_word::type_mask;
     const uint32_t inside = r.table >> fractal_word::interior_shift & fractal_word::type_mask;
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
-    M stays = M::all();
+    M bounded = M::all();
     // Numbers that have left continue to be iterated, so that the next number does not wait for the test
     // which have left.
     Complex<S> left = z;
@@ -46,12 +46,12 @@ struct FractalPattern : RarePattern {
       const F size = square<S>(z);
       M leaves = size > F(magnet == 0 ? 4.0f : 10000.0f);
       if (magnet != 0) leaves = leaves | (square<S>({z.a - F(1.0f), z.b}) < F(0.0001f));
-      leaves = leaves & stays;
+      leaves = leaves & bounded;
       left = {S::select(leaves, z.a, left.a), S::select(leaves, z.b, left.b)};
-      stays = stays & !leaves;
-      if (stays.bits() == 0) break;
-      rounds = S::select(stays, F(static_cast<float>(i + 1)), rounds);
-      least = S::select(stays, S::min(least, size), least);
+      bounded = bounded & !leaves;
+      if (bounded.bits() == 0) break;
+      rounds = S::select(bounded, F(static_cast<float>(i + 1)), rounds);
+      least = S::select(bounded, S::min(least, size), least);
     }
     const F factor(r.parameter[3]), inner(r.parameter[4]);
     const F of_outside = outside == 1   ? rounds * F(1.0f / r.parameter[2])
@@ -63,7 +63,7 @@ struct FractalPattern : RarePattern {
         : inside == 6 ? z.a * z.a + z.b * z.b * inner // as in POV-Ray, the factor is that of one part only
         : inside > 6  ? remaining<S>(F(r.parameter[2]), inside, inner)
                       : counted<S>(z, inside, inner);
-    return S::select(stays, of_inside, of_outside);
+    return S::select(bounded, of_inside, of_outside);
   }
 
 private:

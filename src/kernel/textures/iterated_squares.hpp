@@ -9,28 +9,28 @@ namespace celltrace::kernel {
 
 template <class S> struct Complex { typename S::F a, b; };
 
-/// Numbers that are squared, with the rounds that they stay bounded and, for those that stay, the least size.
+/// Numbers that are squared, with the rounds that they stay bounded and, for bounded ones, the least size.
 template <class S, bool kWantsLeast> struct IteratedSquares {
   using F = typename S::F;
 
   Complex<S> z;
   F aa, bb; ///< squares of the parts of z
   F least, rounds;
-  typename S::M stays;
+  typename S::M bounded;
 
   explicit IteratedSquares(const Complex<S>& first)
       : z(first), aa(first.a * first.a), bb(first.b * first.b), least(aa + bb), rounds(0.0f),
-        stays(S::M::all()) {}
+        bounded(S::M::all()) {}
 
-  [[gnu::always_inline]] void go_on(const Complex<S>& c) {
+  [[gnu::always_inline]] void iterate(const Complex<S>& c) {
     const F ab = z.a * z.b;
     z = {aa - bb + c.a, ab + ab + c.b};
     aa = z.a * z.a;
     bb = z.b * z.b;
     const F size = aa + bb;
-    stays = stays & (size <= F(4.0f));
-    rounds = S::select(stays, rounds + F(1.0f), rounds);
-    if constexpr (kWantsLeast) least = S::select(stays, S::min(least, size), least);
+    bounded = bounded & (size <= F(4.0f));
+    rounds = S::select(bounded, rounds + F(1.0f), rounds);
+    if constexpr (kWantsLeast) least = S::select(bounded, S::min(least, size), least);
   }
   [[gnu::always_inline]] typename S::M is_at(const Complex<S>& place) const {
     return (z.a == place.a) & (z.b == place.b);
@@ -38,7 +38,7 @@ template <class S, bool kWantsLeast> struct IteratedSquares {
 };
 
 /// Returns the numbers in the two largest parts of the Mandelbrot set, except those near the edge.
-template <class S> [[gnu::always_inline]] inline typename S::M surely_stays(const Complex<S>& c) {
+template <class S> [[gnu::always_inline]] inline typename S::M surely_bounded(const Complex<S>& c) {
   using F = typename S::F;
   constexpr float kRounding = 5e-7f; // bound for the sum of all terms, none of which is above 1
   const F x = c.a - F(0.25f), y = c.b * c.b, q = x * x + y, from_disc = c.a + F(1.0f);
