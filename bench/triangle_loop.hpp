@@ -42,7 +42,7 @@ template <class Spu, class Visit> void test_single(const TriangleTask& task, Vis
     const auto sides = kernel::TriangleSides<S>::of(task.leaf[i]);
     for (uint32_t packet = 0; packet < task.packet_count; ++packet) {
       const kernel::RayPacket& rays = task.packets[packet];
-      const kernel::SeenTriangle<S> triangle(rays.origin.template load<S>(), sides);
+      const kernel::TriangleTest<S> triangle(rays.origin.template load<S>(), sides);
       visit(i, packet, triangle.crossed(rays, triangle_offset(i)));
     }
   }

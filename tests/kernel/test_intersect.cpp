@@ -309,7 +309,7 @@ TEST_CASE("Triangles occlude rays without a division where these cross them") {
     const auto first = static_cast<float>(random.uniform(0, 2 * size)),
                last = static_cast<float>(random.uniform(2 * size, 8 * size));
     const Crossings<Simd> c = intersect(rays, subject.record, 64);
-    const SeenTriangle<Simd> seen(rays.origin.load<Simd>(), TriangleSides<Simd>::of(subject.record));
+    const TriangleTest<Simd> seen(rays.origin.load<Simd>(), TriangleSides<Simd>::of(subject.record));
     const std::uint32_t occluded =
         seen.crossed_between(rays.direction.load<Simd>(), lanes_that_start_on<Simd>(rays, 64), F(first),
                              F(last))

@@ -261,8 +261,8 @@ TEST_CASE("Of crossings of which some will do there are those") {
       if (is_torus) {
         FloatLanes limits;
         Simd::F(limit).store(limits.lane);
-        const AskedCrossings asked = {kShadowEpsilon, &limits};
-        const LocalRays<Simd> in_time = local_rays<Simd>(rays, record, 640, 0, asked);
+        const CrossingRequest request = {kShadowEpsilon, &limits};
+        const LocalRays<Simd> in_time = local_rays<Simd>(rays, record, 640, 0, request);
         const Simd::F ratio(extra.value[0]);
         any = TorusPrimitive::crossed<Simd>(TorusPrimitive::may_hit<Simd>(in_time, ratio), in_time, ratio,
                                             nullptr)

@@ -69,7 +69,7 @@ struct RaySegment {
 ///   test_closest_shortly(rays, record, self, hits)    tests an object that is not simple; false: it did not
 ///   test_occlusion_shortly(rays, record, self, distance, light, dark)   tests an opaque object that is not
 ///                                       simple against shadow rays; false: it did not
-///   clear_shadow_cache()                  is called when the records may be another scene's
+///   clear_shadow_cache()                is called when the records may be another scene's
 template <class Spu>
 class ObjectTests : public Strategy<Spu>::template ObjectShortcuts<ObjectTests<Spu>, Spu> {
   using Shortcuts = typename Strategy<Spu>::template ObjectShortcuts<ObjectTests, Spu>;
@@ -285,15 +285,16 @@ private:
       const ExtraRecord& extra =
           object.extra == kNoOffset ? room : *keep<Spu>(tests.scene_.extra(object.extra), room);
       if ((object.kind_and_flags & object_flag::csg) != 0) csg_ = extra.csg;
-      asked_ = {csg_ != kNoOffset ? kEveryCrossing : enough, &limit};
+      request_ = {csg_ != kNoOffset ? kEveryCrossing : enough, &limit};
       ++tests.counters_.tests[kind];
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
       Spu& spu = tests.scene_.spu();
       spu.enter_module(is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
       Crossings<S>* const pairs = sequence_.pairs();
-      sequence_.begin(is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self, asked_, pairs)
-                                     : module_shapes::intersect(spu, rays, object, extra, self, pairs),
-                      Primitives::goes_on(kind));
+      sequence_.begin(is_heavy(kind)
+                          ? module_heavy::intersect(spu, rays, object, extra, self, request_, pairs)
+                          : module_shapes::intersect(spu, rays, object, extra, self, pairs),
+                      Primitives::is_incremental(kind));
       if (!has_edges(kind)) return;
       spu.enter_module(modules::kPolygons);
       module_polygons::cut_out(tests.scene_, extra, pairs[0]);
@@ -315,25 +316,25 @@ private:
       ExtraRecord room = {};
       const ExtraRecord& extra =
           object.extra == kNoOffset ? room : *keep<Spu>(tests_.scene_.extra(object.extra), room);
-      asked_.after = &after;
+      request_.after = &after;
       tests_.scene_.spu().enter_module(modules::kHeavyShapes);
-      module_heavy::intersect(tests_.scene_.spu(), rays_, object, extra, self_, asked_, &c);
+      module_heavy::intersect(tests_.scene_.spu(), rays_, object, extra, self_, request_, &c);
     }
 
     ObjectTests& tests_;
     const RayPacket& rays_;
     uint32_t self_;
-    AskedCrossings asked_;
+    CrossingRequest request_;
     uint32_t csg_ = kNoOffset;
-    CrossingSequence<S, Primitives::kSomeGoOn> sequence_;
+    CrossingSequence<S, Primitives::kSomeAreIncremental> sequence_;
   };
 
   /// Removes crossings that do not satisfy the condition; `near` and `far` are the candidates. If a ray's
-  /// near crossing is accepted, its far one may be left out unless `asks_both`.
-  void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, bool asks_both,
+  /// near crossing is accepted, its far one may be left out unless `needs_both`.
+  void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, bool needs_both,
               uint32_t reflected, Crossings<S>& c) {
     c.near_hit = accepted(rays, condition, c.near, near.bits(), reflected);
-    const uint32_t known = asks_both ? 0 : c.near_hit.bits();
+    const uint32_t known = needs_both ? 0 : c.near_hit.bits();
     c.far_hit = accepted(rays, condition, c.far, far.bits() & ~known, reflected);
   }
   /// Returns the lanes of crossings that satisfy the condition. Not inlined, as it is called in four places.

@@ -105,7 +105,7 @@ private:
       return records[i < count ? i : 0].geometry;
     });
     const uint32_t start = world_.start_object.lane[lane] - first;
-    const Crossings<S> c = SeenTriangle<S>(of(origin_, lane), sides).crossed(of(direction_, lane), M::none());
+    const Crossings<S> c = TriangleTest<S>(of(origin_, lane), sides).crossed(of(direction_, lane), M::none());
     const M valid = c.near_hit & (c.near > F(test.nearest)) & (c.near <= F(hits.distance.lane[lane]));
     uint32_t hit = valid.bits() & ((1u << count) - 1);
     if (start < count) hit &= ~(1u << start);

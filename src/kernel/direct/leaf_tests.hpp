@@ -48,7 +48,7 @@ public:
     };
     const I start = I::splat(static_cast<int32_t>(rays.start_object.lane[lane]));
     const M starts_here = I::load(reinterpret_cast<const int32_t*>(triangles.offsets())) == start;
-    return SeenTriangle<S>(of_ray(rays.origin), sides).crossed(of_ray(rays.direction), starts_here);
+    return TriangleTest<S>(of_ray(rays.origin), sides).crossed(of_ray(rays.direction), starts_here);
   }
 
   /// Keeps the closest crossing of a single ray with the triangles in lanes; see keep_closest() in

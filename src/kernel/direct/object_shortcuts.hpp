@@ -32,7 +32,7 @@ public:
     // The loop has no callback, so that the triangle's edges stay in registers.
     for (uint32_t left = packets; left != 0; left &= left - 1) {
       const RayQuery& query = queries[__builtin_ctz(left)];
-      const SeenTriangle<S> triangle(query.rays->origin.template load<S>(), sides);
+      const TriangleTest<S> triangle(query.rays->origin.template load<S>(), sides);
       keep_closest<S>(triangle.crossed(*query.rays, self), self, *query.hits);
     }
   }
@@ -71,7 +71,7 @@ public:
     for (uint32_t left = packets; left != 0; left &= left - 1) {
       RayQuery& query = queries[__builtin_ctz(left)];
       const RayPacket& rays = *query.rays;
-      const SeenTriangle<S> triangle(rays.origin.template load<S>(), sides);
+      const TriangleTest<S> triangle(rays.origin.template load<S>(), sides);
       query.lanes &= ~Tests::shadow_hits(triangle.crossed(rays, self), *query.distance).near;
     }
   }
@@ -90,8 +90,7 @@ public:
     });
   }
 
-  /// Removes rays that the objects of a leaf occlude from a query of shadow rays, until none of `lanes` is
-  /// left.
+  /// Removes rays that a leaf's objects occlude from a query of shadow rays, until none of `lanes` is left.
   void test_occlusion_by_leaf(const NodeRef& leaf, uint32_t lanes, RayQuery& query) {
     const RayPacket& rays = *query.rays;
     const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
@@ -101,7 +100,7 @@ public:
       const ObjectRecord& object = *scene().object(self);
       if (kOpaqueTriangle.are_in(object.kind_and_flags)) {
         ++triangles;
-        const SeenTriangle<S> triangle(origin, TriangleSides<S>::of(object));
+        const TriangleTest<S> triangle(origin, TriangleSides<S>::of(object));
         const uint32_t dark =
             triangle.crossed_between(direction, lanes_that_start_on<S>(rays, self), first, last).bits() &
             query.lanes;
@@ -221,8 +220,8 @@ private:
     ClippingObject clipping;
     if (!find_clipping(object, extra, clipping)) return false;
     ++counters().tests[object.kind_and_flags & object_flag::kind_mask];
-    const AskedCrossings asked = {kShadowEpsilon, &distance};
-    const LocalRays<S> local = local_rays<S>(rays, object, self, 0, asked);
+    const CrossingRequest request = {kShadowEpsilon, &distance};
+    const LocalRays<S> local = local_rays<S>(rays, object, self, 0, request);
     const F parameter(extra.value[0]);
     ClippedRays clipped;
     if (clipping.object != nullptr) clipping.template clip<S>(rays, clipped);
@@ -249,8 +248,8 @@ private:
     dispatch_shadow_test(object, [&](auto shape) {
       ShapeShadows<decltype(shape), S> shadows(extra.value[0], clipping, queries);
       for_each_lane(packets, [&](uint32_t i) {
-        const AskedCrossings asked = {kShadowEpsilon, queries[i].distance};
-        shadows.add(i, local_rays<S>(*queries[i].rays, object, self, 0, asked), lanes[i]);
+        const CrossingRequest request = {kShadowEpsilon, queries[i].distance};
+        shadows.add(i, local_rays<S>(*queries[i].rays, object, self, 0, request), lanes[i]);
       });
       shadows.finish();
     });

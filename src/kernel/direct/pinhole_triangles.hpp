@@ -8,7 +8,7 @@ namespace celltrace::kernel {
 /// One triangle in each lane, as seen from one point. A test takes one triangle and the rays of a packet in
 /// lanes.
 ///
-/// The test is that of SeenTriangle, with results that are equal to the last bit: of two triangles at the
+/// The test is that of TriangleTest, with results that are equal to the last bit: of two triangles at the
 /// same distance the same one is hit, whichever test has found them. Only the signs of the determinant and of
 /// its dividends are changed, once for all rays, so that the determinant of a hit is positive.
 template <class S> class PinholeTriangles {
@@ -47,7 +47,7 @@ public:
   }
 
 private:
-  // A lane for each triangle; see SeenTriangle.
+  // A lane for each triangle; see TriangleTest.
   VectorLanes edge1_, edge2_, from_v0_, q_;
   FloatLanes distance_, overlap_;
 };

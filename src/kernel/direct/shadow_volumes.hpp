@@ -30,7 +30,7 @@ public:
     set(1, cross<S>(sides.edge1, to_light) * sign, corner);
     set(2, whole * -sign, corner);
     (whole_distance * sign).store(light_.lane);
-    // Neighbours overlap by the rounding of products, so that no ray passes between them (see SeenTriangle).
+    // Neighbours overlap by the rounding of products, so that no ray passes between them (see TriangleTest).
     const F size = S::max(absolute_sum<S>(sides.edge1), absolute_sum<S>(sides.edge2));
     const F reach = (absolute_sum<S>(corner) + F(origins.span)) * size;
     (reach * absolute_sum<S>(to_light) * F(detail::kUnitInLastPlace)).store(overlap_.lane);

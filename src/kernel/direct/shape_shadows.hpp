@@ -54,8 +54,8 @@ public:
     clipped.keeps_inside = clipping.keeps_inside;
     at(7).store(clipped.enter.lane);
     at(8).store(clipped.leave.lane);
-    const AskedCrossings asked = {kShadowEpsilon, &limit};
-    const LocalRays<S> rays = {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, M::none(), &asked};
+    const CrossingRequest request = {kShadowEpsilon, &limit};
+    const LocalRays<S> rays = {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, M::none(), &request};
     const ClippedRays* const where = clipping.object != nullptr ? &clipped : nullptr;
     const uint32_t dark = Shape::template crossed<S>(M::from_bits(lanes), rays, F(parameter), where).bits();
     for (uint32_t i = 0; i < run_count_; ++i)

@@ -199,7 +199,7 @@ private:
       return V3<Quad>{F::load(rows[0]), F::load(rows[1]), F::load(rows[2])};
     };
     const TriangleSides<Quad> sides = {vectors(block.v0), vectors(block.edge1), vectors(block.edge2)};
-    const Crossings<Quad> c = SeenTriangle<Quad>(origin, sides).crossed(direction, Quad::M::none());
+    const Crossings<Quad> c = TriangleTest<Quad>(origin, sides).crossed(direction, Quad::M::none());
     const uint32_t hit = (c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= F(ray.distance))).bits();
     if (hit != 0) keep_closest(block, c, hit, ray);
   }

@@ -27,7 +27,7 @@ public:
     inward_[0].template store<S>(u);
     inward_[1].template store<S>(v);
     inward_[2].template store<S>(w);
-    // The margin is larger than the overlap of neighbours (see SeenTriangle), so that no packet with a ray
+    // The margin is larger than the overlap of neighbours (see TriangleTest), so that no packet with a ray
     // that would hit is culled.
     const F size = S::max(absolute_sum<S>(edge1), absolute_sum<S>(edge2));
     const F uncertainty = (absolute_sum<S>(from) + F(view.span)) * F(32.0f * detail::kUnitInLastPlace);

@@ -79,19 +79,19 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
   /// thickness, its distance does not tell two faces apart: it has hit the nearer one.
   template <class S>
   [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient,
-                                                       const V3<S>& way) {
+                                                       const V3<S>& path) {
     using F = typename S::F;
     const auto off = [](const F& at, const F& along) {
       const F which = S::select(S::abs(along) > F(1e6f), -along, at);
       return at - S::select(which < F(0.0f), F(-1.0f), F(1.0f));
     };
-    return dot<S>(gradient, {off(p.x, way.x), off(p.y, way.y), off(p.z, way.z)});
+    return dot<S>(gradient, {off(p.x, path.x), off(p.y, path.y), off(p.z, path.z)});
   }
 
   template <class S>
-  [[gnu::always_inline]] static V3<S> off_parallel_faces(const V3<S>& p, const V3<S>& way, float share) {
-    return {off_parallel_plane<S>(p.x, way.x, 0.0f, share), off_parallel_plane<S>(p.y, way.y, 0.0f, share),
-            off_parallel_plane<S>(p.z, way.z, 0.0f, share)};
+  [[gnu::always_inline]] static V3<S> off_parallel_faces(const V3<S>& p, const V3<S>& path, float share) {
+    return {off_parallel_plane<S>(p.x, path.x, 0.0f, share), off_parallel_plane<S>(p.y, path.y, 0.0f, share),
+            off_parallel_plane<S>(p.z, path.z, 0.0f, share)};
   }
 
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, true}; }

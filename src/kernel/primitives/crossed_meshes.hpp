@@ -48,14 +48,14 @@ uint32_t found_crossings_of_part(SceneAccess<Spu>& scene, const ObjectRecord& so
   using M = typename S::M;
   constexpr auto kRecord = static_cast<uint32_t>(sizeof(CrossedMeshRecord));
   const uint32_t first = solid.extra, end = scene.crossed_mesh(first)->next;
-  const V3<S> way = points - origins;
+  const V3<S> segment = points - origins;
   const V3<S> origin = to_local<S>(solid.geometry, origins, 1.0f);
-  const V3<S> direction = to_local<S>(solid.geometry, way, 0.0f);
+  const V3<S> direction = to_local<S>(solid.geometry, segment, 0.0f);
   const V3<S> inverse = {finite_inverse<S>(direction.x), finite_inverse<S>(direction.y),
                          finite_inverse<S>(direction.z)};
   // Crossings at the ray's origin belong to the object that it starts on.
-  const F nearest =
-      (F(kMinHitDistance) + absolute_sum<S>(origins) * F(1e-6f)) / S::max(absolute_sum<S>(way), F(1e-20f));
+  const F nearest = (F(kMinHitDistance) + absolute_sum<S>(origins) * F(1e-6f)) /
+                    S::max(absolute_sum<S>(segment), F(1e-20f));
   F entered(-kEveryCrossing), reached(kEveryCrossing);
   I number = I::splat(-1);
   uint32_t found = 0;
@@ -84,7 +84,7 @@ uint32_t found_crossings_of_part(SceneAccess<Spu>& scene, const ObjectRecord& so
       const M is_left = (box.enter > entered) | ((box.enter == entered) & (number < own));
       const M comes = is_left & ((box.enter < enter) | ((box.enter == enter) & !is_next));
       if ((comes.bits() & lanes) == 0) continue;
-      const Crossings<S> crossing = SeenTriangle<S>(origin, {a, b - a, c - a}).crossed(direction, M::none());
+      const Crossings<S> crossing = TriangleTest<S>(origin, {a, b - a, c - a}).crossed(direction, M::none());
       const M hit = comes & crossing.near_hit & (crossing.near > nearest);
       enter = S::select(hit, box.enter, enter);
       at = S::select(hit, crossing.near, at);

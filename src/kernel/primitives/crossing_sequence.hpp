@@ -8,21 +8,21 @@
 namespace celltrace::kernel {
 
 /// Hands out the crossings of a packet's rays with one object in the order of their distance, one pair of
-/// each ray at a time. Shapes whose crossings are roots of a polynomial find all at once. If `kGoesOn`, the
-/// shape finds the first ones, and is asked for the next ones beyond those that were handed out, until there
-/// are none.
-template <class S, bool kGoesOn> class CrossingSequence {
+/// each ray at a time. Shapes whose crossings are roots of a polynomial find all at once. If
+/// `kIsIncremental`, the shape finds the first ones, and is asked for the next ones beyond those that were
+/// handed out, until there are none.
+template <class S, bool kIsIncremental> class CrossingSequence {
 public:
   using F = typename S::F;
 
   /// Returns the place for the shape's pairs.
   Crossings<S>* pairs() { return pairs_; }
-  /// Begins with the `count` pairs that the shape has stored; if it `goes_on`, it may find more.
-  void begin(uint32_t count, bool goes_on) {
+  /// Begins with the `count` pairs that the shape has stored; if it `is_incremental`, it may find more.
+  void begin(uint32_t count, bool is_incremental) {
     count_ = count;
     next_ = 0;
-    goes_on_ = kGoesOn && goes_on;
-    if constexpr (kGoesOn) further_.found = 0;
+    may_continue_ = kIsIncremental && is_incremental;
+    if constexpr (kIsIncremental) further_.found = 0;
   }
 
   /// Advances to the next pair of any ray. Returns false if there is none. `find_after(after, crossings)`
@@ -31,17 +31,17 @@ public:
     while (next_ < count_) {
       const Crossings<S>& c = pairs_[next_++];
       if ((c.near_hit | c.far_hit).bits() == 0) continue;
-      if constexpr (kGoesOn) remember(c);
+      if constexpr (kIsIncremental) remember(c);
       return true;
     }
-    if constexpr (kGoesOn) return goes_on_ && find_next(find_after);
+    if constexpr (kIsIncremental) return may_continue_ && find_next(find_after);
     return false;
   }
   /// Returns the current pair, which the caller may change.
   Crossings<S>& current() { return pairs_[next_ - 1]; }
   /// Ends the search for crossings of some rays.
   void end(uint32_t lanes) {
-    if constexpr (kGoesOn) further_.lanes &= ~lanes;
+    if constexpr (kIsIncremental) further_.lanes &= ~lanes;
   }
 
 private:
@@ -62,12 +62,12 @@ private:
   template <class FindAfter> bool find_next(const FindAfter& find_after) {
     if (further_.lanes == 0 || ++further_.found == kMostPairs) return false;
     Crossings<S>& c = pairs_[0];
-    const auto asked = S::M::from_bits(further_.lanes);
-    S::select(asked, F::load(further_.after.lane), F(kEveryCrossing)).store(further_.after.lane);
+    const auto active = S::M::from_bits(further_.lanes);
+    S::select(active, F::load(further_.after.lane), F(kEveryCrossing)).store(further_.after.lane);
     find_after(further_.after, c);
     const F after = F::load(further_.after.lane);
-    c.near_hit = c.near_hit & asked & (c.near > after); // ends though shapes may find it again
-    c.far_hit = c.far_hit & asked & (c.far > after);
+    c.near_hit = c.near_hit & active & (c.near > after); // ends though shapes may find it again
+    c.far_hit = c.far_hit & active & (c.far > after);
     next_ = 1;
     if ((c.near_hit | c.far_hit).bits() == 0) return false;
     remember(c);
@@ -76,8 +76,8 @@ private:
 
   Crossings<S> pairs_[kMaxCrossingPairs];
   uint32_t count_ = 0, next_ = 0;
-  bool goes_on_ = false;
-  std::conditional_t<kGoesOn, Further, Nothing> further_;
+  bool may_continue_ = false;
+  std::conditional_t<kIsIncremental, Further, Nothing> further_;
 };
 
 } // namespace celltrace::kernel

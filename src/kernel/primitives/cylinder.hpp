@@ -71,8 +71,8 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
   }
 
   template <class S>
-  [[gnu::always_inline]] static V3<S> off_parallel_faces(const V3<S>& p, const V3<S>& way, float share) {
-    return {p.x, p.y, off_parallel_plane<S>(p.z, way.z, 0.5f, share)};
+  [[gnu::always_inline]] static V3<S> off_parallel_faces(const V3<S>& p, const V3<S>& path, float share) {
+    return {p.x, p.y, off_parallel_plane<S>(p.z, path.z, 0.5f, share)};
   }
 
   static LocalBounds local_bounds(float) { return {0.0f, 1.0f, 1.0f, false}; }

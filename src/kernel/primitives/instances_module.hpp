@@ -136,7 +136,7 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
         ++work.triangles;
         const uint32_t self =
             first + (triangle - first_triangle) / static_cast<uint32_t>(sizeof(ObjectRecord));
-        const SeenTriangle<S> seen(local.origin, TriangleSides<S>::of(*scene.object_apart(triangle)));
+        const TriangleTest<S> seen(local.origin, TriangleSides<S>::of(*scene.object_apart(triangle)));
         Crossings<S> c = seen.crossed(local.direction, lanes_that_start_on<S>(rays, self));
         c.near_hit = c.near_hit & (c.near > F(nearest));
         keep_closest<S>(c, self, hits);

@@ -26,11 +26,11 @@
 namespace celltrace::kernel {
 
 template <class... P> struct PrimitiveList : TypeList<P...> {
-  static constexpr bool kSomeGoOn = (P::kGoesOn || ...);
-  static_assert(((P::kIsHeavy || !P::kGoesOn) && ...), "module_heavy::intersect() says what is asked");
-  static_assert(((P::kCrossingPairs == 1 || !P::kGoesOn) && ...), "CrossingSequence asks for one at a time");
-  static constexpr bool goes_on(uint32_t kind) {
-    return ((P::kGoesOn ? kind == TypeList<P...>::template number<P>() : false) || ...);
+  static constexpr bool kSomeAreIncremental = (P::kIsIncremental || ...);
+  static_assert(((P::kIsHeavy || !P::kIsIncremental) && ...), "module_heavy::intersect() says what is asked");
+  static_assert(((P::kCrossingPairs == 1 || !P::kIsIncremental) && ...), "CrossingSequence takes one pair");
+  static constexpr bool is_incremental(uint32_t kind) {
+    return ((P::kIsIncremental ? kind == TypeList<P...>::template number<P>() : false) || ...);
   }
   static constexpr bool is_heavy(uint32_t kind) {
     return ((P::kIsHeavy ? kind == TypeList<P...>::template number<P>() : false) || ...);

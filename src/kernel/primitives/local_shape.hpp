@@ -6,8 +6,8 @@
 //   intersect_local(rays, parameters, crossings)      finds crossings, in the shape's space
 //   inside_local(point, parameters)                   returns the lanes inside
 //   gradient(point, parameters)                       returns the outward normal, of any length
-//   off_face(point, gradient, way)                    returns the distance from a face, times that length
-//   off_parallel_faces(point, way, share)             moves a point toward the middle of faces along `way`
+//   off_face(point, gradient, path)                   returns the distance from a face, times that length
+//   off_parallel_faces(point, path, share)            moves a point toward the middle of faces along `path`
 //   local_bounds(ratio)                               returns its LocalBounds
 #pragma once
 
@@ -35,30 +35,29 @@ struct ClippedRays {
 };
 
 /// The crossings of a ray that are wanted.
-struct AskedCrossings {
+struct CrossingRequest {
   /// Distance after which one crossing suffices: once a ray has a crossing beyond it, the others may be left
   /// out.
   float enough = kEveryCrossing;
   /// For each ray: crossings that are farther than this or behind the origin may be left out. nullptr: no
   /// limit.
   const FloatLanes* limit = nullptr;
-  /// For each ray of shapes with kGoesOn: crossings up to this distance are known. nullptr: all crossings
-  /// beyond the origin are wanted.
+  /// For each ray of shapes with kIsIncremental: crossings up to this distance are known. nullptr: all
+  /// crossings beyond the origin are wanted.
   const FloatLanes* after = nullptr;
 };
-inline constexpr AskedCrossings kAllCrossings;
+inline constexpr CrossingRequest kAllCrossings;
 
 /// Rays in a shape's space. Directions are not normalised, so that distances are those in the world.
 template <class S> struct LocalRays {
   V3<S> origin, direction;
   typename S::M starts_here; ///< rays that start on this object
-  const AskedCrossings* asked = &kAllCrossings;
+  const CrossingRequest* request = &kAllCrossings;
   uint32_t first = 0; ///< lane of the packet's first ray
 
-  /// Return asked->after and asked->limit of these rays. If the pointers are null, after() is 0 and limit()
-  /// is kEveryCrossing.
-  typename S::F after() const { return of_these(asked->after, 0.0f); }
-  typename S::F limit() const { return of_these(asked->limit, kEveryCrossing); }
+  /// Return request->after (0 if it is null) and request->limit (kEveryCrossing if it is null) of these rays.
+  typename S::F after() const { return of_these(request->after, 0.0f); }
+  typename S::F limit() const { return of_these(request->limit, kEveryCrossing); }
 
 private:
   typename S::F of_these(const FloatLanes* of_packet, float otherwise) const {
@@ -209,10 +208,10 @@ template <class S>
 /// has, from lane `first` on.
 template <class S>
 LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self, uint32_t first = 0,
-                        const AskedCrossings& asked = kAllCrossings) {
+                        const CrossingRequest& request = kAllCrossings) {
   return {to_local<S>(object.geometry, rays.origin.template load_from<S>(first), 1.0f),
           to_local<S>(object.geometry, rays.direction.template load_from<S>(first), 0.0f),
-          lanes_that_start_on<S>(rays, self, first), &asked, first};
+          lanes_that_start_on<S>(rays, self, first), &request, first};
 }
 
 /// The interface between the rest of the kernel and a shape in a space of its own.

@@ -23,7 +23,7 @@ struct ShapeTraits {
   static constexpr bool kHasFaces = false;       ///< the shape has flat faces, and off_face()
   /// True if the shape finds a ray's first pair of crossings, and when it is asked again the next pair beyond
   /// rays.after() (crossing_sequence.hpp). Shapes with this trait are heavy.
-  static constexpr bool kGoesOn = false;
+  static constexpr bool kIsIncremental = false;
   /// True if crossings of the shape's plane count only inside its edges (polygons_module.hpp).
   static constexpr bool kHasEdges = false;
   /// True if the shape has coordinates(surface_point, u, v). Otherwise its surface coordinates are x and y of

@@ -63,10 +63,10 @@ constexpr bool has_heavy_points(uint32_t kind) {
 
 /// Returns the unit normals of shapes in a space of their own, of those with heavy points or of the others,
 /// at points of their surfaces: the gradient there is transformed by the transposed map. If `kMoves`, `moved`
-/// receives the points, moved onto flat faces; `way` is the path of each ray to its point.
+/// receives the points, moved onto flat faces; `path` is the path of each ray to its point.
 template <class S, bool kOfHeavy, bool kMoves>
 [[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, const V3<S>& point,
-                                                        [[maybe_unused]] const V3<S>& way,
+                                                        [[maybe_unused]] const V3<S>& path,
                                                         [[maybe_unused]] V3<S>* moved) {
   // The map is three rows of four.
   const V3<S>* const g = o.geometry;
@@ -84,10 +84,10 @@ template <class S, bool kOfHeavy, bool kMoves>
         V3<S> of_kind;
         if constexpr (kMoves && Shape::kHasFaces) {
           // A ray that is parallel to a face has not hit that face.
-          const V3<S> local_way = {dot<S>(rows[0], way), dot<S>(rows[1], way), dot<S>(rows[2], way)};
-          const V3<S> off_others = Shape::template off_parallel_faces<S>(local, local_way, 1.0f);
+          const V3<S> local_path = {dot<S>(rows[0], path), dot<S>(rows[1], path), dot<S>(rows[2], path)};
+          const V3<S> off_others = Shape::template off_parallel_faces<S>(local, local_path, 1.0f);
           of_kind = Shape::template gradient<S>(off_others, o.parameters);
-          off = S::select(mask, Shape::template off_face<S>(local, of_kind, local_way), off);
+          off = S::select(mask, Shape::template off_face<S>(local, of_kind, local_path), off);
         } else {
           of_kind = Shape::template gradient<S>(local, o.parameters);
         }
@@ -107,7 +107,7 @@ namespace module_heavy {
 /// rare code does, and take time for each crossing.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
-                                      const ExtraRecord& extra, uint32_t self, const AskedCrossings& asked,
+                                      const ExtraRecord& extra, uint32_t self, const CrossingRequest& request,
                                       Crossings<typename Spu::simd>* crossings) {
   using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kHeavyShapes);
@@ -120,7 +120,7 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
     });
   };
   if constexpr (kOnePart<Spu>) {
-    intersect_part(local_rays<R>(rays, object, self, 0, asked), local_parameters<R>(object, extra),
+    intersect_part(local_rays<R>(rays, object, self, 0, request), local_parameters<R>(object, extra),
                    crossings);
   } else {
     uint32_t near_hit[kMaxCrossingPairs] = {}, far_hit[kMaxCrossingPairs] = {};
@@ -128,7 +128,7 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
       crossings[pair].clear();
     for_each_part<Spu>([&](uint32_t first) {
       Crossings<R> part[kMaxCrossingPairs];
-      intersect_part(local_rays<R>(rays, object, self, first, asked), local_parameters<R>(object, extra),
+      intersect_part(local_rays<R>(rays, object, self, first, request), local_parameters<R>(object, extra),
                      part);
       for (uint32_t pair = 0; pair < pairs; ++pair) {
         set_part<Spu>(crossings[pair].near, first, part[pair].near);
@@ -267,9 +267,9 @@ template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o
 /// Returns the unit normals where there is room for more code, and moves `point` onto flat faces. Points
 /// along a ray are only as exact as its distance, and a pattern may have a step on a flat face.
 template <class S>
-CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& way, V3<S>& point) {
+CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& path, V3<S>& point) {
   const V3<S> along_ray = point;
-  return normal_in_own_space<S, false, true>(o, along_ray, way, &point);
+  return normal_in_own_space<S, false, true>(o, along_ray, path, &point);
 }
 
 /// Finds the normals of objects other than spheres, triangles or planes, part by part. Points on flat faces
@@ -277,7 +277,7 @@ CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& way,
 template <class Spu>
 [[gnu::always_inline]] inline void
 find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
-             [[maybe_unused]] const V3<typename Spu::simd>& way, uint32_t others, uint32_t heavy,
+             [[maybe_unused]] const V3<typename Spu::simd>& path, uint32_t others, uint32_t heavy,
              V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
   using R = typename Spu::rare_simd;
   const V3<typename Spu::simd> along_ray = point;
@@ -286,7 +286,7 @@ find_normals(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
     const V3<R> at = part_of<Spu>(along_ray, first);
     V3<R> of_part = at;
     if constexpr (kOnePart<Spu>) {
-      if (others != 0) of_part = local_normal<R>(part, way, point);
+      if (others != 0) of_part = local_normal<R>(part, path, point);
     } else {
       if (others != 0) of_part = local_normal<R>(part, at);
     }

@@ -40,9 +40,9 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
     if (!is_convex) return line.cross_thin(rays.starts_here, inward, crossings);
     Crossings<S>& c = crossings[0];
     F near = line.enter, far = line.leave;
-    M asks = line.in_box;
-    if constexpr (Line<S>::kHasRoom) asks = asks & (inward | !rays.starts_here);
-    const M crosses = line.cross_convex(near, far, asks);
+    M active = line.in_box;
+    if constexpr (Line<S>::kHasRoom) active = active & (inward | !rays.starts_here);
+    const M crosses = line.cross_convex(near, far, active);
     c.near = line.distance_at(near);
     c.far = line.distance_at(far);
     c.near_hit = crosses & !rays.starts_here;
@@ -169,7 +169,7 @@ private:
     F enter, leave;
     M in_box;
     /// If kHasRoom: the rays, and the distance from which on crossings are wanted.
-    const LocalRays<S>* asking;
+    const LocalRays<S>* line_rays;
     F begin;
 
     Line(const LocalRays<S>& rays, const LocalParameters<S>& parameters) : exponents(parameters) {
@@ -185,8 +185,8 @@ private:
       leave = S::min(planes.x + half.x, S::min(planes.y + half.y, planes.z + half.z));
       in_box = enter < leave;
       if constexpr (kHasRoom) {
-        const FloatLanes* const limit = rays.asked->limit;
-        asking = &rays;
+        const FloatLanes* const limit = rays.request->limit;
+        line_rays = &rays;
         begin = limit != nullptr ? -shift : F(-kEveryCrossing);
         if (limit != nullptr)
           in_box = in_box & (leave > begin) & (distance_at(enter) <= F::load(limit->lane));
@@ -195,7 +195,7 @@ private:
 
     F distance_at(const F& t) const { return (t + shift) * inverse_scale; }
     /// Returns true if crossings after this one need not be found.
-    M is_enough(const F& distance) const { return distance > F(asking->asked->enough); }
+    M is_enough(const F& distance) const { return distance > F(line_rays->request->enough); }
 
     /// Returns the rays that start on the shape and go inward.
     M goes_inward(const M& start) const {
@@ -224,7 +224,7 @@ private:
         F t = end == 0 ? near : far;
         M moves = wanted;
         if constexpr (kHasRoom) {
-          const M starts = asking->starts_here;
+          const M starts = line_rays->starts_here;
           moves = moves & (end == 0 ? !starts : starts | !is_enough(distance_at(near)));
         }
         for (int i = 0; i < 30 && moves.bits() != 0; ++i) {
@@ -259,13 +259,13 @@ private:
         for (int i = 1; i < 4; ++i)
           bounds[i] = S::max(bounds[i], bounds[0]);
       }
-      M asks = in_box;
+      M active = in_box;
       F distance[4] = {zero, zero, zero, zero};
       M hit[4] = {M::none(), M::none(), M::none(), M::none()};
       F value, slope;
       at(bounds[0], value, slope);
       for (int i = 0; i < 4; ++i) {
-        const M outside = value > zero, wanted = asks & (bounds[i] < bounds[i + 1]);
+        const M outside = value > zero, wanted = active & (bounds[i] < bounds[i + 1]);
         if (wanted.bits() == 0) continue;
         at(bounds[i + 1], value, slope);
         const M crosses = wanted & ((outside & (value <= zero)) | ((value > zero) & !outside));
@@ -280,7 +280,7 @@ private:
           const M next = (t > zero) & ((inward & !enters) | (enters & !inward));
           M put = here & !(starts & !next);
           starts = starts & !put;
-          if constexpr (kHasRoom) asks = asks & !(put & is_enough(t));
+          if constexpr (kHasRoom) active = active & !(put & is_enough(t));
           for (int place = 0; place < 4; ++place) {
             const M free = put & !hit[place];
             distance[place] = S::select(free, t, distance[place]);

@@ -44,8 +44,8 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     auto starts = rays.starts_here;
     F distance[4];
     typename S::M hit[4] = {S::M::none(), S::M::none(), S::M::none(), S::M::none()};
-    auto asks = near_enough; // rays that want further crossings
-    F value = one;           // value at the current bound, which is outside at first
+    auto active = near_enough; // rays that want further crossings
+    F value = one;             // value at the current bound, which is outside at first
     F half_width = zero;
     for (int i = 0; i < 4; ++i) {
       const F next = f.at(bounds[i + 1]);
@@ -54,7 +54,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
       const F about = i % 2 == 0 ? bounds[i + 1] - half_width : bounds[i] + half_width;
       const auto falls = value > zero;
       const auto enters = falls & (next <= zero), leaves = (next > zero) & !falls;
-      const auto crosses = asks & (enters | leaves);
+      const auto crosses = active & (enters | leaves);
       distance[i] = zero;
       if (crosses.bits() != 0) {
         distance[i] = (f.root_between(bounds[i], bounds[i + 1], about, falls, crosses) + from_centre.shift) *
@@ -62,7 +62,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
         const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
         hit[i] = crosses & !(starts & !first);
         starts = starts & !hit[i];
-        asks = asks & !(hit[i] & (distance[i] > F(rays.asked->enough)));
+        active = active & !(hit[i] & (distance[i] > F(rays.request->enough)));
       }
       value = next;
     }
@@ -76,9 +76,9 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     }
   }
 
-  /// Returns the rays of `wanted`, which may hit the torus, that cross it farther than `rays.asked->enough`,
-  /// nearer than their limit less kShadowEpsilon, and where `clipped` keeps crossings (nullptr: everywhere).
-  /// None of them may start on the torus.
+  /// Returns the rays of `wanted`, which may hit the torus, that cross it farther than
+  /// `rays.request->enough`, nearer than their limit less kShadowEpsilon, and where `clipped` keeps crossings
+  /// (nullptr: everywhere). None of them may start on the torus.
   template <class S>
   static typename S::M crossed(const typename S::M& wanted, const LocalRays<S>& rays,
                                const typename S::F& ratio, const ClippedRays* clipped) {
@@ -88,8 +88,8 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     const FromCentre<S> from_centre(rays);
     const Quartic<S> f(from_centre, ratio);
     const auto there = [&](const F& distance) { return from_centre.place_at(distance); };
-    const F first = there(F(rays.asked->enough));
-    const F last = there(F::load(rays.asked->limit->lane) - F(kShadowEpsilon));
+    const F first = there(F(rays.request->enough));
+    const F last = there(F::load(rays.request->limit->lane) - F(kShadowEpsilon));
     if (clipped == nullptr) return f.crosses(wanted, {Stretch{first, last}});
     const F enter = there(F::load(clipped->enter.lane)), leave = there(F::load(clipped->leave.lane));
     if (clipped->keeps_inside) return f.crosses(wanted, {Stretch{S::max(first, enter), S::min(last, leave)}});
@@ -106,9 +106,9 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     const V3<S>&o = rays.origin, &d = rays.direction;
     const F margin(1e-3f), one(1.0f), zero(0.0f);
     const F t = -o.z * finite_inverse<S>(d.z);
-    const F first(rays.asked->enough);
+    const F first(rays.request->enough);
     F begin = first;
-    auto counts = t < F::load(rays.asked->limit->lane) - F(kShadowEpsilon);
+    auto counts = t < F::load(rays.request->limit->lane) - F(kShadowEpsilon);
     if (clipped != nullptr) {
       const F enter = F::load(clipped->enter.lane), leave = F::load(clipped->leave.lane);
       if (clipped->keeps_inside) {
@@ -164,7 +164,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     const auto in_hole = (from_axis(slab.enter) < hole_square) & (from_axis(slab.leave) < hole_square);
     const auto near_enough = in_ball & comes_near & (slab.leave >= zero) & !in_hole;
     if constexpr (S::kLanes != kSimdLanes) return near_enough; // there is no room for more code
-    const FloatLanes* const limit = rays.asked->limit;
+    const FloatLanes* const limit = rays.request->limit;
     const auto in_time = limit != nullptr ? near_enough & (slab.enter <= F::load(limit->lane)) : near_enough;
     if (in_time.bits() == 0) return in_time;
     // The ray must also come near the tube there.
@@ -241,12 +241,12 @@ private:
     template <uint32_t kCount>
     typename S::M crosses(const typename S::M& wanted, const Stretch (&stretches)[kCount]) const {
       const F zero(0.0f);
-      uint32_t asked[kCount], inside[kCount], crossed = 0, all = 0;
+      uint32_t nonempty[kCount], inside[kCount], crossed = 0, all = 0;
       for (uint32_t i = 0; i < kCount; ++i) {
-        asked[i] = (wanted & (stretches[i].first < stretches[i].last)).bits();
+        nonempty[i] = (wanted & (stretches[i].first < stretches[i].last)).bits();
         inside[i] = (at(stretches[i].first) < zero).bits();
-        crossed |= asked[i] & (inside[i] ^ (at(stretches[i].last) < zero).bits());
-        all |= asked[i];
+        crossed |= nonempty[i] & (inside[i] ^ (at(stretches[i].last) < zero).bits());
+        all |= nonempty[i];
       }
       const auto unknown = S::M::from_bits(all & ~crossed & 0xFFFF);
       if (unknown.bits() != 0) {
@@ -255,7 +255,7 @@ private:
         for (uint32_t i = 0; i < kCount; ++i)
           for (const F& t : place) {
             const F in_stretch = S::min(S::max(t, stretches[i].first), stretches[i].last);
-            crossed |= asked[i] & (inside[i] ^ (at(in_stretch) < zero).bits());
+            crossed |= nonempty[i] & (inside[i] ^ (at(in_stretch) < zero).bits());
           }
       }
       return S::M::from_bits(crossed & 0xFFFF);

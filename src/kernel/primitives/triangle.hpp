@@ -43,11 +43,11 @@ template <class S>
 
 /// A triangle as seen from the origins of a packet's rays: the part of the test that packets of one origin
 /// share.
-template <class S> class SeenTriangle {
+template <class S> class TriangleTest {
 public:
   using F = typename S::F;
 
-  [[gnu::always_inline]] SeenTriangle(const V3<S>& origin, const TriangleSides<S>& sides)
+  [[gnu::always_inline]] TriangleTest(const V3<S>& origin, const TriangleSides<S>& sides)
       : edge1_(sides.edge1), edge2_(sides.edge2) {
     from_v0_ = origin - sides.v0;
     q_ = cross<S>(from_v0_, edge1_);
@@ -103,7 +103,7 @@ private:
 template <class S>
 Crossings<S> intersect_triangle(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
                                 const ObjectRecord& object) {
-  return SeenTriangle<S>(origin, TriangleSides<S>::of(object)).crossed(direction, starts_here);
+  return TriangleTest<S>(origin, TriangleSides<S>::of(object)).crossed(direction, starts_here);
 }
 
 /// Tests a triangle and a box by separating axes (Akenine-Moeller 2001). The candidate voxels already overlap

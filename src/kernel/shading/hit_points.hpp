@@ -62,7 +62,7 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
 
 template <class Spu>
 [[gnu::always_inline]] inline void surface_of(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
-                                              const V3<typename Spu::simd>& way,
+                                              const V3<typename Spu::simd>& path,
                                               const V3<typename Spu::simd>& along_ray, const HitPacket& hits,
                                               V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
   using S = typename Spu::simd;
@@ -82,7 +82,7 @@ template <class Spu>
   if ((others | heavy) != 0) {
     if (heavy != 0) spu.enter_module(modules::kHeavyPoints);
     p = along_ray;
-    find_normals(spu, o, way, others, heavy, p, n);
+    find_normals(spu, o, path, others, heavy, p, n);
     add(others | heavy, p, n);
   }
   if (planes != 0) {
@@ -240,9 +240,9 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   o.objects.parameters.open = M::from_bits(o.open);
 
   const V3<S> direction = rays.direction.template load<S>();
-  const V3<S> way = direction * F::load(hits.distance.lane);
-  const V3<S> along_ray = rays.origin.template load<S>() + way;
-  detail::surface_of(scene.spu(), o.objects, way, along_ray, hits, points.point, points.normal);
+  const V3<S> path = direction * F::load(hits.distance.lane);
+  const V3<S> along_ray = rays.origin.template load<S>() + path;
+  detail::surface_of(scene.spu(), o.objects, path, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
   if (const uint32_t seen_inside = o.two_sided & (away.bits() ^ o.inverse); seen_inside != 0) {
     scene.spu().enter_module(modules::kFinishes);
