@@ -108,8 +108,8 @@ constexpr CodeModule kInstances = {"instances", 35, 1, 7808};
 
 /// Lights other than simple point lights.
 constexpr CodeModule kLights = {"lights", 6, 1, 4864};
-//   module_lights, SpotLight::way_off, CylinderLight::way_off, kernel::beam_share, kernel::fade_share,
-//   kernel::make_parallel, kernel::aim_parallel
+//   module_lights, SpotLight::off_axis, CylinderLight::off_axis, kernel::beam_share,
+//   kernel::fade_share, kernel::make_parallel, kernel::aim_parallel
 
 /// Sampling of area lights.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9472};
@@ -161,8 +161,8 @@ constexpr CodeModule kComposed = {"composed", 13, 2, 7168};
 
 /// Atmosphere: fogs and rainbows that rays pass through or see before or behind what they hit.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7168};
-//   light_along, SeenLight<>, ArrivingLight<>, through_fog, lanes_in_the_open, ground_density, arc_share,
-//   cross_rainbows, see_rainbow, detail::dim_clear, bow_colour
+//   light_along, PathRadiance<>, ShadowRadiance<>, through_fog, lanes_in_the_open, ground_density,
+//   arc_share, cross_rainbows, see_rainbow, detail::dim_transparency, rainbow_colour
 
 /// The sky that is seen by rays without a hit.
 constexpr CodeModule kSky = {"sky", 34, 2, 2048};

@@ -86,7 +86,7 @@ struct alignas(128) FrameBlock {
   uint32_t rainbow_offset, rainbow_count;
   /// Share of what is behind the scene that the background lets through; used with light_feature::alpha,
   /// and 1 with light_feature::no_backdrop.
-  float background_clear;
+  float background_transparency;
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

@@ -46,7 +46,7 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock:
           &FrameBlock::large_leaves, &FrameBlock::far_nodes, &FrameBlock::unbounded_count, &FrameBlock::sky,
           &FrameBlock::light_places, &FrameBlock::purpose, &FrameBlock::sampling, &FrameBlock::fog_offset,
           &FrameBlock::fog_count, &FrameBlock::light_features, &FrameBlock::rainbow_offset,
-          &FrameBlock::rainbow_count, &FrameBlock::background_clear>
+          &FrameBlock::rainbow_count, &FrameBlock::background_transparency>
 fields_of(const FrameBlock&);
 
 FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of(const UnitRecord&);

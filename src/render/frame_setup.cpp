@@ -135,7 +135,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   constexpr double kVersionOfTransparency = 3.7;
   const bool has_backdrop = scene.version >= kVersionOfTransparency;
   if (!has_backdrop) frame.light_features |= light_feature::no_backdrop;
-  frame.background_clear =
+  frame.background_transparency =
       has_backdrop ? static_cast<float>(std::clamp(scene.background_transparency, 0.0, 1.0)) : 1.0f;
   frame.rainbow_offset = header.rainbow_offset;
   frame.rainbow_count = header.rainbow_count;

@@ -46,7 +46,7 @@ std::uint32_t light_features_of(const Scene& scene, const TextureTables& texture
     if (r.refraction() != 1) features |= light_feature::fading;
     if (r.caustics != 0) features |= light_feature::stepwise;
   }
-  if (textures.has_clear_side || textures.filters_by_surface) features |= light_feature::stepwise;
+  if (textures.has_translucent_side || textures.filters_by_surface) features |= light_feature::stepwise;
   if (has_blends && textures.by_surface && textures.filters) features |= light_feature::stepwise;
   if (textures.by_surface) features |= light_feature::by_surface;
   for (const Light& light : scene.lights) {

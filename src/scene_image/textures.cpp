@@ -158,7 +158,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     r.inside = inside;
     traits.add(inside_traits);
     traits.two_sided = true;
-    has_clear_side = has_clear_side || !traits.opaque;
+    has_translucent_side = has_translucent_side || !traits.opaque;
   }
   materials[index] = r;
   return traits;

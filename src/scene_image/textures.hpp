@@ -43,10 +43,10 @@ public:
   std::vector<kernel::MapEntryRecord> entries;
   std::vector<kernel::NormalRecord> normals;
   std::vector<kernel::FinishRecord> finishes;
-  bool has_clear_side = false;     ///< some material that looks different from inside lets light through
-  bool by_surface = false;         ///< some materials are object_flag::by_surface
-  bool filters = false;            ///< some materials let light through
-  bool filters_by_surface = false; ///< some materials do both
+  bool has_translucent_side = false; ///< some material that looks different from inside lets light through
+  bool by_surface = false;           ///< some materials are object_flag::by_surface
+  bool filters = false;              ///< some materials let light through
+  bool filters_by_surface = false;   ///< some materials do both
   std::vector<kernel::FeatureRecord>
       features; ///< this table and the next two are empty unless a pattern or a warp reads them
   std::vector<kernel::GradientRecord> gradients; ///< empty if there are no features

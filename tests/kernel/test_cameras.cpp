@@ -128,7 +128,7 @@ TEST_CASE("Rays of cameras that are far away start before the scene") {
       DirectSpu spu;
       RayPacket packet;
       const std::uint32_t lanes = make_primary_rays(spu, frame, 8, 14, packet);
-      const auto way = way_to_start<Simd>(frame.camera, packet.direction.load<Simd>());
+      const auto way = start_offset<Simd>(frame.camera, packet.direction.load<Simd>());
       FloatLanes ways;
       way.store(ways.lane);
       for (unsigned l = 0; l < kSimdLanes; ++l) {

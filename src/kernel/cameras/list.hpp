@@ -36,7 +36,7 @@ constexpr bool is_pinhole(const CameraRecord& camera) {
 }
 
 /// Returns the distance from a distant camera to the start of its rays.
-template <class S> typename S::F way_to_start(const CameraRecord& camera, const V3<S>& direction) {
+template <class S> typename S::F start_offset(const CameraRecord& camera, const V3<S>& direction) {
   const bool is_parallel = camera.sheaf == static_cast<uint32_t>(RaySheaf::parallel);
   return
       typename S::F(camera.ahead) / dot<S>(direction, splat3<S>(is_parallel ? camera.origin : camera.base));

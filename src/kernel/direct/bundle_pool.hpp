@@ -28,7 +28,7 @@ public:
   WavefrontQueue<EndingHits> hits;
   WavefrontQueue<ShadowPoints> shadows;
   WavefrontQueue<SkyRays> skies;
-  FloatLanes clear; ///< transparency along the rays that are being traced
+  FloatLanes transparency; ///< transparency along the rays that are being traced
 
   /// Returns true if rays stay in the lanes of their pixels.
   static constexpr bool has_own_lanes(const FrameBlock& frame) {
@@ -61,13 +61,13 @@ public:
     for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
       pixels.lane[lane] = member * kSimdLanes + lane;
   }
-  void clear_lanes() { F(0.0f).store(clear.lane); }
+  void reset_transparency() { F(0.0f).store(transparency.lane); }
 
   /// Stores the colours of a member's primary rays, which need no tree.
   void put(uint32_t member, uint32_t lanes, const VectorLanes& seen) {
     if (is_sorted(member)) return add_tree(sorter_.places(member), lanes, seen);
     light_[member] = seen;
-    if (samples_ != nullptr) samples_->at[member].clear = clear;
+    if (samples_ != nullptr) samples_->at[member].transparency = transparency;
   }
   /// Stores the light of a member's tree. Some of its light may have been stored already.
   void put_tree(uint32_t member, uint32_t lanes, const VectorLanes& seen) {
@@ -81,8 +81,8 @@ public:
     add(pixels, lanes, seen);
     if (samples_ == nullptr) return;
     for_each_lane(lanes, [&](uint32_t lane) {
-      samples_->at[pixels.lane[lane] / kSimdLanes].clear.lane[pixels.lane[lane] % kSimdLanes] +=
-          clear.lane[lane];
+      samples_->at[pixels.lane[lane] / kSimdLanes].transparency.lane[pixels.lane[lane] % kSimdLanes] +=
+          transparency.lane[lane];
     });
   }
   /// Adds light to pixels.

@@ -58,7 +58,7 @@ protected:
   void begin_trees() {
     tracer().pooling().queue = BundlePool<Spu>::has_own_lanes(all().frame_) ? nullptr : &pool_.rays;
     pool_.begin();
-    tracer().add_clear_to(pool_.clear);
+    tracer().add_transparency_to(pool_.transparency);
     if (auto* const fractals = all().scene_.known_patterns().fractals;
         fractals != nullptr && fractals->begin())
       iterate_fractals(*fractals);
@@ -70,7 +70,7 @@ protected:
     hint_extras(all().scene_, member.hits, member.hit);
   }
   template <class Member> [[gnu::always_inline]] bool shade_end(Member& member) {
-    pool_.clear_lanes();
+    pool_.reset_transparency();
     if (auto* const fractals = all().scene_.known_patterns().fractals) fractals->show(member.number);
     HitPoints<S>& points = all().store_.points;
     if (member.hit != 0) {
@@ -155,7 +155,7 @@ public:
   /// Traces a packet of pooled rays and their trees. Returns false if it was stopped.
   template <class Stopped> bool trace_pooled(const PooledRays& rays, uint32_t lanes, const Stopped& stopped) {
     tracer().begin(rays);
-    pool_.clear_lanes();
+    pool_.reset_transparency();
     all().find_closest();
     all().shade_node(nullptr);
     if (!all().trace_tree(stopped)) return false;

@@ -10,15 +10,15 @@ namespace celltrace::kernel {
 /// Share of a light below which none is assumed.
 constexpr float kLeastShare = 1e-10f;
 
-/// Returns the share of a beam's light at the offset `way_off` from the axis. The edge of the beam is a
+/// Returns the share of a beam's light at the offset `off_axis` from the axis. The edge of the beam is a
 /// cubic.
-template <class S> typename S::F beam_share(const LightRecord& light, const typename S::F& way_off) {
+template <class S> typename S::F beam_share(const LightRecord& light, const typename S::F& off_axis) {
   using F = typename S::F;
   const F zero(0.0f), one(1.0f);
-  const F into_edge = S::min(S::max((way_off - F(light.inner)) * F(light.inverse_edge), zero), one);
+  const F into_edge = S::min(S::max((off_axis - F(light.inner)) * F(light.inverse_edge), zero), one);
   F share = one - into_edge * into_edge * (F(3.0f) - (into_edge + into_edge));
-  if (light.tightness != 0.0f) share = share * pow<S>(S::max(one - way_off, zero), F(light.tightness));
-  return S::select(way_off < one, share, zero);
+  if (light.tightness != 0.0f) share = share * pow<S>(S::max(one - off_axis, zero), F(light.tightness));
+  return S::select(off_axis < one, share, zero);
 }
 
 /// Returns the light at `distance` relative to that at the fade distance. The result is negative where an odd

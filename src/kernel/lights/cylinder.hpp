@@ -14,7 +14,7 @@ struct CylinderLight {
   /// Returns the distance of surfaces from the axis, in units of the radius at which the light ends; 1, where
   /// there is no light, behind the location.
   template <class S>
-  static typename S::F way_off(const LightRecord& light, const Surfaces<S>& s, const IncidentLight<S>&) {
+  static typename S::F off_axis(const LightRecord& light, const Surfaces<S>& s, const IncidentLight<S>&) {
     using F = typename S::F;
     const V3<S> axis = splat3<S>(light.axis);
     const V3<S> from_light = s.point - splat3<S>(light.location);

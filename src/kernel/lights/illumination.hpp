@@ -50,7 +50,7 @@ CELLTRACE_ONE_COPY void attenuate(SceneAccess<Spu>& scene, const LightRecord& li
   F share(1.0f);
   Lights::dispatch(light.kind_and_flags & light_flag::kind_mask, [&](auto kind) {
     using Kind = decltype(kind);
-    if constexpr (Kind::kIsBeam) share = beam_share<S>(light, Kind::template way_off<S>(light, s, incident));
+    if constexpr (Kind::kIsBeam) share = beam_share<S>(light, Kind::template off_axis<S>(light, s, incident));
   });
   if ((light.kind_and_flags & light_flag::fades) != 0)
     share = share * fade_share<Spu>(light, incident.distance);

@@ -5,7 +5,7 @@
 //   kIsBeam       true if the light has an edge and a tightness
 //   kIsParallel   true if all rays are parallel to the axis even without light_flag::parallel
 // and if it is a beam
-//   way_off(light, surfaces, incident)    returns the offset of surfaces from the axis (LightRecord)
+//   off_axis(light, surfaces, incident)   returns the offset of surfaces from the axis (LightRecord)
 #pragma once
 
 #include "kernel/lights/cylinder.hpp"

@@ -32,7 +32,8 @@ protected:
   template <class Member> static constexpr bool shade_end(const Member&) { return false; }
   static constexpr bool knows_points(const void*) { return false; }
   template <class Member> void begin_tree(const Member& member) {
-    if (all().samples_ != nullptr) all().tracer_.add_clear_to(all().samples_->at[member.number].clear);
+    if (all().samples_ != nullptr)
+      all().tracer_.add_transparency_to(all().samples_->at[member.number].transparency);
   }
   CELLTRACE_ONE_COPY uint32_t take_hits() { return all().tracer_.take_hits(); }
   static constexpr uint32_t leave_ends(uint32_t) { return 0; }

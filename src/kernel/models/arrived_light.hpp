@@ -9,16 +9,16 @@
 namespace celltrace::kernel::models {
 
 /// An answer with the head of its question.
-struct alignas(64) AnsweredSearch {
-  LightOnItsWay light;
+struct alignas(64) SearchAnswer {
+  ShadowRayLight light;
   uint32_t kind, lanes, primary, number, unused[12];
 };
-static_assert(sizeof(AnsweredSearch) == search_part::answer_and_head, "part of a SearchRecord");
+static_assert(sizeof(SearchAnswer) == search_part::answer_and_head, "part of a SearchRecord");
 
 /// Answers of one job in local store.
 struct alignas(128) AnswerBlock {
   static constexpr uint32_t kAnswers = 8;
-  AnsweredSearch answers[kAnswers];
+  SearchAnswer answers[kAnswers];
 };
 
 /// Fetches the answers from index `first` on, of `searches` in all.
@@ -63,7 +63,7 @@ public:
   void take(const LightRound& round) {
     round.clear<S>();
     for (; cursor_ < searches_; ++cursor_) {
-      const AnsweredSearch& next = answer(cursor_);
+      const SearchAnswer& next = answer(cursor_);
       if (next.number >= round.next()) return;
       round.gathered[next.number - round.first] = next.light.colour;
     }
@@ -101,7 +101,7 @@ public:
   }
 
 private:
-  const AnsweredSearch& answer(uint32_t index) {
+  const SearchAnswer& answer(uint32_t index) {
     const uint32_t first = index & ~(AnswerBlock::kAnswers - 1);
     if (first != first_) {
       fetch_answers(spu_, first_search_, first, searches_, *block_, tag_);

@@ -28,7 +28,7 @@ static_assert(sizeof(JobRecord) == 128, "crosses DMA");
 /// Light from a source to the origins of shadow rays: the distance of the source, and the colour that is left
 /// of the light that the points would reflect. For light from a place on an area it is the colour that is
 /// left of the light itself.
-struct LightOnItsWay {
+struct ShadowRayLight {
   FloatLanes distance;
   VectorLanes colour;
 };
@@ -37,8 +37,8 @@ struct LightOnItsWay {
 struct alignas(128) SearchRecord {
   RayPacket rays;
   union {
-    HitPacket hits;      ///< closest
-    LightOnItsWay light; ///< for shadow searches; before the search, the colour is that of unoccluded light
+    HitPacket hits;       ///< closest
+    ShadowRayLight light; ///< for shadow searches; before the search, the colour is that of unoccluded light
   };
   uint32_t kind;    ///< SearchKind
   uint32_t lanes;   ///< rays of the search

@@ -139,10 +139,10 @@ private:
       mean.y.store(sums[1] + x);
       mean.z.store(sums[2] + x);
       if constexpr (kHasAlpha) {
-        F clear(0.0f);
+        F transparency(0.0f);
         for (uint32_t corner = 0; corner < 4; ++corner)
-          clear = clear + channel_from(corner < 2 ? upper : lower, 3, x + corner % 2);
-        R::select(R::M::from_bits(divided >> x & ((1u << R::kLanes) - 1)), F(0.0f), clear * F(0.25f))
+          transparency = transparency + channel_from(corner < 2 ? upper : lower, 3, x + corner % 2);
+        R::select(R::M::from_bits(divided >> x & ((1u << R::kLanes) - 1)), F(0.0f), transparency * F(0.25f))
             .store(sums[3] + x);
       }
     }

@@ -211,8 +211,8 @@ private:
       record.interior[lane] = is_hit ? points.interior.lane[lane] : kNoOffset;
     }
     if (frame_.camera.ahead != 0.0f) {
-      const F way = way_to_start<S>(frame_.camera, PrimaryRays::of(member).direction.template load<S>());
-      (F::load(record.distance) + way).store(record.distance);
+      const F ahead = start_offset<S>(frame_.camera, PrimaryRays::of(member).direction.template load<S>());
+      (F::load(record.distance) + ahead).store(record.distance);
     }
     if (member.hit != 0) {
       points.normal.x.store(record.normal[0]);
@@ -346,7 +346,7 @@ private:
     seen = select<S>(S::M::from_bits(with_ray), seen, {black, black, black});
     if (samples_ != nullptr)
       for_each_lane(member.pixels & ~with_ray,
-                    [&](uint32_t lane) { samples_->at[member.number].clear.lane[lane] = 1.0f; });
+                    [&](uint32_t lane) { samples_->at[member.number].transparency.lane[lane] = 1.0f; });
   }
 
   const FrameBlock& frame_;

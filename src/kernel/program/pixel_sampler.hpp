@@ -17,10 +17,10 @@ namespace celltrace::kernel {
 /// A packet of samples: x and y are first positions in pixels from the middle of the picture; then x, y and z
 /// are colours.
 struct SampleLanes : VectorLanes {
-  FloatLanes clear; ///< transparency, with light_feature::alpha; 0 while the packet is not being traced
+  FloatLanes transparency; ///< with light_feature::alpha; 0 while the packet is not being traced
 
   const FloatLanes& operator[](uint32_t axis) const {
-    return axis == 3 ? clear : VectorLanes::operator[](axis);
+    return axis == 3 ? transparency : VectorLanes::operator[](axis);
   }
 };
 
@@ -116,7 +116,7 @@ public:
     under_way_ = false;
     store_ = frame_.sample_store + spu_.id() * sample_store_bytes(kBundleEdge<Spu>, kHasAlpha);
     for (SampleLanes& packet : samples_.at)
-      packet.clear = FloatLanes();
+      packet.transparency = FloatLanes();
   }
 
 protected:
@@ -186,7 +186,7 @@ protected:
     arrive();
     if constexpr (kHasAlpha)
       for (SampleLanes& packet : samples_.at)
-        packet.clear = FloatLanes();
+        packet.transparency = FloatLanes();
   }
 
   /// Returns the packets with a row of the grid's points at the block, beginning with the one to the block's
@@ -243,8 +243,8 @@ protected:
       const V3<R> difference = points_from(a, first_a + x) - points_from(b, first_b + x);
       F sum = absolute_sum<R>(difference);
       if constexpr (kHasAlpha) {
-        const F clear = channel_from(a, 3, first_a + x);
-        sum = sum + R::abs(clear - channel_from(b, 3, first_b + x));
+        const F transparency = channel_from(a, 3, first_a + x);
+        sum = sum + R::abs(transparency - channel_from(b, 3, first_b + x));
       }
       bits |= (sum >= F(frame_.sampling.threshold)).bits() << x;
     }
@@ -282,7 +282,7 @@ protected:
       const uint32_t first = packet * kSimdLanes;
       const uint32_t lanes = count <= first ? 0 : smaller_of(count - first, kSimdLanes);
       samples_.lanes[packet] = (1u << lanes) - 1;
-      if constexpr (kHasAlpha) samples_.at[packet].clear = FloatLanes();
+      if constexpr (kHasAlpha) samples_.at[packet].transparency = FloatLanes();
       if (lanes != 0) place_samples(first, samples_.at[packet]);
     }
   }

@@ -77,23 +77,23 @@ through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& o
     spu.enter_module(modules::kNoise);
     const F noise =
         noise::turbulence_value<S>(middle, fog.turbulence, (fog.flags & fog_flag::first_generator) != 0);
-    const F clear = S::min(noise * F(fog.turbulence_depth), one);
-    depth = depth * (one - exp2<S>(depth * F(kToBinary)) * clear);
+    const F thinning = S::min(noise * F(fog.turbulence_depth), one);
+    depth = depth * (one - exp2<S>(depth * F(kToBinary)) * thinning);
   }
   const F pass = S::max(exp2<S>(depth * density * F(kToBinary)), F(fog.least));
   return {splat3<S>(fog.tint) * pass, splat3<S>(fog.colour) * (one - pass)};
 }
 
 /// A colour of a rainbow's map.
-template <class S> struct BowColour {
+template <class S> struct RainbowColour {
   V3<S> rgb;
   typename S::F filter, transmit;
 };
 
 /// Finds the colour of a rainbow's map at `value`, in the same way as other colour maps.
 template <class Spu>
-void bow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow, const typename Spu::rare_simd::F& value,
-                BowColour<typename Spu::rare_simd>& colour) {
+void rainbow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow,
+                    const typename Spu::rare_simd::F& value, RainbowColour<typename Spu::rare_simd>& colour) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   constexpr auto kBytes = static_cast<uint32_t>(sizeof(MapEntryRecord));
@@ -120,11 +120,11 @@ void bow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow, const typenam
 /// Finds the effect of a rainbow on rays of a length, and its transparency. `seen` receives the lanes that
 /// see it. The formulas are POV-Ray's.
 template <class Spu>
-[[gnu::noinline]] void see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
-                                   const V3<typename Spu::rare_simd>& direction,
-                                   const typename Spu::rare_simd::F& length,
-                                   Passage<typename Spu::rare_simd>& through,
-                                   typename Spu::rare_simd::F& clear, typename Spu::rare_simd::M& seen) {
+[[gnu::noinline]] void
+see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
+            const V3<typename Spu::rare_simd>& direction, const typename Spu::rare_simd::F& length,
+            Passage<typename Spu::rare_simd>& through, typename Spu::rare_simd::F& transparency,
+            typename Spu::rare_simd::M& seen) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   constexpr float kToBinary = -1.44269504f;
@@ -142,8 +142,8 @@ template <class Spu>
   }
   seen = (across >= zero) & (across <= one) & (along <= F(bow.arc)) & (z >= zero);
   if (seen.bits() == 0) return;
-  BowColour<S> colour;
-  bow_colour(scene, bow, across, colour);
+  RainbowColour<S> colour;
+  rainbow_colour(scene, bow, across, colour);
   const F faded = S::min(S::max((along - F(bow.falloff)) * F(bow.inverse_fade), zero), one);
   const F strength = one - faded * faded * (F(3.0f) - (faded + faded));
   const F least = one - strength * (one - colour.transmit);
@@ -153,7 +153,7 @@ template <class Spu>
   const V3<S> white = {one, one, one};
   through.pass = (white + (colour.rgb - white) * tinted) * pass;
   through.add = colour.rgb * opaque;
-  clear = pass * colour.transmit;
+  transparency = pass * colour.transmit;
 }
 
 /// Returns the lanes of `lanes` that are not inside an object without fog.
@@ -185,19 +185,19 @@ template <class S> typename S::F length_of(const HitPacket& hits, uint32_t first
 
 /// Returns the distance from the camera to the start of a node's rays, for rays that start just before the
 /// scene; 0 for rays that start on a surface.
-template <class S> typename S::F way_before(const FrameBlock& frame, const RayNode& ray, uint32_t first) {
+template <class S> typename S::F distance_ahead(const FrameBlock& frame, const RayNode& ray, uint32_t first) {
   const typename S::F none(0.0f);
   if (frame.camera.ahead == 0.0f) return none;
   const V3<S> direction = ray.rays.direction.template load_from<S>(first);
-  return S::select(are_none<S>(ray.rays.start_object, first), way_to_start<S>(frame.camera, direction), none);
+  return S::select(are_none<S>(ray.rays.start_object, first), start_offset<S>(frame.camera, direction), none);
 }
 
 /// Multiplies the transparency along rays in some lanes of a part.
 template <class S>
-[[gnu::noinline]] void dim_clear(const typename S::M& lanes, const typename S::F& pass, RayNode& ray,
-                                 uint32_t first) {
-  const auto clear = S::F::load(ray.power.lane + first);
-  S::select(lanes, clear * pass, clear).store(ray.power.lane + first);
+[[gnu::noinline]] void dim_transparency(const typename S::M& lanes, const typename S::F& pass, RayNode& ray,
+                                        uint32_t first) {
+  const auto transparency = S::F::load(ray.power.lane + first);
+  S::select(lanes, transparency * pass, transparency).store(ray.power.lane + first);
 }
 
 /// Applies the rainbows, whose light fog dims. If a ray sees several, the result is their mean.
@@ -212,17 +212,18 @@ template <class Spu>
     const F zero(0.0f), one(1.0f);
     const V3<S> nothing = {zero, zero, zero};
     Passage<S> sum = {nothing, nothing};
-    F count = zero, clear_sum = zero;
+    F count = zero, transparency_sum = zero;
     for (uint32_t i = 0; i < frame.rainbow_count; ++i) {
       Kept<Spu, RainbowRecord> bow =
           *scene.rainbow(frame.rainbow_offset + i * static_cast<uint32_t>(sizeof(RainbowRecord)));
       Passage<S> through;
-      F clear = zero;
+      F transparency = zero;
       auto seen = S::M::none();
       see_rainbow(scene, bow, i, ray.rays.direction.template load_from<S>(first),
-                  length_of<S>(hits, first) + way_before<S>(frame, ray, first), through, clear, seen);
+                  length_of<S>(hits, first) + distance_ahead<S>(frame, ray, first), through, transparency,
+                  seen);
       if (seen.bits() == 0) continue;
-      clear_sum = clear_sum + S::select(seen, clear, zero);
+      transparency_sum = transparency_sum + S::select(seen, transparency, zero);
       sum.pass = sum.pass + select<S>(seen, through.pass, nothing);
       sum.add = sum.add + select<S>(seen, through.add, nothing);
       count = count + S::select(seen, one, zero);
@@ -234,17 +235,18 @@ template <class Spu>
     light.template store_from<S>(first, select<S>(take, before + throughput * (sum.add * share), before));
     ray.throughput.template store_from<S>(first,
                                           select<S>(take, throughput * (sum.pass * share), throughput));
-    if ((frame.light_features & light_feature::alpha) != 0) dim_clear<S>(take, clear_sum * share, ray, first);
+    if ((frame.light_features & light_feature::alpha) != 0)
+      dim_transparency<S>(take, transparency_sum * share, ray, first);
   });
 }
 
 } // namespace detail
 
-/// Adds to `clear` the transparency of the background, and of the sky in front of it, for rays that hit
-/// nothing and did not come by a mirror. To be called after light_along().
+/// Adds to `sum` the transparency of the background, and of the sky in front of it, for rays that
+/// hit nothing and did not come by a mirror. To be called after light_along().
 template <class Spu>
 [[gnu::noinline]] void see_through(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
-                                   RayNode& ray, FloatLanes& clear) {
+                                   RayNode& ray, FloatLanes& sum) {
   using W = typename Spu::simd;
   using S = typename Spu::rare_simd;
   using F = typename S::F;
@@ -267,12 +269,12 @@ template <class Spu>
     F share = F::load(ray.power.lane + first);
     if (dims) {
       const V3<S> throughput = ray.throughput.template load_from<S>(first);
-      const V3<S> left = throughput * F(1.0f - frame.background_clear);
+      const V3<S> left = throughput * F(1.0f - frame.background_transparency);
       ray.throughput.template store_from<S>(first, select<S>(take & (share > zero), left, throughput));
     }
-    share = share * F(frame.background_clear);
+    share = share * F(frame.background_transparency);
     if (has_sky) share = share * grey<S>(part_of<Spu>(seen[1], first) - part_of<Spu>(seen[0], first));
-    (F::load(clear.lane + first) + S::select(take, share, zero)).store(clear.lane + first);
+    (F::load(sum.lane + first) + S::select(take, share, zero)).store(sum.lane + first);
   });
 }
 

@@ -29,14 +29,14 @@ template <class Spu>
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(same, first);
       if (some == 0) return;
-      const F way = F::load(distance.lane + first) * F(r.inverse_fade_distance);
+      const F depth = F::load(distance.lane + first) * F(r.inverse_fade_distance);
       const F one(1.0f);
       V3<S> left;
       if (r.fade_power >= kExponential) {
-        const auto of = [&](float colour) { return exp2<S>(way * F((colour - 1.0f) * kToBinary)); };
+        const auto of = [&](float colour) { return exp2<S>(depth * F((colour - 1.0f) * kToBinary)); };
         left = {of(r.fade_colour[0]), of(r.fade_colour[1]), of(r.fade_colour[2])};
       } else {
-        const F share = one / (one + Strategy<Spu>::template raised<S>(way, r.fade_power));
+        const F share = one / (one + Strategy<Spu>::template raised<S>(depth, r.fade_power));
         const V3<S> colour = splat3<S>(r.fade_colour);
         left = colour + (V3<S>{one, one, one} - colour) * share;
       }

@@ -52,15 +52,15 @@ V3<typename Spu::rare_simd> film_factors(Spu& spu, const FinishRecord& f,
                                          const typename Spu::rare_simd::F& cosines) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
-  F way = cosines * F(f.irid_thickness);
+  F path = cosines * F(f.irid_thickness);
   if (f.irid_turbulence != 0.0f) {
     constexpr TurbulenceWords kFilm = {{1.0f, 1.0f, 1.0f}, 2.0f, 0.5f, 5};
     spu.enter_module(modules::kNoise);
     const F noise = noise::turbulence_value<S>(point, kFilm, f.first_generator != 0);
-    way = way * (F(1.0f) + F(f.irid_turbulence) * (noise + noise - F(1.0f)));
+    path = path * (F(1.0f) + F(f.irid_turbulence) * (noise + noise - F(1.0f)));
   }
   const auto factor = [&](float inverse_wavelength) {
-    return F(1.0f) + F(f.irid) * cosine_of_turns<S>(way * F(inverse_wavelength));
+    return F(1.0f) + F(f.irid) * cosine_of_turns<S>(path * F(inverse_wavelength));
   };
   return {factor(f.inverse_wavelength[0]), factor(f.inverse_wavelength[1]), factor(f.inverse_wavelength[2])};
 }
@@ -112,7 +112,7 @@ CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Sur
   using F = typename R::F;
   scene.spu().run_in_module(modules::kFinishes);
   for_each_value<S>(
-      *m.offsets, m.special & (onward.mirrors | onward.clear), [&](uint32_t offset, uint32_t same) {
+      *m.offsets, m.special & (onward.mirrors | onward.transmits), [&](uint32_t offset, uint32_t same) {
         Kept<Spu, FinishRecord> f = *scene.finish(scene.material(offset)->finish);
         if (f.irid == 0.0f) return;
         for_each_part<Spu>([&](uint32_t first) {

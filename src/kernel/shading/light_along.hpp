@@ -17,16 +17,16 @@ template <class S> struct RaySegments {
 
 /// Light that the rays of a node see: media along the rays add to `light`, and multiply the node's throughput
 /// for the hits.
-template <class Spu> class SeenLight {
+template <class Spu> class PathRadiance {
 public:
   using S = typename Spu::rare_simd;
 
-  SeenLight(const HitPacket& hits, RayNode& node, VectorLanes& seen)
+  PathRadiance(const HitPacket& hits, RayNode& node, VectorLanes& seen)
       : ray(node), light(seen), hits_(hits), undimmed_(node.throughput) {}
 
   RaySegments<S> segments(const FrameBlock& frame, uint32_t first) const {
     const V3<S> direction = ray.rays.direction.template load_from<S>(first);
-    const typename S::F before_scene = detail::way_before<S>(frame, ray, first);
+    const typename S::F before_scene = detail::distance_ahead<S>(frame, ray, first);
     return {ray.rays.origin.template load_from<S>(first) - direction * before_scene, direction,
             detail::length_of<S>(hits_, first) + before_scene};
   }
@@ -38,7 +38,7 @@ public:
         first, select<S>(take, before + undimmed_.template load_from<S>(first) * passage.add, before));
     ray.throughput.template store_from<S>(first, select<S>(take, throughput * passage.pass, throughput));
     if ((frame.light_features & light_feature::alpha) != 0)
-      detail::dim_clear<S>(take, grey<S>(passage.pass), ray, first);
+      detail::dim_transparency<S>(take, grey<S>(passage.pass), ray, first);
   }
   void see_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t lanes) {
     if (frame.rainbow_count != 0) detail::cross_rainbows(scene, frame, hits_, lanes, ray, light);
@@ -54,11 +54,11 @@ private:
 
 /// Light that arrives along shadow rays: `arriving` is multiplied by the share that passes between the rays'
 /// origins and their hits, or the light, which is `left` away.
-template <class Spu> class ArrivingLight {
+template <class Spu> class ShadowRadiance {
 public:
   using S = typename Spu::rare_simd;
 
-  ArrivingLight(const HitPacket& hits, const FloatLanes& left, const RayNode& node, VectorLanes& arriving)
+  ShadowRadiance(const HitPacket& hits, const FloatLanes& left, const RayNode& node, VectorLanes& arriving)
       : ray(node), light(arriving), hits_(hits), left_(left) {}
 
   RaySegments<S> segments(const FrameBlock&, uint32_t first) const {
@@ -79,8 +79,7 @@ private:
   const FloatLanes& left_;
 };
 
-/// Follows light along rays: a SeenLight or an ArrivingLight, which is made of `arguments`. It is made here,
-/// so that its code is in the module.
+/// Follows light along rays with a PathRadiance or ShadowRadiance, which is made here, in the code module.
 template <template <class> class Light, class Spu, class... Arguments>
 [[gnu::noinline]] void light_along(SceneAccess<Spu>& scene, const FrameBlock& frame,
                                    Arguments&... arguments) {
@@ -93,8 +92,8 @@ template <template <class> class Light, class Spu, class... Arguments>
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(lanes, first);
       if (some == 0) return;
-      const RaySegments<S> way = light.segments(frame, first);
-      const Passage<S> fogged = detail::through_fog(scene.spu(), fog, way.origin, way.direction, way.length);
+      const RaySegments<S> ray = light.segments(frame, first);
+      const Passage<S> fogged = detail::through_fog(scene.spu(), fog, ray.origin, ray.direction, ray.length);
       light.pass(frame, first, S::M::from_bits(some), fogged);
     });
   }

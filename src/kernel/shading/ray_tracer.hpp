@@ -14,7 +14,6 @@ template <class Spu, uint32_t kResident = kResidentNodes>
 class RayTracer : public SurfaceShading<Spu, kResident> {
   using Shading = SurfaceShading<Spu, kResident>;
   using Shading::add;
-  using Shading::clear_;
   using Shading::count;
   using Shading::counters_;
   using Shading::ends;
@@ -24,6 +23,7 @@ class RayTracer : public SurfaceShading<Spu, kResident> {
   using Shading::light_of_ends;
   using Shading::node_;
   using Shading::scene_;
+  using Shading::transparency_;
 
 public:
   using typename Shading::F;
@@ -73,10 +73,10 @@ public:
     scene_.spu().compute(scalar_work::kNode);
     if (has_atmosphere(frame_)) {
       scene_.spu().enter_module(modules::kAtmosphere);
-      light_along<SeenLight>(scene_, frame_, hits_, node_, light_[node_.target]);
+      light_along<PathRadiance>(scene_, frame_, hits_, node_, light_[node_.target]);
       if ((frame_.light_features & light_feature::alpha) != 0) {
         scene_.spu().enter_module(modules::kSky);
-        see_through(scene_, frame_, hits_, node_, *clear_);
+        see_through(scene_, frame_, hits_, node_, *transparency_);
       }
     }
     const uint32_t hit = hit_lanes<S>(hits_, node_.lanes);

@@ -65,7 +65,7 @@ public:
   const VectorLanes& light() const { return light_[0]; }
 
   /// Sets where later trees add the transparency of their pixels. Necessary with light_feature::alpha.
-  void add_clear_to(FloatLanes& clear) { clear_ = &clear; }
+  void add_transparency_to(FloatLanes& sum) { transparency_ = &sum; }
 
   /// Returns the state of pooling: the rays that go to a pool, and the pixels of the rays that are traced.
   auto& pooling() { return pooling_; }
@@ -113,7 +113,7 @@ protected:
   /// Pushes the secondary rays; `smooth` is the normal before it was disturbed.
   CELLTRACE_ONE_COPY void spawn(const Surfaces<S>& surfaces, const V3<S>& smooth, const WordLanes& interior,
                                 const SecondaryRays<S>& onward) {
-    if ((onward.mirrors | onward.clear) == 0 || !round_.is_first()) return;
+    if ((onward.mirrors | onward.transmits) == 0 || !round_.is_first()) return;
     scene_.spu().compute(scalar_work::kSpawn);
     scene_.spu().enter_module(modules::kSecondary);
     const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
@@ -124,7 +124,7 @@ protected:
           return mirror<R>(direction, normal, undisturbed);
         },
         surfaces.direction, surfaces.normal, smooth);
-    const uint32_t total = onward.clear != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
+    const uint32_t total = onward.transmits != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
     reflect(surfaces, onward, onward.mirrors & ~total, mirrored);
   }
 
@@ -213,8 +213,8 @@ private:
       const VectorLanes throughput = child.throughput;
       child.throughput.template store<S>(through);
       if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child.throughput, false);
-      const F clear = F::load(node_.power.lane) * grey<S>(child.throughput.template load<S>());
-      clear.store(child.power.lane);
+      const F transparency = F::load(node_.power.lane) * grey<S>(child.throughput.template load<S>());
+      transparency.store(child.power.lane);
       child.throughput = throughput;
     }
     if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child.throughput, false);
@@ -266,7 +266,8 @@ private:
     scene_.spu().run_in_module(modules::kSecondary);
     RayNode& child = stack_.next();
     inherit_interiors();
-    const Refraction refraction = cross_surfaces(scene_, interior, onward.clear, child, counters_.dropped);
+    const Refraction refraction =
+        cross_surfaces(scene_, interior, onward.transmits, child, counters_.dropped);
     const F ratio = F::load(refraction.ratio.lane);
     V3<S> bent;
     uint32_t beyond = 0;
@@ -278,7 +279,7 @@ private:
           refract<R>(part(surfaces.direction), part(surfaces.normal), part(cosine), part(ratio), is_total));
       beyond |= is_total.bits() << first;
     });
-    const uint32_t total = beyond & onward.clear & ~refraction.straight;
+    const uint32_t total = beyond & onward.transmits & ~refraction.straight;
     const M total_mask = M::from_bits(total);
     V3<S> direction = select<S>(M::from_bits(refraction.straight), surfaces.direction, bent);
     direction = select<S>(total_mask, mirrored, direction);
@@ -290,11 +291,11 @@ private:
     });
     // POV-Ray's weight is that of a transmitted ray even if all light is reflected.
     if (prepare_child(surfaces, direction, select<S>(total_mask, onward.reflected_inside, onward.through),
-                      F::load(node_.weight.lane) * onward.through_weight, onward.clear & ~refraction.straight,
-                      onward.clear)) {
+                      F::load(node_.weight.lane) * onward.through_weight,
+                      onward.transmits & ~refraction.straight, onward.transmits)) {
       if ((frame_.light_features & (light_feature::fading | light_feature::alpha)) != 0) {
         scene_.spu().enter_module(modules::kFading);
-        fade_child(interior, onward.through, onward.clear);
+        fade_child(interior, onward.through, onward.transmits);
       }
       child.reflected |= total & child.lanes;
       counters_.refraction += count(child.lanes);
@@ -312,8 +313,8 @@ protected:
   HitPacket hits_;
   /// Number of accumulators. Reflections with exponents that are nested deeper stay without their exponents.
   static constexpr uint32_t kAccumulators = 8;
-  VectorLanes light_[kAccumulators]; ///< index: RayNode::target
-  FloatLanes* clear_ = nullptr;      ///< transparency of the packet's pixels; with light_feature::alpha
+  VectorLanes light_[kAccumulators];   ///< index: RayNode::target
+  FloatLanes* transparency_ = nullptr; ///< transparency of the packet's pixels; with light_feature::alpha
   uint32_t accumulators_in_use_ = 1;
   LightRound round_ = {}; ///< current round of shading; secondary rays are spawned in the first
   RayCounters counters_;

@@ -177,22 +177,22 @@ template <class S> struct SecondaryRays {
   using F = typename S::F;
   V3<S> mirror, through;
   F mirror_weight, through_weight;
-  V3<S> reflected_inside;          ///< factor of totally reflected light, in lanes of `clear`
-  F reflection_power;              ///< exponent of mirrored light, if bends_reflection
-  uint32_t mirrors = 0, clear = 0; ///< lanes with mirrored light, and with transmitted light
+  V3<S> reflected_inside;              ///< factor of totally reflected light, in lanes of `transmits`
+  F reflection_power;                  ///< exponent of mirrored light, if bends_reflection
+  uint32_t mirrors = 0, transmits = 0; ///< lanes with mirrored light, and with transmitted light
   bool bends_reflection = false;
 
   static SecondaryRays nothing() {
     SecondaryRays o;
-    o.clear_all();
+    o.reset();
     return o;
   }
-  void clear_all() {
+  void reset() {
     const F zero(0.0f);
     mirror = through = reflected_inside = {zero, zero, zero};
     mirror_weight = through_weight = zero;
     reflection_power = F(1.0f);
-    mirrors = clear = 0;
+    mirrors = transmits = 0;
     bends_reflection = false;
   }
   /// Sets the values of lanes that have none yet.
@@ -203,15 +203,15 @@ template <class S> struct SecondaryRays {
     kernel::set_part<Spu>(through_weight, first, part.through_weight);
     kernel::set_part<Spu>(reflection_power, first, part.reflection_power);
     mirrors |= part.mirrors << first;
-    clear |= part.clear << first;
+    transmits |= part.transmits << first;
     bends_reflection = part.bends_reflection;
   }
-  bool is_nothing() const { return (mirrors | clear) == 0; }
+  bool is_nothing() const { return (mirrors | transmits) == 0; }
   /// Returns true if adaptive depth control would treat the rays of both alike, and neither bends
   /// reflections.
   template <class Spu> bool weighs_like(const SecondaryRays& other) const {
     using R = typename Spu::rare_simd;
-    uint32_t unlike = (mirrors ^ other.mirrors) | (clear ^ other.clear);
+    uint32_t unlike = (mirrors ^ other.mirrors) | (transmits ^ other.transmits);
     for_each_part<Spu>([&](uint32_t first) {
       const auto differ = [first](const F& a, const F& b) {
         return (R::abs(part_of<Spu>(a, first) - part_of<Spu>(b, first)) > typename R::F(1e-6f)).bits();
@@ -237,7 +237,7 @@ template <class S> struct SecondaryRays {
       greatest(through_weight, other.through_weight);
     });
     mirrors |= other.mirrors;
-    clear |= other.clear;
+    transmits |= other.transmits;
   }
 };
 
@@ -268,11 +268,11 @@ secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const 
   const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
   V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};
   filter = select<S>(S::M::from_bits(m.conserve_energy), filter * (one - mirrored), filter);
-  onward.clear = (grey<S>(filter) > F(adc_bailout)).bits() & lanes;
-  const auto clear = S::M::from_bits(onward.clear);
-  const F counted = S::select(clear, share, zero);
+  onward.transmits = (grey<S>(filter) > F(adc_bailout)).bits() & lanes;
+  const auto transmitted = S::M::from_bits(onward.transmits);
+  const F counted = S::select(transmitted, share, zero);
   onward.through = filter * counted;
-  onward.through_weight = S::select(clear, max_component<S>(filter), zero);
+  onward.through_weight = S::select(transmitted, max_component<S>(filter), zero);
 }
 
 } // namespace detail

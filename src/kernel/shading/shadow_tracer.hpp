@@ -135,7 +135,7 @@ private:
       traversal_.find_closest(walk.ray->rays, walk.ray->lanes, walk.hits, kSeesAll);
       if (dims) {
         scene_.spu().enter_module(modules::kAtmosphere);
-        light_along<ArrivingLight>(scene_, frame_, walk.hits, walk.left, *walk.ray, *walk.light);
+        light_along<ShadowRadiance>(scene_, frame_, walk.hits, walk.left, *walk.ray, *walk.light);
       }
       scene_.spu().enter_module(modules::kShadowWalk);
       const uint32_t hit = hits_of_walk(scene_.spu(), walk);

@@ -166,9 +166,9 @@ template <class Spu>
   const V3<S> light = walk.light->template load<S>();
   walk.light->template store<S>(select<S>(M::from_bits(dark), {zero, zero, zero}, light));
   walk.ray->lanes = before_light & ~dark;
-  const M goes_on = M::from_bits(walk.ray->lanes);
+  const M walking = M::from_bits(walk.ray->lanes);
   walk.ray->rays.origin.template store<S>(
-      select<S>(goes_on, walk.points.point, walk.ray->rays.origin.template load<S>()));
+      select<S>(walking, walk.points.point, walk.ray->rays.origin.template load<S>()));
   walk.ray->rays.start_object = walk.hits.object;
   (left - distance).store(walk.left.lane);
 }

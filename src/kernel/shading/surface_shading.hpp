@@ -232,9 +232,9 @@ private:
       fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
     find_secondary_rays<Spu>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio,
                              frame_.adc_bailout, lanes, share, onward);
-    const F counted = S::select(S::M::from_bits(onward.clear), share, F(0.0f));
+    const F counted = S::select(S::M::from_bits(onward.transmits), share, F(0.0f));
     onward.reflected_inside = {counted, counted, counted};
-    if ((m.special & (onward.mirrors | onward.clear)) != 0) {
+    if ((m.special & (onward.mirrors | onward.transmits)) != 0) {
       scene_.spu().enter_module(modules::kFinishes);
       change_special_mirror(scene_, surfaces, smooth, m, onward);
     }
@@ -262,8 +262,8 @@ private:
       add_light(surfaces, m, lanes, above * share);
       SecondaryRays<S> rays = onward_rays(surfaces, smooth, interior, m, lanes, one);
       if (rays.is_nothing()) break;
-      const uint32_t clear = rays.clear;
-      rays.clear = 0;
+      const uint32_t clear = rays.transmits;
+      rays.transmits = 0;
       // As in POV-Ray, mirrored light is not dimmed by the layers above, but its weight is.
       uint32_t bright = 0;
       for_each_part<Spu>([&](uint32_t first) {
@@ -284,7 +284,7 @@ private:
         spawn(surfaces, smooth, interior, rays);
       }
       // Light is transmitted through all layers in the lanes whose last layer this is.
-      onward.clear |= bright & ~m.layered;
+      onward.transmits |= bright & ~m.layered;
       lanes = bright & m.layered;
       for_each_value<S>(materials, lanes, [&](uint32_t offset, uint32_t same) {
         const uint32_t below = scene_.material(offset)->below;
@@ -293,7 +293,7 @@ private:
     }
     for_each_part<Spu>([&](uint32_t first) {
       const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
-      const auto clear = R::M::from_bits(part(onward.clear));
+      const auto clear = R::M::from_bits(part(onward.transmits));
       const typename R::F zero(0.0f), through = R::select(clear, part(share), zero);
       const V3<R> left = part(above);
       set_part<Spu>(onward.through, first, left * through);
@@ -303,7 +303,7 @@ private:
     if (is_disturbed) {
       surfaces.normal = outermost;
       spawn(surfaces, smooth, interior, onward);
-      onward.clear_all();
+      onward.reset();
     }
     surfaces.normal = smooth;
     if (surface_ != nullptr) surface_->normal.template store<S>(smooth);
