@@ -11,7 +11,7 @@ namespace celltrace::pov {
 
 void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
                const Location& where) {
-  if (pigment.asks_for_surface()) session.fail(where, "a sky_sphere has no surface for this pigment");
+  if (pigment.depends_on_surface()) session.fail(where, "a sky_sphere has no surface for this pigment");
   append(session, sky.pigments, pigment, where);
 }
 

@@ -116,20 +116,20 @@ void add(Session& session, PigmentMap& map, double position, const PigmentDefini
          const Location& where) {
   add(session, map, position, pigment.finish(), pigment.depth(), pigment.is_opaque(),
       pigment.first_unsupported(), where);
-  map.asks_for_surface = map.asks_for_surface || pigment.asks_for_surface();
+  map.depends_on_surface = map.depends_on_surface || pigment.depends_on_surface();
 }
 
 void add(Session& session, NormalMap& map, double position, const NormalDefinition& normal,
          const Location& where) {
   add(session, map, position, normal.finish(), normal.depth(), true, normal.first_unsupported(), where);
-  map.asks_for_surface = map.asks_for_surface || normal.asks_for_surface();
+  map.depends_on_surface = map.depends_on_surface || normal.depends_on_surface();
 }
 
 void add(Session& session, TextureMap& map, double position, const TexturePtr& texture,
          const Location& where) {
   add(session, map, position, texture, texture->depth(), texture->is_opaque(), texture->first_unsupported(),
       where);
-  map.asks_for_surface = map.asks_for_surface || texture->asks_for_surface();
+  map.depends_on_surface = map.depends_on_surface || texture->depends_on_surface();
 }
 
 void add(Session& session, PigmentMap& map, double position, const Pigment& colour, const Location& where) {
@@ -147,7 +147,7 @@ void add_colour(Session& session, PigmentMap& map, double position, const Quanti
 void add(Session& session, PigmentMap& map, const PigmentMap& entries, const Location& where) {
   for (const auto& [position, pigment] : entries.entries)
     add(session, map, position, pigment, entries.depth - 1, entries.is_opaque, entries.unsupported, where);
-  map.asks_for_surface = map.asks_for_surface || entries.asks_for_surface;
+  map.depends_on_surface = map.depends_on_surface || entries.depends_on_surface;
 }
 
 void add(Session& session, std::vector<SlopePoint>& map, double position, const Vec3& height_and_slope,

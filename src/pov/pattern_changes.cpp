@@ -129,7 +129,7 @@ PatternChange grey(const PigmentDefinition& pigment) {
   return [=](Session&, PatternDefinition& pattern) {
     choose(pattern, pattern::Grey{std::make_shared<const Pigment>(pigment.finish())});
     pattern.inner_depth = std::max(pigment.depth(), 1);
-    pattern.inner_asks_for_surface = pigment.asks_for_surface();
+    pattern.inner_depends_on_surface = pigment.depends_on_surface();
     mark(pattern.unsupported, pigment.first_unsupported());
   };
 }

@@ -324,8 +324,8 @@ void put_on_surface(PatternDefinition& pattern) {
   if (pattern.exists()) pattern.own().uv_mapping = true;
 }
 
-bool asks_for_surface(const PatternDefinition& pattern) {
-  return pattern.exists() && (pattern.value().uv_mapping || pattern.inner_asks_for_surface ||
+bool depends_on_surface(const PatternDefinition& pattern) {
+  return pattern.exists() && (pattern.value().uv_mapping || pattern.inner_depends_on_surface ||
                               std::holds_alternative<Slope>(pattern.value().kind));
 }
 
@@ -346,7 +346,7 @@ void choose(PatternDefinition& pattern, int number) {
   const PatternEntry& entry = entry_of(pattern);
   pattern.own().kind = entry.make();
   pattern.inner_depth = 0;
-  pattern.inner_asks_for_surface = false;
+  pattern.inner_depends_on_surface = false;
   if (entry.wave != Wave::ramp) pattern.own().wave = entry.wave;
   if (entry.frequency != 1) pattern.own().frequency = entry.frequency;
 }

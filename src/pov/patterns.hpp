@@ -45,7 +45,7 @@ struct PatternDefinition {
   int number = kNoPattern; ///< index in pattern_words()
   UnsupportedPtr unsupported;
   int inner_depth = 0; ///< if a pigment is the pattern: depth of its maps, itself included
-  bool inner_asks_for_surface =
+  bool inner_depends_on_surface =
       false; ///< if a pigment is the pattern: it depends on more of a surface than points
 
   const Pattern& value() const;
@@ -68,7 +68,7 @@ private:
 void put_on_surface(PatternDefinition& pattern);
 bool is_on_surface(const PatternDefinition& pattern);
 /// Returns whether a pattern depends on more of a surface than points.
-bool asks_for_surface(const PatternDefinition& pattern);
+bool depends_on_surface(const PatternDefinition& pattern);
 /// Makes `pattern` the one with this number. Earlier modifiers keep their effect, unless it was on surface
 /// coordinates; but a new pattern with a wave or a frequency of its own sets that.
 void choose(PatternDefinition& pattern, int number);

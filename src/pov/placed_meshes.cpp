@@ -66,7 +66,7 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
     diagnostics_.warn_once(where, "this triangle is left out: a number of it is not finite");
   if (own.inner_texture) turn_outside(placed);
   // Surface coordinates are x and y, as for all shapes without coordinates of their own.
-  if (own.texture && (own.uv_mapping || own.texture->asks_for_surface())) {
+  if (own.texture && (own.uv_mapping || own.texture->depends_on_surface())) {
     placed.is_mapped = true;
     for (std::size_t i = 0; i < 3; ++i)
       placed.coordinates[i] = Vec2f(placed.vertices[i]);

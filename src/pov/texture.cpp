@@ -78,20 +78,21 @@ UnsupportedPtr PigmentDefinition::first_unsupported() const {
   return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr});
 }
 
-bool NormalDefinition::asks_for_surface() const {
-  return pov::asks_for_surface(pattern) || (pattern.exists() && map && map->asks_for_surface);
+bool NormalDefinition::depends_on_surface() const {
+  return pov::depends_on_surface(pattern) || (pattern.exists() && map && map->depends_on_surface);
 }
 
-bool TextureDefinition::asks_for_surface() const {
+bool TextureDefinition::depends_on_surface() const {
   for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
-    if (layer->is_on_surface || pov::asks_for_surface(layer->pattern) || layer->pigment.asks_for_surface() ||
-        (layer->normal && layer->normal->asks_for_surface()) || (layer->map && layer->map->asks_for_surface))
+    if (layer->is_on_surface || pov::depends_on_surface(layer->pattern) ||
+        layer->pigment.depends_on_surface() || (layer->normal && layer->normal->depends_on_surface()) ||
+        (layer->map && layer->map->depends_on_surface))
       return true;
   return false;
 }
 
-bool PigmentDefinition::asks_for_surface() const {
-  return pov::asks_for_surface(pattern) || (pattern.exists() && map && map->asks_for_surface);
+bool PigmentDefinition::depends_on_surface() const {
+  return pov::depends_on_surface(pattern) || (pattern.exists() && map && map->depends_on_surface);
 }
 
 bool PigmentDefinition::is_opaque() const {

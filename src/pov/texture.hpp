@@ -27,10 +27,10 @@ using TexturePtr = std::shared_ptr<const TextureDefinition>;
 /// The entries of a map or of a pattern's list: colours, pigments, normals or textures.
 template <class T> struct MapDefinition {
   std::vector<typename PatternMap<T>::Entry> entries;
-  int depth = 1;                 ///< levels of nested maps
-  bool is_opaque = true;         ///< no entry lets light through
-  bool asks_for_surface = false; ///< some entry depends on more of a surface than points
-  UnsupportedPtr unsupported;    ///< first unsupported feature in any entry
+  int depth = 1;                   ///< levels of nested maps
+  bool is_opaque = true;           ///< no entry lets light through
+  bool depends_on_surface = false; ///< some entry depends on more of a surface than points
+  UnsupportedPtr unsupported;      ///< first unsupported feature in any entry
 };
 using PigmentMap = MapDefinition<Pigment>;
 using NormalMap = MapDefinition<Normal>;
@@ -56,7 +56,7 @@ struct PigmentDefinition {
   /// Returns whether the pigment lets no light through.
   bool is_opaque() const;
   /// Returns whether the pigment, or something in its map, is on surface coordinates, or a slope.
-  bool asks_for_surface() const;
+  bool depends_on_surface() const;
   Pigment finish() const;
 };
 using PigmentPtr = std::shared_ptr<const PigmentDefinition>;
@@ -73,7 +73,7 @@ struct NormalDefinition {
   [[no_unique_address]] Counted<NormalDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
-  bool asks_for_surface() const;
+  bool depends_on_surface() const;
   int depth() const { return map ? std::max(map->depth, 1 + pattern.inner_depth) : pattern.inner_depth; }
   bool is_smooth() const { return !pattern.exists(); }
   Normal finish() const;
@@ -137,7 +137,7 @@ struct TextureDefinition {
   /// Returns whether the texture lets no light through, so that a layer below does not matter.
   bool is_opaque() const;
   /// Returns whether the texture depends on more of a surface than points.
-  bool asks_for_surface() const;
+  bool depends_on_surface() const;
   /// Returns whether the texture is the same everywhere in space.
   bool is_constant() const;
   /// Returns whether the texture has a pigment, normal and finish that can be changed, and can be a layer.

@@ -65,7 +65,7 @@ public:
 std::shared_ptr<const NativeFunction> pigment_function(const PigmentDefinition& pigment) {
   if (const UnsupportedPtr unsupported = pigment.first_unsupported())
     return unsupported_function(unsupported->what, 3, 5);
-  if (pigment.asks_for_surface())
+  if (pigment.depends_on_surface())
     return unsupported_function("a pigment of surface coordinates or slopes as a function", 3, 5);
   return std::make_shared<PigmentFunction>(pigment.finish());
 }
@@ -73,7 +73,7 @@ std::shared_ptr<const NativeFunction> pigment_function(const PigmentDefinition& 
 std::shared_ptr<const NativeFunction> pattern_function(const PigmentDefinition& pigment) {
   if (pigment.pattern.unsupported) return unsupported_function(pigment.pattern.unsupported->what, 3, 1);
   if (pigment.unsupported) return unsupported_function(pigment.unsupported->what, 3, 1);
-  if (asks_for_surface(pigment.pattern))
+  if (depends_on_surface(pigment.pattern))
     return unsupported_function("a pattern of surface coordinates or slopes as a function", 3, 1);
   return std::make_shared<PatternFunction>(pigment.finish());
 }

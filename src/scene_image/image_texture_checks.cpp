@@ -46,11 +46,11 @@ public:
     // Materials refer to later ones only, so that the last one is checked first.
     for (std::uint32_t i = h_.material_count; i-- > 0;)
       if (!material_is_sound(i)) return false;
-    if (!surfaces_are_told_of()) return false;
+    if (!surface_flags_are_complete()) return false;
     if (h_.sky == kNoOffset) return true;
     const std::uint32_t sky = materials_.find(h_.sky);
     return sky != materials_.count && (materials_[sky].flags & material_flag::mapped) == 0 &&
-           !material_asks_[sky];
+           !material_depends_[sky];
   }
 
 private:
@@ -123,27 +123,27 @@ private:
   /// refer to earlier ones only.
   void find_pigment_depths() {
     pigment_depth_.assign(h_.pattern_count, 0);
-    pattern_asks_.assign(h_.pattern_count, false);
+    pattern_depends_.assign(h_.pattern_count, false);
     for (std::uint32_t i = 0; i < h_.pattern_count; ++i) {
       pigment_depth_[i] = depth_of(i);
       const PatternRecord& r = patterns_[i];
-      bool asks = pattern_asks(i);
+      bool depends = pattern_depends(i);
       for (std::uint32_t entry = 0; pigment_depth_[i] > 1 && entry < r.entry_count; ++entry)
         if (const std::uint32_t child = child_of(r, entry); child != kNoOffset)
-          asks = asks || pattern_asks_[patterns_.find(child)];
-      pattern_asks_[i] = asks;
+          depends = depends || pattern_depends_[patterns_.find(child)];
+      pattern_depends_[i] = depends;
     }
   }
   /// Returns whether a pattern itself needs more than a point.
-  static bool asks_by_itself(const PatternRecord& r) {
+  static bool depends_by_itself(const PatternRecord& r) {
     return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
            Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
   }
   /// Returns whether a pattern, or the pigment that it consists of, needs more than a point. Earlier patterns
   /// must have been checked.
-  bool pattern_asks(std::uint32_t pattern) const {
+  bool pattern_depends(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
-    return asks_by_itself(r) || (is_pigment(r) && pattern_asks_[patterns_.find(r.table)]);
+    return depends_by_itself(r) || (is_pigment(r) && pattern_depends_[patterns_.find(r.table)]);
   }
   /// Returns how deep maps nest in a pattern that is a pigment; 0 for any other pattern.
   std::uint32_t depth_inside(std::uint32_t pattern) const {
@@ -196,17 +196,17 @@ private:
     if (pattern == patterns_.count) return false;
     if (!inside_is_sound(pattern) || is_relative(pattern)) return false;
     if (is_of_colours(patterns_[pattern])) return false;
-    bool asks = pattern_asks(pattern);
+    bool depends = pattern_depends(pattern);
     depth = depth_inside(pattern);
     if (r.is_mapped != 0)
       for (std::uint32_t i = 0; i < patterns_[pattern].entry_count; ++i) {
         const std::uint32_t child = normals_.find(child_of(patterns_[pattern], i));
         if (child >= normal) return false;
         depth = std::max(depth, normal_depth_[child]);
-        asks = asks || normal_asks_[child];
+        depends = depends || normal_depends_[child];
       }
     normal_depth_.push_back(r.is_mapped != 0 ? depth + 1 : depth);
-    normal_asks_.push_back(asks);
+    normal_depends_.push_back(depends);
     return normal_depth_.back() <= kDeepestMapWalk &&
            (r.is_mapped == 0 || patterns_[pattern].entry_count != 0);
   }
@@ -216,23 +216,23 @@ private:
     const auto has = [&](std::uint32_t flag) { return (r.flags & flag) != 0; };
     if (material_depth_.empty()) {
       layers_ = material_depth_ = std::vector<std::uint32_t>(h_.material_count, 0);
-      material_asks_.assign(h_.material_count, false);
+      material_depends_.assign(h_.material_count, false);
     }
     const bool mapped = has(material_flag::mapped);
-    bool asks = false;
+    bool depends = false;
     if (mapped || has(material_flag::patterned)) {
       const std::uint32_t pattern = patterns_.find(r.pattern);
       if (pattern == patterns_.count) return false;
       if (mapped ? !inside_is_sound(pattern) : pigment_depth_[pattern] == 0) return false;
       if (mapped && is_of_colours(patterns_[pattern])) return false;
-      asks = pattern_asks_[pattern];
+      depends = pattern_depends_[pattern];
       if (mapped) material_depth_[material] = depth_inside(pattern) + 1;
       for (std::uint32_t i = 0; mapped && i < patterns_[pattern].entry_count; ++i) {
         const std::uint32_t child = materials_.find(child_of(patterns_[pattern], i));
         if (child == materials_.count || child <= material || is_relative_map(materials_[child]))
           return false;
         material_depth_[material] = std::max(material_depth_[material], material_depth_[child] + 1);
-        asks = asks || material_asks_[child];
+        depends = depends || material_depends_[child];
       }
       if (mapped && (patterns_[pattern].entry_count == 0 || material_depth_[material] > kDeepestMapWalk))
         return false;
@@ -243,16 +243,16 @@ private:
     if (has(material_flag::disturbed)) {
       const std::uint32_t normal = normals_.find(r.normal);
       if (normal == normals_.count) return false;
-      asks = asks || normal_asks_[normal];
+      depends = depends || normal_depends_[normal];
     }
-    material_asks_[material] = asks;
+    material_depends_[material] = depends;
     if (!has(material_flag::layered)) return r.below == kNoOffset;
     const std::uint32_t below = materials_.find(r.below);
     if (below == materials_.count || below <= material || mapped ||
         (materials_[below].flags & material_flag::mapped) != 0)
       return false;
     layers_[material] = layers_[below] + 1;
-    material_asks_[material] = asks || material_asks_[below];
+    material_depends_[material] = depends || material_depends_[below];
     return layers_[material] <= kMostLayers;
   }
 
@@ -262,27 +262,27 @@ private:
 
   /// Returns true if every object whose patterns need more than points is flagged, and the scene's flags for
   /// shadow rays say that there are such objects and whether some of them let light through.
-  bool surfaces_are_told_of() const {
+  bool surface_flags_are_complete() const {
     const auto* objects =
         reinterpret_cast<const ObjectRecord*>(base_ + h_.object_offset) - h_.unbounded_count;
-    const auto asks = [&](std::uint32_t offset, bool two_sided) {
+    const auto depends = [&](std::uint32_t offset, bool two_sided) {
       const std::uint32_t material = materials_.find(offset);
-      return material_asks_[material] ||
-             (two_sided && material_asks_[materials_.find(materials_[material].inside)]);
+      return material_depends_[material] ||
+             (two_sided && material_depends_[materials_.find(materials_[material].inside)]);
     };
     for (std::uint32_t i = 0; i < h_.object_count + h_.unbounded_count; ++i) {
       const ObjectRecord& object = objects[i];
       const auto has = [&](std::uint32_t flag) { return (object.kind_and_flags & flag) != 0; };
       const std::uint32_t material = material_word::offset(object.material);
-      bool object_asks = false;
+      bool object_depends = false;
       if (has(object_flag::blended)) {
         const BlendRecord& blend = *reinterpret_cast<const BlendRecord*>(base_ + material);
-        object_asks = asks(blend.material[0], has(object_flag::two_sided)) ||
-                      asks(blend.material[1], false) || asks(blend.material[2], false);
+        object_depends = depends(blend.material[0], has(object_flag::two_sided)) ||
+                         depends(blend.material[1], false) || depends(blend.material[2], false);
       } else {
-        object_asks = asks(material, has(object_flag::two_sided));
+        object_depends = depends(material, has(object_flag::two_sided));
       }
-      if (!object_asks) continue;
+      if (!object_depends) continue;
       const std::uint32_t features =
           light_feature::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_feature::stepwise});
       if (!has(object_flag::by_surface) || (h_.light_features & features) != features) return false;
@@ -290,7 +290,7 @@ private:
     // Triangles of instances cannot be flagged: their patterns may need nothing but points.
     const auto is_plain = [&](std::uint32_t offset) {
       const std::uint32_t material = materials_.find(offset);
-      return material == materials_.count || !material_asks_[material];
+      return material == materials_.count || !material_depends_[material];
     };
     const auto* instances = reinterpret_cast<const InstanceRecord*>(base_ + h_.instance_offset);
     const auto* triangles = reinterpret_cast<const ObjectRecord*>(base_ + h_.mesh_object_offset);
@@ -308,8 +308,8 @@ private:
   Table<MapEntryRecord> entries_;
   Table<NormalRecord> normals_;
   std::vector<std::uint32_t> pigment_depth_, normal_depth_, material_depth_, layers_;
-  std::vector<bool> pattern_asks_, normal_asks_,
-      material_asks_; ///< by record: whether it needs more than points
+  std::vector<bool> pattern_depends_, normal_depends_,
+      material_depends_; ///< by record: whether it depends on more than points
 };
 
 } // namespace

@@ -78,7 +78,7 @@ bool is_inside(const Object& object, const Transform& around, const Vec3& point,
 
 /// Returns whether the object that a ray is in can make a difference where the ray hits the material. A
 /// material with a map counts as if its entries did.
-bool asks_for_interiors(const Material& material) {
+bool needs_interiors(const Material& material) {
   if (material.map) return true;
   for (const Material* layer = &material; layer != nullptr; layer = layer->below.get())
     if (layer->pigment.map || !is_opaque(layer->pigment) || layer->finish.reflection_fresnel) return true;
@@ -197,7 +197,7 @@ double Medium::volume() const {
 }
 
 std::vector<Medium> media_of(const Scene& scene) {
-  if (scene.fogs.empty() && std::none_of(scene.materials.begin(), scene.materials.end(), asks_for_interiors))
+  if (scene.fogs.empty() && std::none_of(scene.materials.begin(), scene.materials.end(), needs_interiors))
     return {};
   std::vector<Medium> media;
   MeshExtents meshes;

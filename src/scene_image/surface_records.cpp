@@ -170,7 +170,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
 namespace {
 
 /// Returns whether a finish has crand, which takes a random share of diffuse light.
-bool takes_at_random(const Finish& finish) {
+bool has_grain(const Finish& finish) {
   return finish.crand != 0 && (finish.diffuse != 0 || finish.diffuse_behind != 0);
 }
 
@@ -178,12 +178,12 @@ bool takes_at_random(const Finish& finish) {
 
 bool has_record(const Finish& finish) {
   // Thin films change highlights and mirrored light as well.
-  return finish.irid != 0 || takes_at_random(finish);
+  return finish.irid != 0 || has_grain(finish);
 }
 
 FinishRecord make_record(const Finish& finish, const Scene& scene) {
   FinishRecord r{};
-  r.crand = takes_at_random(finish) ? static_cast<float>(finish.crand) : 0;
+  r.crand = has_grain(finish) ? static_cast<float>(finish.crand) : 0;
   r.irid = static_cast<float>(finish.irid);
   r.irid_thickness = static_cast<float>(finish.irid_thickness);
   r.irid_turbulence = static_cast<float>(finish.irid_turbulence);

@@ -21,7 +21,7 @@ void set(const Transform& to_space, float (&m)[12]) {
 }
 
 /// Returns whether a pattern's values depend on more than points.
-bool asks_for_surface(const PatternRecord& r) {
+bool depends_on_surface(const PatternRecord& r) {
   return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
          Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
 }
@@ -90,7 +90,7 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
   make_room(patterns, 1, "patterns");
   patterns.push_back(r);
   Traits traits;
-  traits.by_surface = asks_for_surface(r) || of_grey.traits.by_surface;
+  traits.by_surface = depends_on_surface(r) || of_grey.traits.by_surface;
   return {static_cast<std::uint32_t>(patterns.size() - 1), traits};
 }
 

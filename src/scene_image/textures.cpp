@@ -145,8 +145,8 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       // Light that comes through a layer stays inside, but a Fresnel mirror needs to know what the ray is
       // inside of.
       traits.opaque = traits.opaque || below.traits.opaque;
-      constexpr std::uint32_t kAsksRays = material_flag::reflects | material_flag::fresnel;
-      traits.spawns = (r.flags & kAsksRays) != 0 || below.traits.spawns;
+      constexpr std::uint32_t kNeedsRays = material_flag::reflects | material_flag::fresnel;
+      traits.spawns = (r.flags & kNeedsRays) != 0 || below.traits.spawns;
       traits.nodes = mirrors + below.traits.nodes;
       traits.disturbed = traits.disturbed || below.traits.disturbed;
       traits.lit_behind = traits.lit_behind || below.traits.lit_behind;

@@ -61,11 +61,11 @@ struct Sampling {
       set(normal, l, {0, 1, 0});
     }
   }
-  /// Calls look(shadow) for each place.
-  template <class Look> VectorLanes run(std::uint32_t lanes, Look look) {
+  /// Calls trace(shadow) for each place.
+  template <class Trace> VectorLanes run(std::uint32_t lanes, Trace trace) {
     return sample(lanes, [&](const Surfaces<Simd>& surfaces, const IncidentLight<Simd>& incident,
                              VectorLanes& sum) {
-      const std::uint32_t rays = sample_area(spu, record, surfaces, incident, to_place, *shadow, sum, look);
+      const std::uint32_t rays = sample_area(spu, record, surfaces, incident, to_place, *shadow, sum, trace);
       CHECK(rays == shadow->rays_asked);
     });
   }

@@ -69,7 +69,7 @@ public:
     reset_hits(queries, count);
     intersect_listed(queries, count);
     if constexpr (kHasBvh)
-      if (asks_bvh()) bvh_.intersect(queries, count);
+      if (searches_bvh()) bvh_.intersect(queries, count);
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(queries, count);
     clear_occluded(queries, count);
@@ -80,7 +80,7 @@ public:
     reset_hits(&query, 1);
     intersect_listed(&query, 1);
     if constexpr (kHasBvh)
-      if (asks_bvh()) bvh_.intersect(query);
+      if (searches_bvh()) bvh_.intersect(query);
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(&query, 1);
     clear_occluded(&query, 1);
@@ -137,7 +137,7 @@ private:
           select<S>(S::M::from_bits(query.lanes), query.light->template load<S>(), dark));
     }
   }
-  bool asks_bvh() const { return uses_bvh() && !Bundles::lists_all(); }
+  bool searches_bvh() const { return uses_bvh() && !Bundles::lists_all(); }
   bool uses_bvh() const {
     if constexpr (kAccelerators != kAnyAccelerator) return kHasBvh;
     return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh;

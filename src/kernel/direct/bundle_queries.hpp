@@ -67,7 +67,7 @@ public:
   /// the queries.
   void intersect_from_origin(RayQuery* queries, uint32_t count) {
     if constexpr (Traversal::kHasBvh) {
-      if (traversal().asks_bvh()) {
+      if (traversal().searches_bvh()) {
         traversal().reset_hits(queries, count);
         traversal().intersect_listed(queries, count);
         const uint32_t with_rays = queries_with_rays(queries, count);
@@ -92,7 +92,7 @@ public:
   }
   /// Finds the closest hits of the bundle that was entered last; query i belongs to its packet i.
   void intersect_from_pinhole(RayQuery* queries, const PinholeBundle<S>& bundle) {
-    if (!traversal().asks_bvh() || bundle.packets == 0)
+    if (!traversal().searches_bvh() || bundle.packets == 0)
       return traversal().intersect(queries, kBundlePackets<Spu>);
     traversal().reset_hits(queries, kBundlePackets<Spu>);
     traversal().intersect_listed(queries, kBundlePackets<Spu>);
@@ -102,7 +102,7 @@ public:
 protected:
   bool intersect_toward(RayQuery* queries, uint32_t count, const LightRecord& light) {
     if constexpr (Traversal::kHasBvh) {
-      if (traversal().asks_bvh() && !is_parallel(light)) {
+      if (traversal().searches_bvh() && !is_parallel(light)) {
         traversal().intersect_listed(queries, count);
         // Planes may leave packets without rays, which a bundle must not have.
         const uint32_t with_rays =

@@ -35,14 +35,14 @@ protected:
     const FrameBlock& frame = all().frame_;
     const PinholeBundle<S> bundle(frame, column, row);
     const bool missed = !traversal().enter(bundle);
-    const bool asks_more = has_atmosphere(frame) || (frame.light_features & light_feature::first_hits) != 0;
-    const bool plain = frame.sky == kNoOffset && !asks_more;
+    const bool is_traced = has_atmosphere(frame) || (frame.light_features & light_feature::first_hits) != 0;
+    const bool plain = frame.sky == kNoOffset && !is_traced;
     if (missed && plain && is_whole(column, row)) {
       fill(column * kEdge, row * kEdge, all().tracer_.background(kPackets * kSimdLanes));
       return false;
     }
     all().place(column, row);
-    if (missed && !asks_more) {
+    if (missed && !is_traced) {
       all().for_each_member([&](auto& member) {
         if (!plain) make_primary_rays(all().scene_.spu(), frame, member.column, member.row, member.rays);
         put(member.column, member.row, all().tracer_.background(member.rays, member.lanes));
@@ -132,7 +132,7 @@ protected:
     point.template store<S>(all().store_.points.point);
     pool_.shadows.push(number, lanes,
                        {point, tracer().hits().object, colour, tracer().pooling().pixels,
-                        all().shadows_.asks_interiors() ? &tracer().node() : nullptr},
+                        all().shadows_.needs_interiors() ? &tracer().node() : nullptr},
                        *this);
     return true;
   }

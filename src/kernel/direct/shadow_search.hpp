@@ -69,9 +69,9 @@ protected:
     if (known == Known::objects)
       test_gathered(light, lanes, occluders, colour);
     else if (tracer().walk_ != nullptr)
-      look_at_crossed_area(light, colour);
+      sample_crossed_area(light, colour);
     else
-      look_at_occluded_area(light, known == Known::nodes ? &occluders : nullptr, colour);
+      sample_occluded_area(light, known == Known::nodes ? &occluders : nullptr, colour);
     return true;
   }
 
@@ -168,8 +168,8 @@ private:
   }
   /// Samples an area light: occluders of one place are tested first for the next one. `occluders` has the
   /// nodes that may contain others; null: they are not known.
-  void look_at_occluded_area(const LightRecord& light, const AreaOccluders<Spu>* occluders,
-                             VectorLanes& colour) {
+  void sample_occluded_area(const LightRecord& light, const AreaOccluders<Spu>* occluders,
+                            VectorLanes& colour) {
     AreaShadow<S>& area = *tracer().area_;
     tracer().traversal_.record_occluders(true);
     // Returns false if no light comes; `of_place` is then unchanged.
@@ -192,7 +192,7 @@ private:
     tracer().take_area_light(colour);
   }
   /// Samples an area light if the crossings of rays are kept.
-  void look_at_crossed_area(const LightRecord& light, VectorLanes& colour) {
+  void sample_crossed_area(const LightRecord& light, VectorLanes& colour) {
     AreaShadow<S>& area = *tracer().area_;
     tracer().traversal_.record_occluders(true);
     const RayInteriors* const of_surfaces = tracer().interiors_;

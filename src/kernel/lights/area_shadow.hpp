@@ -442,15 +442,15 @@ template <class S> void answer(AreaShadow<S>& shadow, uint32_t lit) {
 }
 
 /// Samples an area light and scales `sent`, the light that surfaces would send on if the whole light came to
-/// them, by the result. `look(shadow)` stores in `shadow.light()` the light that comes from `shadow.place`.
+/// them, by the result. `trace(shadow)` stores in `shadow.light()` the light that comes from `shadow.place`.
 /// Returns the number of rays.
-template <class Spu, class Look>
+template <class Spu, class Trace>
 uint32_t sample_area(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                      const IncidentLight<typename Spu::simd>& incident, ShadowRays& to_place,
-                     AreaShadow<typename Spu::simd>& shadow, VectorLanes& sent, Look look) {
+                     AreaShadow<typename Spu::simd>& shadow, VectorLanes& sent, Trace trace) {
   begin_sampling(spu, light, s, incident, to_place, shadow);
   while (next_place(spu, light, shadow))
-    look(shadow);
+    trace(shadow);
   module_areas::dim(spu, shadow, sent);
   return shadow.rays_asked;
 }

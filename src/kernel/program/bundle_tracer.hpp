@@ -300,7 +300,7 @@ private:
   }
   void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
-    const bool by_packet = shadows_.asks_by_packet(light);
+    const bool by_packet = shadows_.traces_by_packet(light);
     const bool is_at_pinhole = shadows_.is_at_pinhole(light);
     uint32_t asked = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {

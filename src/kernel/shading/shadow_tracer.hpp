@@ -47,10 +47,10 @@ public:
   /// Sets the interiors of the rays whose hits are processed next; null: those of the camera.
   void set_interiors(const RayInteriors* interiors) { interiors_ = interiors; }
   /// Returns true if set_interiors() matters.
-  bool asks_interiors() const { return walk_ != nullptr; }
+  bool needs_interiors() const { return walk_ != nullptr; }
 
   /// Returns true if the rays of a bundle to a light are not traced together.
-  bool asks_by_packet(const LightRecord& light) const {
+  bool traces_by_packet(const LightRecord& light) const {
     return (light.kind_and_flags & (light_flag::area | light_flag::projected)) != 0 || walks_all(light);
   }
 
@@ -70,7 +70,7 @@ public:
                                 VectorLanes& colour) {
     if (lanes == 0) return colour.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
     this->aim(light, to_light, point, objects, is_aimed, lanes);
-    if (has_area(light)) return look_at_area(light, lanes, colour);
+    if (has_area(light)) return sample_light_area(light, lanes, colour);
     trace_shadows(light, to_light.rays, lanes, to_light.distance, colour);
   }
 
@@ -81,7 +81,7 @@ public:
     if (is_aimed && !has_area(light)) return;
     make_rays_to(light, to_light, point, objects, lanes);
   }
-  /// Answers the queries of a bundle toward a light for which asks_by_packet() is false. May change their
+  /// Answers the queries of a bundle toward a light for which traces_by_packet() is false. May change their
   /// order.
   void trace(const LightRecord& light, RayQuery* queries, uint32_t count) {
     if (walk_ == nullptr || !Search::trace_crossings(light, queries, count))
@@ -147,7 +147,7 @@ private:
   }
 
   /// Samples an area light packet by packet. Not inlined, as few scenes have such lights.
-  CELLTRACE_ONE_COPY void look_at_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
+  CELLTRACE_ONE_COPY void sample_light_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
     if (Search::sample_area(light, lanes, colour)) return;
     while (next_place(scene_.spu(), light, area)) {
