@@ -19,23 +19,23 @@ std::size_t sign_length(std::string_view text) {
   return !text.empty() && (text[0] == '+' || text[0] == '-') ? 1 : 0;
 }
 
-FrontNumber front_number(std::string_view text, std::size_t length) {
+NumberPrefix number_prefix(std::string_view text, std::size_t length) {
   const std::string digits(text.substr(0, length)); // strtod() needs a NUL at the end
   return {std::strtod(digits.c_str(), nullptr), trimmed(text.substr(length))};
 }
 
 } // namespace
 
-std::optional<FrontNumber> read_whole(std::string_view text) {
+std::optional<NumberPrefix> read_whole(std::string_view text) {
   text = trimmed(text);
   std::size_t length = sign_length(text);
   if (!is_digit(text, length)) return std::nullopt;
   while (is_digit(text, length))
     ++length;
-  return front_number(text, length);
+  return number_prefix(text, length);
 }
 
-std::optional<FrontNumber> read_real(std::string_view text) {
+std::optional<NumberPrefix> read_real(std::string_view text) {
   text = trimmed(text);
   const std::size_t sign = sign_length(text);
   const bool has_dot = sign < text.size() && text[sign] == '.';
@@ -43,7 +43,7 @@ std::optional<FrontNumber> read_real(std::string_view text) {
   const std::string copy(text);
   char* end = nullptr;
   std::strtod(copy.c_str(), &end);
-  return front_number(text, static_cast<std::size_t>(end - copy.c_str()));
+  return number_prefix(text, static_cast<std::size_t>(end - copy.c_str()));
 }
 
 std::string number_text(double value) {

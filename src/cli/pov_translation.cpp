@@ -76,7 +76,7 @@ Translation PovTranslation::take() {
 }
 
 double PovTranslation::number(const PovEntry& entry, std::string_view text, bool is_whole) {
-  const std::optional<FrontNumber> read = is_whole ? read_whole(text) : read_real(text);
+  const std::optional<NumberPrefix> read = is_whole ? read_whole(text) : read_real(text);
   if (!read) fail_without(entry, "a number");
   if (!std::isfinite(read->value)) fail(entry, "needs a number that is not as large");
   const PovSetting& setting = *entry.setting;
@@ -181,7 +181,7 @@ void PovTranslation::declare(const PovEntry& entry) {
   std::string value(trimmed(declared.substr(std::min(equals + 1, declared.size()))));
   if (value.empty()) fail(entry, "declares no value: Declare=NAME=VALUE does, a number or a string");
   check_name(entry, name);
-  if (const std::optional<FrontNumber> read = read_real(value)) {
+  if (const std::optional<NumberPrefix> read = read_real(value)) {
     if (!std::isfinite(read->value)) fail(entry, "declares a number that is too large");
     if (!read->rest.empty() && read->rest.substr(0, 2) != "//")
       note(shown(entry.text) + " declares " + number_text(read->value) +

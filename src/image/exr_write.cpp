@@ -40,10 +40,10 @@ struct Channel {
   enum { colours, depth, normal, object } source;
 };
 
-class ExrRows : public NumberRows {
+class ExrRows : public FloatRows {
 public:
   ExrRows(std::FILE* file, const RowFormat& format)
-      : NumberRows(file, format), stream_(file, bytes_expected(format)) {
+      : FloatRows(file, format), stream_(file, bytes_expected(format)) {
     translating([&] {
       Imf::Header header(static_cast<int>(format.width), static_cast<int>(format.height));
       for (const Channel& channel : channels())

@@ -63,9 +63,9 @@ void append_runs(const std::vector<Pixel>& row, std::size_t channel, std::string
   }
 }
 
-class HdrRows : public NumberRows {
+class HdrRows : public FloatRows {
 public:
-  HdrRows(std::FILE* file, const RowFormat& format) : NumberRows(file, format), row_(width()) {
+  HdrRows(std::FILE* file, const RowFormat& format) : FloatRows(file, format), row_(width()) {
     const std::string header = "#?RADIANCE\nSOFTWARE=celltrace\nFORMAT=32-bit_rle_rgbe\n\n-Y " +
                                std::to_string(format.height) + " +X " + std::to_string(format.width) + "\n";
     write_bytes(file, header.data(), header.size());

@@ -80,8 +80,8 @@ void check_first_hits(const FirstHits& hits, const ColourImage& picture) {
     throw InputError("what is seen first does not match the size of the picture");
 }
 
-void write_numbers(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr,
-                   const FileOptions& options) {
+void write_floats(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr,
+                  const FileOptions& options) {
   image::check_image(colours);
   const image::FormatRow& row = image::row_of(format);
   check_kind(row, image::Pixels::numbers);
@@ -192,7 +192,7 @@ void save_image(const fs::path& path, const DeepImage& image, const FileOptions&
 void save_image(const fs::path& path, const ColourImage& colours, const ExrOptions& exr,
                 const FileOptions& options) {
   save(path, options.format,
-       [&](std::FILE* file, ImageFormat format) { write_numbers(file, format, colours, exr, options); });
+       [&](std::FILE* file, ImageFormat format) { write_floats(file, format, colours, exr, options); });
 }
 void save_image(const fs::path& path, const BlockImage& blocks, const FileOptions& options) {
   save(path, options.format,
@@ -207,7 +207,7 @@ void write_image(std::FILE* file, ImageFormat format, const DeepImage& image, co
 }
 void write_image(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr,
                  const FileOptions& options) {
-  write_numbers(file, format, colours, exr, options);
+  write_floats(file, format, colours, exr, options);
 }
 void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks, const FileOptions&) {
   write_blocks(file, format, blocks);
@@ -230,7 +230,7 @@ std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat forma
 }
 std::vector<std::uint8_t> encode_image(const ColourImage& colours, ImageFormat format, const ExrOptions& exr,
                                        const FileOptions& options) {
-  return written_by([&](std::FILE* stream) { write_numbers(stream, format, colours, exr, options); });
+  return written_by([&](std::FILE* stream) { write_floats(stream, format, colours, exr, options); });
 }
 std::vector<std::uint8_t> encode_image(const BlockImage& blocks, ImageFormat format) {
   return written_by([&](std::FILE* stream) { write_blocks(stream, format, blocks); });

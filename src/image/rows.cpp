@@ -87,13 +87,13 @@ template <class Channel> void EncodedRows::write_colours(const float* rgba, int 
   }
 }
 
-void NumberRows::write(const std::uint8_t*, int) {
+void FloatRows::write(const std::uint8_t*, int) {
   refuse_encoded();
 }
-void NumberRows::write(const std::uint16_t*, int) {
+void FloatRows::write(const std::uint16_t*, int) {
   refuse_encoded();
 }
-void NumberRows::write(const float* rgba, int count, const FirstHitRows& hits) {
+void FloatRows::write(const float* rgba, int count, const FirstHitRows& hits) {
   CountedRows::count(count);
   const std::size_t pixels = width() * static_cast<std::size_t>(count);
   if (format().colour_gamma != 1.0) {

@@ -58,7 +58,7 @@ private:
 };
 
 /// A writer of files with colours as floats.
-class NumberRows : public CountedRows {
+class FloatRows : public CountedRows {
 public:
   void write(const std::uint8_t* rgba, int count) final;
   void write(const std::uint16_t* rgba, int count) final;

@@ -133,11 +133,12 @@ private:
     options.build_progress = [&](double fraction) {
       is_built = fraction >= 1;
       return (!options_.render.build_progress || options_.render.build_progress(fraction)) &&
-             tell(JobPhase::building, fraction, read, built);
+             report(JobPhase::building, fraction, read, built);
     };
     Renderer renderer(options);
-    RenderResult result = renderer.render(
-        *scene, [&](double fraction) { return !is_built || tell(JobPhase::rendering, fraction, built, 1); });
+    RenderResult result = renderer.render(*scene, [&](double fraction) {
+      return !is_built || report(JobPhase::rendering, fraction, built, 1);
+    });
     if (!is_built) throw Cancelled();
     // Publish first: waiting threads need not wait until the renderer has released its memory.
     publish(std::move(result));
@@ -156,7 +157,7 @@ private:
     options.progress = [&](std::uint64_t bytes, std::uint64_t total) {
       const double fraction = total == 0 ? 0 : static_cast<double>(bytes) / static_cast<double>(total);
       return (!options_.parse.progress || options_.parse.progress(bytes, total)) &&
-             tell(JobPhase::reading, fraction, 0, kReadingShare);
+             report(JobPhase::reading, fraction, 0, kReadingShare);
     };
     options.finding = [&](const Finding& finding) {
       keep(finding);
@@ -173,7 +174,7 @@ private:
   }
 
   /// Reports the progress of a phase that takes the part [begin, end] of the job. Returns false to cancel.
-  bool tell(JobPhase phase, double fraction, double begin, double end) {
+  bool report(JobPhase phase, double fraction, double begin, double end) {
     if (is_cancelled_in(phase)) return false;
     JobProgress now;
     {

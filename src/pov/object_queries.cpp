@@ -118,11 +118,11 @@ void cross(const Query& query, const Compound& compound, const Ray& ray, Crossin
   const auto& parts = compound.parts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!is_solid(query, *parts[i])) continue;
-    const bool is_taken_away = compound.operation == Operation::difference && i > 0;
+    const bool is_subtracted = compound.operation == Operation::difference && i > 0;
     Crossings own;
     cross(query, *parts[i], ray, own);
     for (Crossing& crossing : own) {
-      if (is_taken_away) crossing.normal = -crossing.normal;
+      if (is_subtracted) crossing.normal = -crossing.normal;
       bool is_surface = true;
       for (std::size_t j = 0; j < parts.size() && is_surface && compound.operation != Operation::union_;
            ++j) {

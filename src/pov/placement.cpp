@@ -231,19 +231,19 @@ std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inhe
     own.texture = compound.cut_texture;
     own.texture_transform = own.transform;
     own.has_cut_texture = true;
-    own.is_taken_away = false;
+    own.is_subtracted = false;
   }
   if (compound.is_light_group) enter_light_group(compound, own, where);
   auto csg = std::make_shared<Csg>();
   csg->parts.reserve(compound.parts.size());
   csg->operation = compound.operation;
-  const bool is_taken_away = own.is_taken_away;
+  const bool is_subtracted = own.is_subtracted;
   // As in POV-Ray, shapes in unions have the default texture, unless they are subtracted.
   const TexturePtr cut = own.texture;
-  const bool has_default = own.has_cut_texture && joins(compound.operation) != is_taken_away;
+  const bool has_default = own.has_cut_texture && joins(compound.operation) != is_subtracted;
   for (const ObjectPtr& part : compound.parts) {
     const bool is_less = compound.operation == Operation::difference && part != compound.parts.front();
-    own.is_taken_away = is_taken_away != is_less;
+    own.is_subtracted = is_subtracted != is_less;
     if (has_default) own.texture = pov::compound(*part) ? cut : default_texture;
     if (is_group_light(compound, *part))
       continue;

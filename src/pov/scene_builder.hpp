@@ -91,7 +91,7 @@ private:
     Transform texture_transform;  ///< to the scene
     bool uv_mapping = false;      ///< all textures are on surface coordinates
     bool has_cut_texture = false; ///< `texture` is Compound::cut_texture
-    bool is_taken_away = false;   ///< is subtracted from objects with the cut texture
+    bool is_subtracted = false;   ///< is subtracted from objects with the cut texture
     Index interior = kNoIndex;
     Index csg_interior = kNoIndex; ///< interior of parts that neither have nor inherit one
     bool no_shadow = false;

@@ -144,7 +144,7 @@ private:
     if (a.is_round || b.is_round) return a.is_round != b.is_round && list_.is_ground(a.is_round ? b : a);
     if (are_merged(a, b)) return true;
     const bool are_opaque = list_.is_opaque(a) && list_.is_opaque(b);
-    return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
+    return !are_opaque || (a.faces_up == b.faces_up && a.material != b.material);
   }
 
   /// Returns whether the choice may be visible from some location; can_differ() also uses the eye.
@@ -152,7 +152,7 @@ private:
     const bool are_opaque = list_.is_opaque(a) && list_.is_opaque(b);
     if (a.is_inverse || b.is_inverse) return a.is_inverse != b.is_inverse && !are_opaque;
     if (a.is_round || b.is_round) return a.is_round != b.is_round;
-    return are_merged(a, b) || !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
+    return are_merged(a, b) || !are_opaque || (a.faces_up == b.faces_up && a.material != b.material);
   }
 
   /// The order of two faces in one plane: `near` has to be nearer to the eye, by `steps`.
@@ -189,11 +189,11 @@ private:
   /// it.
   std::optional<Order> order_of_parts(Face& a, Face& b) const {
     const std::optional<Fork> fork = fork_of(a, b);
-    if (!fork || a.looks_up != b.looks_up) return std::nullopt;
+    if (!fork || a.faces_up != b.faces_up) return std::nullopt;
     if (fork->operation != Csg::Operation::intersection && !are_merged(a, b)) return std::nullopt;
     Face& out = fork->part[0] < fork->part[1] ? a : b;
     Face& in = &out == &a ? b : a;
-    if (a.looks_up == list_.is_seen_from_above(a)) return Order{&out, &in, kStepsOut};
+    if (a.faces_up == list_.is_seen_from_above(a)) return Order{&out, &in, kStepsOut};
     return Order{&in, &out, kStepsOut};
   }
 

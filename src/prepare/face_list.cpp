@@ -16,8 +16,8 @@ void turn(Face& face) {
   int axis = 0;
   while (axis < 2 && std::abs(face.normal[axis]) < kNone)
     ++axis;
-  face.looks_up = face.normal[axis] > 0;
-  if (face.looks_up) return;
+  face.faces_up = face.normal[axis] > 0;
+  if (face.faces_up) return;
   face.normal = -face.normal;
   face.distance = -face.distance;
 }
@@ -111,7 +111,7 @@ void FaceList::add(std::size_t object, std::size_t number, const Box& box, const
     Face face = face_of(corners, unit * (side % 2 != 0 ? 1.0 : -1.0), transform);
     face.material = material;
     face.is_inverse = is_inverse;
-    face.looks_up = face.looks_up != is_seen_inside;
+    face.faces_up = face.faces_up != is_seen_inside;
     // Opaque back faces are visible only through transparent objects and in mirrors: they are skipped, since
     // there may be many.
     if (eye_ != nullptr && is_opaque(face) && !looks_at_eye(face)) continue;

@@ -37,7 +37,7 @@ struct Face {
   int side;          ///< boxes: axis * 2, plus 1 for the larger coordinate; other solids: 1 for the cap
   bool is_round;     ///< an end of a cylinder or a cone
   bool is_inverse;   ///< true: the face of a box that is subtracted
-  bool looks_up;     ///< the outside is in the direction of the normal
+  bool faces_up;     ///< the outside is in the direction of the normal
   Index material;
   std::uint32_t path = 0; ///< the path's number; 0: none
   int steps = 0;          ///< number of steps to move it toward the eye
@@ -113,7 +113,7 @@ public:
   bool is_opaque(const Face& face) const {
     return (material_flags_[face.material] & kernel::object_flag::opaque) != 0;
   }
-  bool looks_at_eye(const Face& face) const { return face.looks_up == is_seen_from_above(face); }
+  bool looks_at_eye(const Face& face) const { return face.faces_up == is_seen_from_above(face); }
   /// Returns whether the eye is on the side of the normal.
   bool is_seen_from_above(const Face& face) const { return glm::dot(*eye_, face.normal) > face.distance; }
 

@@ -131,7 +131,7 @@ BlockGrid PictureMemory::blocks(std::uint32_t bundle_edge) const {
   return grid;
 }
 
-void PictureMemory::tell_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const {
+void PictureMemory::report_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const {
   const PictureRegion picture = region_of(options_);
   for (const PictureRegion& region : regions)
     options_.finished_block({region,

@@ -44,7 +44,7 @@ public:
   /// Returns the place of this frame's blocks in the picture.
   BlockGrid blocks(std::uint32_t bundle_edge) const;
   /// Calls RenderOptions::finished_block for each region.
-  void tell_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const;
+  void report_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const;
   /// Turns the colours of the grid's points into those of pixels, if the options ask for colours; in the
   /// SPEs' byte order.
   void keep_colours(const RowRange& rows);

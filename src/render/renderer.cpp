@@ -232,13 +232,13 @@ private:
     std::vector<std::pair<std::uint32_t, unsigned>> done; // units, and the SPE that completed each
     const auto unit_done = [&](std::uint32_t unit, unsigned spe) {
       done.emplace_back(unit, spe);
-      if (options_.finished_block) picture_.tell_blocks(regions_of(plan.unit(unit), blocks), spe);
+      if (options_.finished_block) picture_.report_blocks(regions_of(plan.unit(unit), blocks), spe);
     };
     const Stopwatch pass;
     const bool complete =
         stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress, unit_done);
     if (complete) report_pace().learn(plan.units(), pass.seconds());
-    if (complete && stages_ && options_.finished_block) picture_.tell_blocks({region_of(options_)}, 0);
+    if (complete && stages_ && options_.finished_block) picture_.report_blocks({region_of(options_)}, 0);
     work_ = work_of(plan, done, blocks);
     reports_.fetch();
     add(reports, reports_.all());

@@ -38,11 +38,11 @@ void copy_row(const std::uint8_t* from, std::uint8_t* to, int pixels, PixelForma
     return;
   case PixelFormat::rgba16:
   case PixelFormat::rgba32f:
-    return; // made from numbers at the end
+    return; // made from floats at the end
   }
 }
 
-bool is_made_of_numbers(PixelFormat format) {
+bool is_made_from_floats(PixelFormat format) {
   return format == PixelFormat::rgba16 || format == PixelFormat::rgba32f;
 }
 
@@ -93,7 +93,7 @@ public:
     RenderResult result = renderer_.render(scene_, changes_, unless_cancelled);
     // A scene whose accelerator was not finished does not exist; the renderer knows that.
     changes_ = {false, false};
-    if (wants_numbers()) finish_numbers(result);
+    if (wants_floats()) copy_floats(result);
     return result;
   }
 
@@ -104,8 +104,8 @@ public:
       return !cancelled_.load(std::memory_order_relaxed) &&
              (!given_.build_progress || given_.build_progress(fraction));
     };
-    own.colours |= wants_numbers();
-    if ((framebuffer_ && !wants_numbers()) || options.finished_block)
+    own.colours |= wants_floats();
+    if ((framebuffer_ && !wants_floats()) || options.finished_block)
       own.finished_block = [this](const PictureBlock& block) { finish(block); };
     return own;
   }
@@ -128,9 +128,9 @@ public:
     }
   }
 
-  bool wants_numbers() const { return framebuffer_ && is_made_of_numbers(framebuffer_->format); }
+  bool wants_floats() const { return framebuffer_ && is_made_from_floats(framebuffer_->format); }
   /// Copies a complete frame; after a frame that was ended the framebuffer stays as it is.
-  void finish_numbers(RenderResult& result) {
+  void copy_floats(RenderResult& result) {
     if (result.complete) {
       const PictureRegion region = given_.region.value_or(PictureRegion{0, given_.width, 0, given_.height});
       if (framebuffer_->format == PixelFormat::rgba32f)
@@ -143,7 +143,7 @@ public:
   }
 
   void finish(const PictureBlock& block) {
-    if (framebuffer_ && !wants_numbers()) {
+    if (framebuffer_ && !wants_floats()) {
       std::uint8_t* to = place_in(*framebuffer_, block.region.left, block.region.top);
       const std::uint8_t* from = block.first;
       for (int y = block.region.top; y < block.region.bottom;

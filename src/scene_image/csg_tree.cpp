@@ -17,7 +17,7 @@ using namespace kernel;
 namespace {
 
 /// The properties that an object inherits from the objects around it.
-struct Surroundings {
+struct CsgContext {
   Transform transform;
   bool no_shadow = false, no_image = false, no_reflection = false;
   /// True where the object's own no_shadow, no_image and no_reflection count. As in POV-Ray, all three count
@@ -36,7 +36,7 @@ class TreeBuilder {
 public:
   TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes) : solids_(solids), meshes_(meshes) {}
 
-  Node build(const Object& object, Surroundings around) {
+  Node build(const Object& object, CsgContext around) {
     if (around.depth++ > kDeepestCsg) throw InputError("the scene has a CSG that nests too deeply");
     if (!object.clipped_by || object.clipped_by->empty()) return build_unclipped(object, around);
     // The objects that clip are not inverted with the clipped one.
@@ -55,7 +55,7 @@ public:
   }
 
 private:
-  Node build_unclipped(const Object& object, Surroundings around) {
+  Node build_unclipped(const Object& object, CsgContext around) {
     around.transform = object.transform.then(around.transform);
     around.no_shadow = around.no_shadow || (around.hides_shadow && object.no_shadow);
     around.no_image = around.no_image || (around.hides_image && object.no_image);
@@ -69,13 +69,13 @@ private:
     return seen_as(around, build_solid(object, around));
   }
 
-  static Node seen_as(const Surroundings& around, Node node) {
+  static Node seen_as(const CsgContext& around, Node node) {
     if (around.no_image) node.unseen_by |= object_flag::no_image;
     if (around.no_reflection) node.unseen_by |= object_flag::no_reflection;
     return node;
   }
 
-  Node build_operation(const Csg& csg, Surroundings around) {
+  Node build_operation(const Csg& csg, CsgContext around) {
     using Operation = Csg::Operation;
     const bool joins = csg.operation == Operation::union_ || csg.operation == Operation::merge;
     Node node;
@@ -98,7 +98,7 @@ private:
     return node;
   }
 
-  Node build_solid(const Object& object, const Surroundings& around) {
+  Node build_solid(const Object& object, const CsgContext& around) {
     Node node;
     node.inverse = around.inverse;
     node.shows = around.shows;

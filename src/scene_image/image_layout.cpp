@@ -98,14 +98,14 @@ std::uint32_t room_of_unbounded(std::uint32_t count) {
 }
 
 ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const TextureTables& textures,
-                        const SceneObjects& objects, const ObjectCensus& census,
+                        const SceneObjects& objects, const ObjectCounts& counts,
                         std::span<const std::uint32_t> groups, const InstancedMeshes& instanced,
                         const MeshInstances& instances, bool has_near_surfaces) {
   ImageHeader header{};
   header.magic = kImageMagic;
   header.version = kImageVersion;
   Layout layout(sizeof(ImageHeader));
-  place_surfaces(layout, header, scene, interior_records(scene), light_sets, textures, census.blended);
+  place_surfaces(layout, header, scene, interior_records(scene), light_sets, textures, counts.blended);
   if (has_near_surfaces) header.light_features |= light_feature::near_surfaces;
   // A ray that continues behind a surface may find crossings that it did not find from its first origin.
   if (textures.filters && !objects.csg().crossed_meshes.records().empty())
@@ -127,12 +127,12 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   layout.place<InstanceRecord>(instanced.instance_count(), header.instance_offset, header.instance_count);
   layout.place<ObjectRecord>(instanced.object_count(), header.mesh_object_offset, header.mesh_object_count);
   layout.place<NodeRecord>(instanced.node_count(), header.mesh_node_offset, header.mesh_node_count);
-  layout.place<ExtraRecord>(std::size_t{census.extras} + objects.unbounded_extras() + instanced.extra_count(),
+  layout.place<ExtraRecord>(std::size_t{counts.extras} + objects.unbounded_extras() + instanced.extra_count(),
                             header.extra_offset, header.extra_count);
   const std::uint32_t room = room_of_unbounded(objects.unbounded_count() + objects.projector_count());
-  layout.place<ObjectRecord>(std::size_t{census.objects} + room, header.object_offset, header.object_count);
+  layout.place<ObjectRecord>(std::size_t{counts.objects} + room, header.object_offset, header.object_count);
   header.object_offset += room * std::uint32_t{sizeof(ObjectRecord)};
-  header.object_count = census.objects;
+  header.object_count = counts.objects;
   header.unbounded_count = objects.unbounded_count();
   header.projector_count = objects.projector_count();
   const std::size_t ordered = groups.empty() ? 0 : groups.size() - 1;

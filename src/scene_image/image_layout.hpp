@@ -27,7 +27,7 @@ std::uint32_t room_of_unbounded(std::uint32_t count);
 /// that are no instances. Throws InputError if the image would pass 4 GB.
 kernel::ImageHeader make_header(const Scene& scene, const LightSets& light_sets,
                                 const TextureTables& textures, const SceneObjects& objects,
-                                const ObjectCensus& census, std::span<const std::uint32_t> groups,
+                                const ObjectCounts& counts, std::span<const std::uint32_t> groups,
                                 const InstancedMeshes& instanced, const MeshInstances& instances,
                                 bool has_near_surfaces);
 

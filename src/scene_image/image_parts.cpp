@@ -33,7 +33,7 @@ ImageParts::ImageParts(const Scene& scene_given, Eye scene_eye, unsigned threads
 }
 
 unsigned ImageParts::threads_for(std::uint32_t objects_a_thread, unsigned threads) const {
-  const std::uint64_t all = std::uint64_t{objects.count()} + instances.census().objects;
+  const std::uint64_t all = std::uint64_t{objects.count()} + instances.counts().objects;
   return static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
 }
 
@@ -49,7 +49,7 @@ std::vector<ObjectForm> ImageParts::forms() const {
 std::vector<Index> ImageParts::owners(std::span<const PlacedObject> in_order) const {
   std::vector<Index> owners = objects.unbounded_owners();
   const std::vector<Index> loose = objects.owners();
-  owners.reserve(owners.size() + in_order.size() + instances.census().objects);
+  owners.reserve(owners.size() + in_order.size() + instances.counts().objects);
   for (const PlacedObject& object : in_order)
     owners.push_back(loose[object.source]);
   instances.append_owners(owners);
@@ -57,9 +57,9 @@ std::vector<Index> ImageParts::owners(std::span<const PlacedObject> in_order) co
 }
 
 ImageHeader ImageParts::header(const ObjectPlaces& places) const {
-  ObjectCensus census = places.census;
-  census.add(instances.census());
-  return make_header(scene(), surfaces.light_sets, surfaces.textures, objects, census, places.groups,
+  ObjectCounts counts = places.counts;
+  counts.add(instances.counts());
+  return make_header(scene(), surfaces.light_sets, surfaces.textures, objects, counts, places.groups,
                      instanced, instances, has_near_surfaces(given, surfaces.textures.object_flags));
 }
 
@@ -79,10 +79,10 @@ void ImageParts::write(std::byte* base, const ImageHeader& header, const ObjectP
   // If there are no instances, groups are only used to build a BVH.
   if (!places.are_known || header.prototype_count != 0) writer.write_groups(places.groups, threads);
   writer.write_instances(instances, threads);
-  ObjectCensus census = places.census;
-  census.add(instances.census());
-  writer.write_unbounded(objects, census);
-  writer.write_bounds(places.census.around);
+  ObjectCounts counts = places.counts;
+  counts.add(instances.counts());
+  writer.write_unbounded(objects, counts);
+  writer.write_bounds(places.counts.around);
 }
 
 } // namespace celltrace

@@ -38,7 +38,7 @@ bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point
 }
 
 /// Returns whether a CSG subtracts a part, which must be one of its own.
-bool is_taken_away(const Object& part, const Csg& csg) {
+bool is_subtracted(const Object& part, const Csg& csg) {
   return csg.operation == Csg::Operation::difference && &part != &csg.parts.front();
 }
 
@@ -51,7 +51,7 @@ bool is_inside(const Object& object, const Transform& around, const Vec3& point,
 /// parts' inverses, and vice versa.
 bool is_inside(const Csg& csg, const Transform& transform, const Vec3& point, bool is_inverse) {
   const auto in = [&](const Object& part) {
-    return is_inside(part, transform, point, is_inverse != is_taken_away(part, csg));
+    return is_inside(part, transform, point, is_inverse != is_subtracted(part, csg));
   };
   const bool is_union = csg.operation == Csg::Operation::union_ || csg.operation == Csg::Operation::merge;
   return is_union != is_inverse ? std::any_of(csg.parts.begin(), csg.parts.end(), in)
@@ -123,7 +123,7 @@ Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes);
 Aabb common_box(const Csg& csg, const Transform& transform, MeshExtents& meshes) {
   Aabb box = kUnbounded;
   for (const Object& part : csg.parts)
-    if (part.inverse == is_taken_away(part, csg)) box = intersected(box, box_of(part, transform, meshes));
+    if (part.inverse == is_subtracted(part, csg)) box = intersected(box, box_of(part, transform, meshes));
   for (int axis = 0; axis < 3; ++axis)
     if (box.min[axis] > box.max[axis]) return {{0, 0, 0}, {0, 0, 0}};
   return box;

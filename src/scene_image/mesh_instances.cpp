@@ -160,8 +160,8 @@ void MeshInstances::number() {
   for (Instance& instance : instances_) {
     const MeshPrototype& prototype = prototypes_[instance.prototype];
     is_instance_[static_cast<std::size_t>(instance.object - scene_.objects.data())] = true;
-    instance.first_object = census_.objects;
-    instance.first_normals = census_.extras;
+    instance.first_object = counts_.objects;
+    instance.first_normals = counts_.extras;
     instance.first_group = group_count_;
     std::uint32_t& first_group = first_group_of_[instance.prototype];
     if (first_group == kNone) {
@@ -170,10 +170,10 @@ void MeshInstances::number() {
         longest_group_ = std::max(longest_group_, prototype.groups()[group + 1] - prototype.groups()[group]);
     }
     const auto objects = static_cast<std::uint32_t>(prototype.triangles().size());
-    if (objects > std::numeric_limits<std::uint32_t>::max() - census_.objects)
+    if (objects > std::numeric_limits<std::uint32_t>::max() - counts_.objects)
       throw InputError("the scene is too large: it has more objects than 32 bits can count");
-    census_.objects += objects;
-    census_.extras += prototype.smooth();
+    counts_.objects += objects;
+    counts_.extras += prototype.smooth();
     group_count_ += prototype.group_count();
   }
 }

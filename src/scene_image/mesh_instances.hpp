@@ -37,8 +37,8 @@ public:
 
   /// Returns whether an object of the scene is an instance.
   bool contains(std::size_t object) const { return !is_instance_.empty() && is_instance_[object]; }
-  /// Returns the census of all instances, without their bounds.
-  const ObjectCensus& census() const { return census_; }
+  /// Returns the counts of all instances, without their bounds.
+  const ObjectCounts& counts() const { return counts_; }
   std::uint32_t group_count() const { return group_count_; }
   std::uint32_t longest_group() const { return longest_group_; }
 
@@ -68,7 +68,7 @@ private:
   std::vector<Instance> instances_;
   std::vector<std::uint32_t> first_group_of_; ///< index: prototype; the first group of its first instance
   std::vector<bool> is_instance_;             ///< index: object of the scene
-  ObjectCensus census_;
+  ObjectCounts counts_;
   std::uint32_t group_count_ = 0;
   std::uint32_t longest_group_ = 0;
 };

@@ -12,34 +12,34 @@ namespace celltrace {
 namespace {
 
 /// Writes the scene's objects that can be hit to `to`; threads place parts, which are then moved together.
-ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned threads) {
-  std::vector<ObjectCensus> census(threads);
+ObjectCounts place_all(const SceneObjects& objects, PlacedObject* to, unsigned threads) {
+  std::vector<ObjectCounts> counts(threads);
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(objects.count(), part, threads);
-    census[part] = objects.place(mine.begin, mine.end, to + mine.begin);
+    counts[part] = objects.place(mine.begin, mine.end, to + mine.begin);
   });
   for (unsigned part = 1; part < threads; ++part) {
     const PlacedObject* from = to + HostPart(objects.count(), part, threads).begin;
-    std::copy(from, from + census[part].objects, to + census[0].objects);
-    census[0].add(census[part]);
+    std::copy(from, from + counts[part].objects, to + counts[0].objects);
+    counts[0].add(counts[part]);
   }
-  return census[0];
+  return counts[0];
 }
 
 /// Counts objects that have places already: calls `count(begin, end)` for parts in threads. Returns nothing
 /// if an object that can be hit has no place.
 template <class Count>
-std::optional<ObjectCensus> count_in_parts(std::uint32_t objects, unsigned threads, Count count) {
-  std::vector<std::optional<ObjectCensus>> census(threads);
+std::optional<ObjectCounts> count_in_parts(std::uint32_t objects, unsigned threads, Count count) {
+  std::vector<std::optional<ObjectCounts>> counts(threads);
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(objects, part, threads);
-    census[part] = count(mine.begin, mine.end);
+    counts[part] = count(mine.begin, mine.end);
   });
-  for (unsigned part = 1; part < threads && census[0]; ++part) {
-    if (!census[part]) return std::nullopt;
-    census[0]->add(*census[part]);
+  for (unsigned part = 1; part < threads && counts[0]; ++part) {
+    if (!counts[part]) return std::nullopt;
+    counts[0]->add(*counts[part]);
   }
-  return census[0];
+  return counts[0];
 }
 
 } // namespace
@@ -55,38 +55,38 @@ OrderMemory::OrderMemory(AlignedBlock& block, std::uint32_t count) {
 NewPlaces::NewPlaces(const SceneObjects& objects, bool copies, AlignedBlock& work, unsigned threads)
     : objects_(objects), memory_(work, objects.count()) {
   touch(work, work.size(), threads);
-  census_ = place_all(objects, memory_.objects, threads);
+  counts_ = place_all(objects, memory_.objects, threads);
   ProgressMonitor::report(0.4);
-  if (census_.objects != 0 && (census_.objects >= kMinObjectsToOrder || copies))
-    groups_ = order_along_curve(memory_.objects, memory_.spare, memory_.cells, census_.objects, threads);
+  if (counts_.objects != 0 && (counts_.objects >= kMinObjectsToOrder || copies))
+    groups_ = order_along_curve(memory_.objects, memory_.spare, memory_.cells, counts_.objects, threads);
 }
 
 ObjectPlaces NewPlaces::places() const {
   ObjectPlaces places;
-  places.census = census_;
+  places.counts = counts_;
   places.groups = groups_;
-  places.in_order.emplace(memory_.objects, census_.objects);
+  places.in_order.emplace(memory_.objects, counts_.objects);
   places.cells = memory_.cells;
   return places;
 }
 
 std::vector<std::uint32_t> NewPlaces::by_object() const {
   std::vector<std::uint32_t> places(objects_.count(), SceneObjects::kNoPlace);
-  for (std::uint32_t i = 0; i < census_.objects; ++i) {
+  for (std::uint32_t i = 0; i < counts_.objects; ++i) {
     ProgressMonitor::check_cancelled(i);
     places[memory_.objects[i].source] = i;
   }
   return places;
 }
 
-std::optional<ObjectCensus> count_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
+std::optional<ObjectCounts> count_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
                                          unsigned threads) {
   return count_in_parts(objects.count(), threads, [&](std::uint32_t begin, std::uint32_t end) {
     return objects.count_placed(begin, end, places);
   });
 }
 
-std::optional<ObjectCensus> send_placed(TableWriter& writer, const SceneObjects& objects,
+std::optional<ObjectCounts> send_placed(TableWriter& writer, const SceneObjects& objects,
                                         std::span<const std::uint32_t> places, unsigned threads) {
   return count_in_parts(objects.count(), threads, [&](std::uint32_t begin, std::uint32_t end) {
     return writer.send_placed(objects, places, begin, end);

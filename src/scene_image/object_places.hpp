@@ -25,7 +25,7 @@ struct OrderMemory {
 
 /// The places of an image's objects, from which its tables are written.
 struct ObjectPlaces {
-  ObjectCensus census;                   ///< census of the objects that can be hit
+  ObjectCounts counts;                   ///< counts of the objects that can be hit
   std::span<const std::uint32_t> groups; ///< groups of the objects that can be hit
   std::optional<std::span<const PlacedObject>>
       in_order;                             ///< the objects that can be hit, in the order of the image
@@ -50,17 +50,17 @@ public:
 private:
   const SceneObjects& objects_;
   OrderMemory memory_;
-  ObjectCensus census_;
+  ObjectCounts counts_;
   std::vector<std::uint32_t> groups_;
 };
 
-/// Returns the census of objects whose places by object are known, `places`; nothing if an object that can be
+/// Returns the counts of objects whose places by object are known, `places`; nothing if an object that can be
 /// hit has no place.
-std::optional<ObjectCensus> count_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
+std::optional<ObjectCounts> count_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
                                          unsigned threads);
 /// Counts the objects as count_placed() does, and writes their records, which must be those of plain
 /// triangles.
-std::optional<ObjectCensus> send_placed(TableWriter& writer, const SceneObjects& objects,
+std::optional<ObjectCounts> send_placed(TableWriter& writer, const SceneObjects& objects,
                                         std::span<const std::uint32_t> places, unsigned threads);
 /// Returns the objects that have a place, `placed` of them, in the order of the image, without their centres.
 std::span<const PlacedObject> in_order_of(std::span<const std::uint32_t> places, std::uint32_t placed,

@@ -10,7 +10,7 @@ namespace celltrace {
 
 using namespace kernel;
 
-void ObjectCensus::add(const ObjectCensus& other) {
+void ObjectCounts::add(const ObjectCounts& other) {
   objects += other.objects;
   extras += other.extras;
   blended += other.blended;

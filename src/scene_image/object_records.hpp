@@ -17,13 +17,13 @@
 namespace celltrace {
 
 /// The contents of a range of objects.
-struct ObjectCensus {
+struct ObjectCounts {
   std::uint32_t objects = 0;             ///< number of objects that can be hit
   std::uint32_t extras = 0, blended = 0; ///< number of these that have such a record
   kernel::Aabb around = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
   static constexpr float kFar = 3e38f;
-  void add(const ObjectCensus& other);
+  void add(const ObjectCounts& other);
 };
 
 /// Returns whether a material with these flags looks the same from both sides and needs nothing but the point

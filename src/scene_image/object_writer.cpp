@@ -109,65 +109,65 @@ bool SceneObjects::is_mapped(const Piece& piece, const Mesh::Triangle& triangle)
   });
 }
 
-ObjectCensus SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const {
+ObjectCounts SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const {
   return visit_boxes(begin, end, [&](std::uint32_t number, const LaneAabb& box) {
     box.centre().store(to->centre); // also writes the word after it
     to++->source = number;
   });
 }
 
-std::optional<ObjectCensus> SceneObjects::count_placed(std::uint32_t begin, std::uint32_t end,
+std::optional<ObjectCounts> SceneObjects::count_placed(std::uint32_t begin, std::uint32_t end,
                                                        std::span<const std::uint32_t> places) const {
   bool have_places = true;
-  const ObjectCensus census = visit_boxes(
+  const ObjectCounts counts = visit_boxes(
       begin, end, [&](std::uint32_t number, const LaneAabb&) { have_places &= places[number] != kNoPlace; });
-  return have_places ? std::optional(census) : std::nullopt;
+  return have_places ? std::optional(counts) : std::nullopt;
 }
 
 template <class Visit>
-ObjectCensus SceneObjects::visit_boxes(std::uint32_t begin, std::uint32_t end, Visit visit) const {
-  ObjectCensus census;
+ObjectCounts SceneObjects::visit_boxes(std::uint32_t begin, std::uint32_t end, Visit visit) const {
+  ObjectCounts counts;
   while (begin < end) {
     const Piece& piece = piece_of(begin, nullptr);
     const std::uint32_t piece_end = std::min(end, end_of(piece));
     if (piece.mesh != nullptr)
-      visit_triangles(piece, begin, piece_end, census, visit);
+      visit_triangles(piece, begin, piece_end, counts, visit);
     else
-      visit_shapes(piece, begin, piece_end, census, visit);
+      visit_shapes(piece, begin, piece_end, counts, visit);
     begin = piece_end;
   }
-  return census;
+  return counts;
 }
 
 template <class Visit>
 void SceneObjects::visit_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end,
-                                ObjectCensus& census, Visit visit) const {
+                                ObjectCounts& counts, Visit visit) const {
   for (std::uint32_t number = begin; number < end; ++number) {
     ProgressMonitor::check_cancelled(number);
     const Placed object = placed_at(piece, number);
     Aabb box;
     if (object.part != nullptr) {
       box = object.part->bounds;
-      census.extras += has_extra(object);
+      counts.extras += has_extra(object);
     } else if (const auto* instance = instanced_.find(*object.object)) {
       box = instance->box;
-      ++census.extras;
+      ++counts.extras;
     } else {
       const PlacedShape shape = place_shape(*object.object);
       if (shape.is_empty) continue;
       box = shape.bounds();
-      census.extras += shape.has_parameters;
+      counts.extras += shape.has_parameters;
     }
     check_size(box, owner_of(object));
-    census.around = united(census.around, box);
-    ++census.objects;
+    counts.around = united(counts.around, box);
+    ++counts.objects;
     visit(number, lanes_of(box));
   }
 }
 
 template <class Visit>
 void SceneObjects::visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end,
-                                   ObjectCensus& census, Visit visit) const {
+                                   ObjectCounts& counts, Visit visit) const {
   const Mesh& mesh = *piece.mesh;
   const bool is_limited = piece.is_limited_mesh(), may_be_mapped = !mesh.coordinates.empty();
   LaneAabb around = LaneAabb::empty();
@@ -180,36 +180,36 @@ void SceneObjects::visit_triangles(const Piece& piece, std::uint32_t begin, std:
     LaneAabb box = box_around(a, b, c);
     if (!has_size(box)) check_size(box_of(box), owner_of(piece));
     if (is_limited && !limit(box, piece.part->bounds)) continue;
-    census.extras += is_limited || is_smooth(triangle) || (may_be_mapped && is_mapped(piece, triangle));
-    census.blended += is_blended(piece, triangle);
+    counts.extras += is_limited || is_smooth(triangle) || (may_be_mapped && is_mapped(piece, triangle));
+    counts.blended += is_blended(piece, triangle);
     around.grow(box);
-    ++census.objects;
+    ++counts.objects;
     visit(number, box);
   }
-  census.around = united(census.around, box_of(around));
+  counts.around = united(counts.around, box_of(around));
 }
 
-ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) const {
-  ObjectCensus census;
+ObjectCounts SceneObjects::count_tables(std::span<const PlacedObject> objects) const {
+  ObjectCounts counts;
   const Piece* near = nullptr;
   for (const PlacedObject& object : objects) {
     ProgressMonitor::check_cancelled(static_cast<std::size_t>(&object - objects.data()));
     const Piece& piece = piece_of(object.source, near);
     near = &piece;
     if (piece.mesh == nullptr) {
-      census.extras += has_extra(placed_at(piece, object.source));
+      counts.extras += has_extra(placed_at(piece, object.source));
       continue;
     }
     const Mesh::Triangle& triangle = piece.mesh->triangles[object.source - piece.first];
-    census.extras += piece.is_limited_mesh() || is_smooth(triangle) || is_mapped(piece, triangle);
-    census.blended += is_blended(piece, triangle);
+    counts.extras += piece.is_limited_mesh() || is_smooth(triangle) || is_mapped(piece, triangle);
+    counts.blended += is_blended(piece, triangle);
   }
-  return census;
+  return counts;
 }
 
 class SceneObjects::Writer {
 public:
-  Writer(const SceneObjects& objects, const RecordTables& tables, const ObjectCensus& before)
+  Writer(const SceneObjects& objects, const RecordTables& tables, const ObjectCounts& before)
       : objects_(objects), tables_(tables), extras_(before.extras), blended_(before.blended) {}
 
   ObjectRecord shape(const Placed& placed) {
@@ -369,7 +369,7 @@ private:
 };
 
 void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTables& tables,
-                         const ObjectCensus& before, ObjectRecord* to) const {
+                         const ObjectCounts& before, ObjectRecord* to) const {
   Writer writer(*this, tables, before);
   const Piece* near = nullptr;
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -392,13 +392,13 @@ bool SceneObjects::are_plain_triangles() const {
   });
 }
 
-std::optional<ObjectCensus> SceneObjects::write_placed(std::uint32_t begin, std::uint32_t end,
+std::optional<ObjectCounts> SceneObjects::write_placed(std::uint32_t begin, std::uint32_t end,
                                                        std::span<const std::uint32_t> places,
                                                        const RecordTables& tables, ObjectRecord* to) const {
   Writer writer(*this, tables, {});
   const Piece* near = nullptr;
   bool have_places = true;
-  const ObjectCensus census = visit_boxes(begin, end, [&](std::uint32_t number, const LaneAabb&) {
+  const ObjectCounts counts = visit_boxes(begin, end, [&](std::uint32_t number, const LaneAabb&) {
     if (end - number > kAhead && places[number + kAhead] != kNoPlace)
       __builtin_prefetch(to + places[number + kAhead], 1);
     const std::uint32_t place = places[number];
@@ -407,7 +407,7 @@ std::optional<ObjectCensus> SceneObjects::write_placed(std::uint32_t begin, std:
     near = &piece_of(number, near);
     writer.lone_triangle(*near, number - near->first, to[place]);
   });
-  return have_places ? std::optional(census) : std::nullopt;
+  return have_places ? std::optional(counts) : std::nullopt;
 }
 
 void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, std::span<const std::uint32_t> places,
@@ -431,7 +431,7 @@ void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, std::span
   }
 }
 
-void SceneObjects::write_unbounded(const RecordTables& tables, const ObjectCensus& before,
+void SceneObjects::write_unbounded(const RecordTables& tables, const ObjectCounts& before,
                                    ObjectRecord* to) const {
   Writer writer(*this, tables, before);
   for (const Placed& object : projectors_)

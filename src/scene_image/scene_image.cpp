@@ -70,7 +70,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   if (remembered.updatable) {
     origin_ = std::make_unique<Origin>();
     origin_->places = placed.by_object();
-    origin_->placed = places.census.objects;
+    origin_->placed = places.counts.objects;
     origin_->groups = placed.take_groups();
     origin_->forms = parts.forms();
     origin_->order = parts.objects.order();
@@ -133,11 +133,11 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   places.are_written =
       header().extra_count == 0 && header().blend_count == 0 && objects.are_plain_triangles();
   if (places.are_written) {
-    places.census.objects = origin_->placed;
+    places.counts.objects = origin_->placed;
   } else {
-    const std::optional<ObjectCensus> census = count_placed(objects, origin_->places, threads);
-    if (!census || census->objects != origin_->placed) return false;
-    places.census = *census;
+    const std::optional<ObjectCounts> counts = count_placed(objects, origin_->places, threads);
+    if (!counts || counts->objects != origin_->placed) return false;
+    places.counts = *counts;
   }
   const ImageHeader updated = parts.header(places);
   if (!have_same_layout(header(), updated)) return false;
@@ -151,12 +151,12 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
     places.by_object = origin_->places;
   } else {
     TableWriter writer = parts.writer(block_.data(), updated);
-    const std::optional<ObjectCensus> census = send_placed(writer, objects, origin_->places, threads);
-    if (!census || census->objects != origin_->placed || census->extras != 0 || census->blended != 0) {
+    const std::optional<ObjectCounts> counts = send_placed(writer, objects, origin_->places, threads);
+    if (!counts || counts->objects != origin_->placed || counts->extras != 0 || counts->blended != 0) {
       origin_.reset();
       return false;
     }
-    places.census = *census;
+    places.counts = *counts;
   }
   parts.write(block_.data(), updated, places, threads);
   remember(parts);

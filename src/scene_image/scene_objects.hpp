@@ -57,16 +57,16 @@ public:
 
   /// Writes to `to`, in order, the objects of [begin, end) that can be hit. Throws InputError if an object's
   /// coordinates exceed the range of single precision.
-  ObjectCensus place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const;
-  /// Returns the same census if the objects have places already, given by object; nothing if an object that
+  ObjectCounts place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const;
+  /// Returns the same counts if the objects have places already, given by object; nothing if an object that
   /// can be hit has none.
-  std::optional<ObjectCensus> count_placed(std::uint32_t begin, std::uint32_t end,
+  std::optional<ObjectCounts> count_placed(std::uint32_t begin, std::uint32_t end,
                                            std::span<const std::uint32_t> places) const;
   /// Returns how many of `objects` have records in other tables.
-  ObjectCensus count_tables(std::span<const PlacedObject> objects) const;
+  ObjectCounts count_tables(std::span<const PlacedObject> objects) const;
 
   /// Writes the records of `objects`. `before` counts the entries of the tables that precede theirs.
-  void write(std::span<const PlacedObject> objects, const RecordTables& tables, const ObjectCensus& before,
+  void write(std::span<const PlacedObject> objects, const RecordTables& tables, const ObjectCounts& before,
              kernel::ObjectRecord* to) const;
 
   /// Returns whether all objects are triangles that no CSG limits, and single precision holds all their
@@ -74,7 +74,7 @@ public:
   bool are_plain_triangles() const;
   /// Counts as count_placed() does, and writes the records of objects that need no other tables; `places`
   /// says where in `to` each belongs. Needs are_plain_triangles().
-  std::optional<ObjectCensus> write_placed(std::uint32_t begin, std::uint32_t end,
+  std::optional<ObjectCounts> write_placed(std::uint32_t begin, std::uint32_t end,
                                            std::span<const std::uint32_t> places, const RecordTables& tables,
                                            kernel::ObjectRecord* to) const;
   /// Writes as write() does the objects of [begin, end) of the scene if they need no other tables; skips
@@ -84,7 +84,7 @@ public:
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
 
   /// Writes the records of projectors, then of unbounded objects; `before` as for write().
-  void write_unbounded(const RecordTables& tables, const ObjectCensus& before,
+  void write_unbounded(const RecordTables& tables, const ObjectCounts& before,
                        kernel::ObjectRecord* to) const;
 
 private:
@@ -110,12 +110,12 @@ private:
   static Placed placed_at(const Piece& piece, std::uint32_t number);
   bool has_extra(const Placed& placed) const;
   /// Calls `visit(number, box)` for the objects of [begin, end) that can be hit.
-  template <class Visit> ObjectCensus visit_boxes(std::uint32_t begin, std::uint32_t end, Visit visit) const;
+  template <class Visit> ObjectCounts visit_boxes(std::uint32_t begin, std::uint32_t end, Visit visit) const;
   template <class Visit>
-  void visit_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+  void visit_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCounts& counts,
                     Visit visit) const;
   template <class Visit>
-  void visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+  void visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCounts& counts,
                        Visit visit) const;
   void add_shape(const Object& object);
   /// Adds a polygon as triangles. Returns false if the object has to stay a polygon, or is none.

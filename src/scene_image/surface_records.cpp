@@ -88,7 +88,7 @@ void set_area(const LightArea& area, LightRecord& r) {
 }
 
 /// Returns the flags of features that the numbers of a record require of the kernel.
-std::uint32_t flags_of_numbers(const MaterialRecord& r) {
+std::uint32_t numeric_flags(const MaterialRecord& r) {
   const auto any = [](const float(&v)[3]) { return v[0] != 0 || v[1] != 0 || v[2] != 0; };
   std::uint32_t flags = 0;
   const auto set = [&](bool is_asked_for, std::uint32_t flag) { flags |= is_asked_for ? flag : 0; };
@@ -162,7 +162,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
       static_cast<float>(f.reflection_exponent != 0 ? 1 / f.reflection_exponent : 1);
   r.flags = (f.reflection_fresnel ? material_flag::fresnel : 0) |
             (f.conserve_energy ? material_flag::conserve_energy : 0) |
-            (scene.version < 3.7 ? material_flag::old_opacity : 0) | flags_of_numbers(r);
+            (scene.version < 3.7 ? material_flag::old_opacity : 0) | numeric_flags(r);
   r.pattern = r.normal = r.below = r.finish = r.inside = kNoOffset;
   return r;
 }

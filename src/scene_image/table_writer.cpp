@@ -169,7 +169,7 @@ void TableWriter::write_meshes(const MeshInsides& meshes) {
             table<MeshTriangleRecord>(header_.mesh_triangle_offset));
 }
 
-void TableWriter::write_unbounded(const SceneObjects& objects, const ObjectCensus& before) {
+void TableWriter::write_unbounded(const SceneObjects& objects, const ObjectCounts& before) {
   objects.write_unbounded(tables_, before, table<ObjectRecord>(first_projector()));
 }
 
@@ -186,7 +186,7 @@ void TableWriter::write_objects(const SceneObjects& objects, std::span<const Pla
     }
     return send_objects(objects, {places, objects.count()}, threads);
   }
-  std::vector<ObjectCensus> before(threads + 1);
+  std::vector<ObjectCounts> before(threads + 1);
   if (threads > 1)
     for_each_part(threads, [&](unsigned part) {
       before[part + 1] = objects.count_tables(part_of(placed, part, threads));
@@ -226,7 +226,7 @@ void TableWriter::write_groups(std::span<const std::uint32_t> groups, unsigned t
 
 void TableWriter::write_instances(const MeshInstances& instances, unsigned threads) {
   if (instances.group_count() == 0) return;
-  const std::uint32_t first_object = header_.object_count - instances.census().objects;
+  const std::uint32_t first_object = header_.object_count - instances.counts().objects;
   const std::uint32_t first_group = header_.group_count - instances.group_count();
   instances.write({tables_, table<ObjectRecord>(header_.object_offset) + first_object, first_object,
                    first_instance_extra(instances), table<GroupRecord>(header_.group_offset) + first_group,
@@ -244,7 +244,7 @@ void TableWriter::write_instanced(const InstancedMeshes& instanced) {
 /// Returns the index of the instances' first ExtraRecord. ExtraRecords have the order of objects: ordinary
 /// ones, instances, unbounded ones, meshes that instances share.
 std::uint32_t TableWriter::first_instance_extra(const MeshInstances& instances) const {
-  return header_.extra_count - other_extras_ - instances.census().extras;
+  return header_.extra_count - other_extras_ - instances.counts().extras;
 }
 
 void TableWriter::write_bounds(Aabb around) {
@@ -263,7 +263,7 @@ std::uint32_t TableWriter::first_projector() const {
          (header_.unbounded_count + header_.projector_count) * std::uint32_t{sizeof(ObjectRecord)};
 }
 
-std::optional<ObjectCensus> TableWriter::send_placed(const SceneObjects& objects,
+std::optional<ObjectCounts> TableWriter::send_placed(const SceneObjects& objects,
                                                      std::span<const std::uint32_t> places,
                                                      std::uint32_t begin, std::uint32_t end) {
   return objects.write_placed(begin, end, places, tables_, table<ObjectRecord>(header_.object_offset));

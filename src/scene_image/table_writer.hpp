@@ -37,7 +37,7 @@ public:
   void write_csg(const CsgParts& csg);
   void write_polygons(const PolygonTable& polygons);
   /// Writes objects without bounds; `before` counts the entries of tables that precede theirs.
-  void write_unbounded(const SceneObjects& objects, const ObjectCensus& before);
+  void write_unbounded(const SceneObjects& objects, const ObjectCounts& before);
   /// Writes the objects that are no instances: `placed`, in the order of the image. `places` has room for a
   /// word per object.
   void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
@@ -46,7 +46,7 @@ public:
   /// kNoPlace.
   void send_objects(const SceneObjects& objects, std::span<const std::uint32_t> places, unsigned threads);
   /// Writes the objects of [begin, end) of the scene while it counts them: see SceneObjects::write_placed().
-  std::optional<ObjectCensus> send_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
+  std::optional<ObjectCounts> send_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
                                           std::uint32_t begin, std::uint32_t end);
   void write_groups(std::span<const std::uint32_t> groups, unsigned threads);
   void write_instanced(const InstancedMeshes& instanced);

@@ -56,7 +56,7 @@ void Runner::each(std::size_t count, const std::function<void(std::size_t)>& wor
         throw;
       }
       const std::lock_guard lock(mutex);
-      heard_();
+      on_finished_();
     }
   });
 }

@@ -30,10 +30,10 @@ struct Outcome {
 /// Runs jobs on the threads of the host. Thread safety: one thread at a time.
 class Runner {
 public:
-  /// Makes a runner of jobs on `backend`. 0 threads: as many as the host has. `heard` is called for every
-  /// finished job, by any thread but one at a time.
-  Runner(Backend backend, unsigned threads, std::function<void()> heard)
-      : backend_(backend), threads_(threads), heard_(std::move(heard)) {}
+  /// Makes a runner of jobs on `backend`. 0 threads: as many as the host has. `on_finished` is called for
+  /// every finished job, by any thread but one at a time.
+  Runner(Backend backend, unsigned threads, std::function<void()> on_finished)
+      : backend_(backend), threads_(threads), on_finished_(std::move(on_finished)) {}
 
   Backend backend() const { return backend_; }
   /// Runs the jobs in lockstep. Returns the outcomes in the order of the jobs. Throws the first error of any
@@ -46,7 +46,7 @@ public:
 private:
   Backend backend_;
   unsigned threads_;
-  std::function<void()> heard_;
+  std::function<void()> on_finished_;
 };
 
 /// Returns whether this build's programs can run on cell_sim.

@@ -79,7 +79,7 @@ TEST_CASE("a cache hits and misses as its model does, and its data are right") {
     } else if (choice == 45 && random() % 16 == 0) {
       cache.invalidate_all();
       model.invalidate_all();
-      CHECK(spu->under_way() == 0);
+      CHECK(spu->in_flight() == 0);
     } else {
       ++(model.read(offset) ? hits : misses);
       wrong += cache.word(offset, Kind::object) != memory.word(offset);
@@ -146,9 +146,9 @@ TEST_CASE("a prefetch does not wait, and the read that follows is a hit") {
   Cache cache(*spu, CacheConfig{}, memory.base());
   cache.prefetch(kLineBytes + 8);
   cache.prefetch(kLineBytes + 12);
-  CHECK(spu->under_way() == 1);
+  CHECK(spu->in_flight() == 1);
   CHECK(cache.copy<std::uint32_t>(kLineBytes + 8, Kind::object) == memory.word(kLineBytes + 8));
-  CHECK(spu->under_way() == 0);
+  CHECK(spu->in_flight() == 0);
   CHECK(spu->transfers() == 1);
   CHECK(cache.counters(Kind::object).hits == 1);
   CHECK(cache.counters(Kind::object).misses == 0);

@@ -39,13 +39,13 @@ public:
   std::uint32_t wait_all(std::uint32_t mask) {
     ++waits_;
     std::vector<Transfer> left;
-    for (const Transfer& transfer : under_way_) {
+    for (const Transfer& transfer : in_flight_) {
       if ((mask >> transfer.tag & 1) == 0)
         left.push_back(transfer);
       else
         move(transfer);
     }
-    under_way_ = left;
+    in_flight_ = left;
     return mask;
   }
   void getllar(void* ls, ea_t ea) {
@@ -69,7 +69,7 @@ public:
   unsigned transfers() const { return transfers_; }
   unsigned bytes() const { return bytes_; }
   unsigned waits() const { return waits_; }
-  std::size_t under_way() const { return under_way_.size(); }
+  std::size_t in_flight() const { return in_flight_.size(); }
 
 private:
   struct Transfer {
@@ -87,14 +87,14 @@ private:
     if (transfer.size % 16 != 0 || transfer.ls % 16 != 0 || transfer.ea % 16 != 0)
       throw std::logic_error("misaligned transfer");
     if (transfer.size > kLineBytes || transfer.tag >= kMfcTags) throw std::logic_error("bad transfer");
-    for (const Transfer& other : under_way_) {
+    for (const Transfer& other : in_flight_) {
       if (other.ls < transfer.ls + transfer.size && transfer.ls < other.ls + other.size)
         throw std::logic_error("transfers race");
       if ((other.put || transfer.put) && other.ea < transfer.ea + transfer.size &&
           transfer.ea < other.ea + other.size)
         throw std::logic_error("transfers race in main memory");
     }
-    under_way_.push_back(transfer);
+    in_flight_.push_back(transfer);
     ++transfers_;
     bytes_ += transfer.size;
   }
@@ -107,7 +107,7 @@ private:
   Store store_{};
   unsigned char reserved_[kLineBytes]{};
   std::size_t next_ = 0;
-  std::vector<Transfer> under_way_;
+  std::vector<Transfer> in_flight_;
   unsigned transfers_ = 0;
   unsigned waits_ = 0;
   unsigned bytes_ = 0;

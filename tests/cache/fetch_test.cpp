@@ -38,7 +38,7 @@ TEST_CASE("a batch is fetched with one wait, and is hit afterwards") {
   const std::vector<std::uint32_t> offsets = lines(count);
   cache.fetch(offsets.data(), count);
   CHECK(spu->transfers() == count); // one of them by word()
-  CHECK(spu->under_way() == 0);
+  CHECK(spu->in_flight() == 0);
   CHECK(spu->waits() == waits + (count > 1 ? 1 : 0));
   for (const std::uint32_t offset : offsets)
     CHECK(cache.word(offset, 1) == memory.word(offset));
@@ -59,7 +59,7 @@ TEST_CASE("a batch may hold a line twice, more lines than the queue, and more th
   offsets.insert(offsets.begin() + 20, {0, 0, 128, 4});
   cache.prefetch(7 * kLineBytes);
   cache.fetch(offsets.data(), static_cast<std::uint32_t>(offsets.size()));
-  CHECK(spu->under_way() == 0);
+  CHECK(spu->in_flight() == 0);
   std::uint32_t wrong = 0;
   for (const std::uint32_t offset : lines(64))
     wrong += cache.word(offset, 0) != memory.word(offset);
@@ -92,7 +92,7 @@ TEST_CASE("words of many lanes are a reference each, and a transfer a miss") {
     }
   }
   CHECK(wrong == 0);
-  CHECK(spu->under_way() == 0);
+  CHECK(spu->in_flight() == 0);
   const CacheCounters seen = cache.counters(2);
   CHECK(seen.hits + seen.misses == wanted);
   CHECK(spu->transfers() == seen.misses);
@@ -112,7 +112,7 @@ TEST_CASE("a run of words is one reference a line, and the next line is under wa
     wrong += run.next() != memory.word(offset);
     // The cache is used for other things meanwhile.
     cache.word((offset * 7) % memory.bytes() & ~3u, 1);
-    if (config.enabled && offset == 120) CHECK(spu->under_way() == 1);
+    if (config.enabled && offset == 120) CHECK(spu->in_flight() == 1);
   }
   CHECK(wrong == 0);
   CHECK(offset == 120 + 70 * 4);

@@ -77,7 +77,7 @@ TEST_CASE("what was written is read, and is in main memory after a flush") {
   }
   CHECK(wrong == 0);
   cache.invalidate_all();
-  CHECK(spu->under_way() == 0);
+  CHECK(spu->in_flight() == 0);
   CHECK(cache.written_back() > 0);
   CHECK(cache.counters(1).hits + cache.counters(1).misses > 0);
 }

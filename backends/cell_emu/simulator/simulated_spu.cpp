@@ -95,7 +95,7 @@ template <bool profiled> void SimulatedSpu::run_slice() {
     const std::uint8_t target = instruction.target;
     [[maybe_unused]] const Cycle before = model_.last();
     model_.issue(instruction, pc);
-    if constexpr (profiled) under_way_ = {pc, true, model_.last() == before};
+    if constexpr (profiled) executing_ = {pc, true, model_.last() == before};
     const std::uint32_t following = (pc + 4) & isa::kLocalStoreLimit;
     state.next = following;
     if (early_loads_.any()) [[unlikely]]
@@ -113,16 +113,16 @@ template <bool profiled> void SimulatedSpu::run_slice() {
 }
 
 void SimulatedSpu::record() {
-  SpuProfile::Word& word = words_[under_way_.pc / 4];
+  SpuProfile::Word& word = words_[executing_.pc / 4];
   ++word.hits;
-  word.instruction = decoded_[under_way_.pc / 4].word;
-  word.dual += under_way_.paired;
-  under_way_.issued = false;
+  word.instruction = decoded_[executing_.pc / 4].word;
+  word.dual += executing_.paired;
+  executing_.issued = false;
   record_cycles();
 }
 
 void SimulatedSpu::record_cycles() {
-  SpuProfile::Word& word = words_[under_way_.pc / 4];
+  SpuProfile::Word& word = words_[executing_.pc / 4];
   word.cycles += model_.last() - profiled_until_;
   word.dependency += model_.recent(StallReason::dependency);
   word.branch_miss += model_.recent(StallReason::branch_miss);
@@ -138,7 +138,7 @@ void SimulatedSpu::record_cycles() {
 void SimulatedSpu::hand_in_profile() {
   if (profile_ == nullptr) return;
   // The instruction that ended the program has not been recorded yet.
-  if (under_way_.issued) record();
+  if (executing_.issued) record();
   record_cycles();
   profile_->add(words_);
 }

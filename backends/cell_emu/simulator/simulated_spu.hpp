@@ -92,7 +92,7 @@ private:
     std::uint32_t pc = 0;
     bool issued = false; ///< issued and not yet recorded
     bool paired = false; ///< issued with the instruction before
-  } under_way_;
+  } executing_;
   Cycle profiled_until_ = 0;
   Cycle waited_ = 0; ///< time at channels of the present instruction
 };

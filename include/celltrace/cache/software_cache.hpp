@@ -218,7 +218,7 @@ private:
   // Flags of a tag. 0 is a free way.
   static constexpr uint32_t kValid = 1;
   static constexpr uint32_t kOutOfDate = 2; ///< set by synchronize(): the line has to be fetched again
-  static constexpr uint32_t kUnderWay = 4;  ///< the line's transfer has not been waited for
+  static constexpr uint32_t kInFlight = 4;  ///< the line's transfer has not been waited for
   /// The tag of a way that does not exist: neither free nor equal to the tag of any line, whatever its flags.
   static constexpr uint32_t kNoWay = 0xFFFFFFFFu;
   static constexpr uint32_t kNotFound = 0xFFFFFFFFu;
@@ -359,18 +359,18 @@ private:
       uint32_t way = locate(set, line);
       if (!up_to_date(set, way)) way = start_fetch(set, way, line);
       uint32_t& state = tag(set, way);
-      if ((state & kUnderWay) == 0) continue;
+      if ((state & kInFlight) == 0) continue;
       arriving[arriving_count++] = &state;
       dma_tags |= 1u << dma_tag(slot_of(set, way));
     }
     if (arriving_count != 0) spu_.wait_all(dma_tags);
     for (uint32_t i = 0; i < arriving_count; ++i)
-      *arriving[i] &= ~kUnderWay;
+      *arriving[i] &= ~kInFlight;
   }
 
   /// Returns the way that holds the line, whether it is up to date or has arrived or not; or kNotFound.
   uint32_t locate(uint32_t set, uint32_t line) const {
-    const U4 state = U4::splat(~(kOutOfDate | kUnderWay));
+    const U4 state = U4::splat(~(kOutOfDate | kInFlight));
     const U4 wanted = U4::splat(line | kValid);
     return first_way(set, state, wanted);
   }
@@ -401,16 +401,16 @@ private:
     finish_fetch(set, way); // two transfers into one line would race
     const uint32_t slot = slot_of(set, way);
     this->clean(spu_, slot, line_at(slot), base_, dma_tag(slot));
-    tag(set, way) = line | kValid | kUnderWay;
+    tag(set, way) = line | kValid | kInFlight;
     stamp(slot);
     spu_.get(line_at(slot), base_ + line, kLineBytes, dma_tag(slot));
     return way;
   }
   void finish_fetch(uint32_t set, uint32_t way) {
     uint32_t& state = tag(set, way);
-    if ((state & kUnderWay) == 0) return;
+    if ((state & kInFlight) == 0) return;
     spu_.wait_all(1u << dma_tag(slot_of(set, way)));
-    state &= ~kUnderWay;
+    state &= ~kInFlight;
   }
   uint32_t dma_tag(uint32_t slot) const { return config_.first_tag + (slot & (config_.tag_count - 1)); }
 

@@ -20,7 +20,7 @@ public:
   /// Accepts a context that is free for the first time, or because its packet is complete.
   void give_back(uint32_t context) {
     const uint32_t bit = 1u << context;
-    heard_ |= bit;
+    reported_ |= bit;
     if ((busy_ & bit) != 0) ++completed_;
     busy_ &= ~bit;
     if (row_ < frame_.packet_rows && !stopped_) {
@@ -77,7 +77,7 @@ private:
   /// after every shader has reported: nothing may ring in an SPE that has left.
   void report() {
     const bool all_issued = stopped_ || row_ >= frame_.packet_rows;
-    const bool complete = all_issued && busy_ == 0 && (heard_ & stage_.announced) == stage_.announced;
+    const bool complete = all_issued && busy_ == 0 && (reported_ & stage_.announced) == stage_.announced;
     if (complete && !finished_) {
       finished_ = true;
       spu_.write_out_mailbox(make_report(ReportKind::finished, completed_));
@@ -94,7 +94,7 @@ private:
   uint32_t row_;
   Slot* slots_;
   uint32_t slot_ = 0;
-  uint32_t heard_ = 0; ///< contexts that have reported
+  uint32_t reported_ = 0; ///< contexts that have reported
   uint32_t busy_ = 0;
   uint32_t completed_ = 0; ///< number of packets
   bool stopped_ = false;

@@ -17,7 +17,7 @@ class AdaptiveSampler : public PixelSampler<Spu, SamplingMethod::adaptive, kChan
       Base::first_line, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_, Base::kEdge,
       Base::kHasAlpha, Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_, Base::row_mask,
       Base::scratch_, Base::send, Base::smaller_of, Base::store_, Base::take_channels, Base::take_points,
-      Base::takes_points, Base::under_way_, Base::wants_colours, Base::width_;
+      Base::takes_points, Base::in_progress_, Base::wants_colours, Base::width_;
   using typename Base::F, typename Base::Points, typename Base::R;
 
   using Square = SampleSquare<kChannels>;
@@ -44,12 +44,12 @@ public:
   /// Takes colours and makes samples; see FixedSampler::advance().
   CELLTRACE_ONE_COPY bool advance(uint32_t column, uint32_t row) {
     if (takes_points(column, row)) return false;
-    if (under_way_)
+    if (in_progress_)
       divide_squares();
     else
       begin_block(column, row);
-    under_way_ = ask_for_squares();
-    return under_way_;
+    in_progress_ = ask_for_squares();
+    return in_progress_;
   }
 
 private:

@@ -20,7 +20,7 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
       Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kSamples,
       Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
       Base::scratch_, Base::send_object, Base::smaller_of, Base::store_, Base::take_channels,
-      Base::take_points, Base::takes_points, Base::under_way_, Base::wants_colours, Base::width_;
+      Base::take_points, Base::takes_points, Base::in_progress_, Base::wants_colours, Base::width_;
   using typename Base::Colour, typename Base::F, typename Base::Points, typename Base::R;
   using W = typename Base::S::F;
 
@@ -66,12 +66,12 @@ public:
   /// (column, row). True: the block needs the samples that `samples` now has.
   CELLTRACE_ONE_COPY bool advance(uint32_t column, uint32_t row) {
     if (takes_points(column, row)) return false;
-    if (under_way_)
+    if (in_progress_)
       take_samples();
     else
       begin_block(column, row);
-    under_way_ = ask_for_pixels();
-    return under_way_;
+    in_progress_ = ask_for_pixels();
+    return in_progress_;
   }
 
 private:

@@ -113,7 +113,7 @@ public:
 
   /// Begins a frame. Its code is not part of the module.
   [[gnu::always_inline]] void begin_frame() {
-    under_way_ = false;
+    in_progress_ = false;
     store_ = frame_.sample_store + spu_.id() * sample_store_bytes(kBundleEdge<Spu>, kHasAlpha);
     for (SampleLanes& packet : samples_.at)
       packet.transparency = FloatLanes();
@@ -334,7 +334,7 @@ protected:
   SampleBundle<Spu>& samples_;
   Scratch& scratch_;
   ea_t store_ = 0; ///< the SPE's own store in main memory
-  bool under_way_ = false;
+  bool in_progress_ = false;
   uint32_t column_ = 0, row_ = 0;   ///< position of the block
   uint32_t width_ = 0, height_ = 0; ///< size of the block's part in the picture, in pixels
   uint32_t asked_ = 0;              ///< number of samples, or of squares

@@ -13,7 +13,7 @@ using namespace kernel::models;
 namespace {
 
 /// The SPEs of one pipeline, by program.
-struct Crew {
+struct SpeRoles {
   bool generator = false; ///< true: the generator has an SPE of its own; false: a shader also generates
   unsigned shaders = 1;
   unsigned walkers = 0, testers = 0;
@@ -22,40 +22,40 @@ struct Crew {
 
 /// Returns the division of a pipeline's SPEs that is best for most scenes, measured on eight SPEs
 /// (docs/programming-models.md). Searches in a BVH are short, and leave more SPEs to the shaders.
-Crew crew_of(Model model, AcceleratorKind accelerator, unsigned spes) {
-  Crew crew;
+SpeRoles roles_of(Model model, AcceleratorKind accelerator, unsigned spes) {
+  SpeRoles roles;
   if (model == Model::offload) {
-    crew.searchers = spes - 1;
-    return crew;
+    roles.searchers = spes - 1;
+    return roles;
   }
   const bool split = model == Model::pipeline_split;
-  crew.generator = spes >= (split ? 4u : 3u);
-  const unsigned others = spes - (crew.generator ? 1 : 0);
+  roles.generator = spes >= (split ? 4u : 3u);
+  const unsigned others = spes - (roles.generator ? 1 : 0);
   const unsigned shaders_of_seven = split ? 1 : accelerator == AcceleratorKind::grid ? 2 : 4;
-  crew.shaders = std::max(1u, others * shaders_of_seven / 7);
-  const unsigned left = others - crew.shaders;
+  roles.shaders = std::max(1u, others * shaders_of_seven / 7);
+  const unsigned left = others - roles.shaders;
   if (!split) {
-    crew.searchers = left;
+    roles.searchers = left;
   } else if (left >= 2) {
-    crew.testers = std::max(1u, left / 3);
-    crew.walkers = left - crew.testers;
+    roles.testers = std::max(1u, left / 3);
+    roles.walkers = left - roles.testers;
   } // else one SPE walks and tests in turn
-  return crew;
+  return roles;
 }
 
 /// Plans one pipeline on the `spes` SPEs from `first` on.
 void plan_pipeline(Model model, AcceleratorKind accelerator, unsigned first, unsigned spes, unsigned pipeline,
                    StagePlan& plan) {
-  const Crew crew = crew_of(model, accelerator, spes);
+  const SpeRoles roles = roles_of(model, accelerator, spes);
   unsigned next = first;
   const unsigned generator = next;
-  next += crew.generator ? 1 : 0;
+  next += roles.generator ? 1 : 0;
   const unsigned first_shader = next;
-  const unsigned first_searcher = first_shader + crew.shaders;
+  const unsigned first_searcher = first_shader + roles.shaders;
   const bool split = model == Model::pipeline_split;
-  const unsigned walkers = split ? std::max(crew.walkers, 1u) : crew.searchers;
-  const unsigned first_tester = crew.testers != 0 ? first_searcher + walkers : first_searcher;
-  const unsigned testers = std::max(crew.testers, 1u);
+  const unsigned walkers = split ? std::max(roles.walkers, 1u) : roles.searchers;
+  const unsigned first_tester = roles.testers != 0 ? first_searcher + walkers : first_searcher;
+  const unsigned testers = std::max(roles.testers, 1u);
 
   StageBlock common{};
   common.generator = generator;
@@ -64,9 +64,9 @@ void plan_pipeline(Model model, AcceleratorKind accelerator, unsigned first, uns
   for (unsigned context = 0; context < kMaxContexts; ++context) {
     common.searcher[context] = static_cast<std::uint8_t>(first_searcher + context % walkers);
     common.tester[context] = static_cast<std::uint8_t>(first_tester + context % testers);
-    common.shader[context] = static_cast<std::uint8_t>(first_shader + context % crew.shaders);
+    common.shader[context] = static_cast<std::uint8_t>(first_shader + context % roles.shaders);
   }
-  common.announced = (1u << crew.shaders) - 1;
+  common.announced = (1u << roles.shaders) - 1;
   common.contexts = bell::contexts;
   common.first_row = pipeline;
   common.row_step = plan.pipelines;
@@ -74,15 +74,15 @@ void plan_pipeline(Model model, AcceleratorKind accelerator, unsigned first, uns
   for (unsigned spe = first; spe < first + spes; ++spe) {
     StagePlan::Spe one{StagePlan::Program::searcher, common, pipeline};
     StageBlock& orders = one.orders;
-    if (crew.generator && spe == generator) {
+    if (roles.generator && spe == generator) {
       one.program = StagePlan::Program::generator;
       orders.tasks = task::generate;
     } else if (spe < first_searcher) {
       one.program = StagePlan::Program::shader;
-      orders.tasks = task::shade | (crew.generator ? 0 : task::generate);
+      orders.tasks = task::shade | (roles.generator ? 0 : task::generate);
       if (model == Model::offload) orders.tasks |= task::dispatch;
       orders.contexts = 0;
-      for (unsigned context = spe - first_shader; context < kMaxContexts; context += crew.shaders)
+      for (unsigned context = spe - first_shader; context < kMaxContexts; context += roles.shaders)
         orders.contexts |= 1u << context;
     } else if (!split) {
       orders.tasks = task::search | (model == Model::offload ? task::by_mailbox : 0);
