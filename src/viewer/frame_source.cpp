@@ -54,10 +54,10 @@ FrameSource::~FrameSource() {
   thread_.join();
 }
 
-void FrameSource::want(const Wanted& wanted) {
+void FrameSource::request(const FrameRequest& request) {
   {
     const std::lock_guard lock(mutex_);
-    wanted_ = wanted;
+    request_ = request;
   }
   changed_.notify_one();
 }
@@ -91,18 +91,18 @@ std::optional<Picked> FrameSource::take_picked() {
 void FrameSource::run() {
   std::uint64_t shown = 0;
   for (;;) {
-    Wanted wanted;
+    FrameRequest request;
     std::optional<Place> place;
     {
       std::unique_lock lock(mutex_);
-      const auto is_new = [&] { return wanted_.number != shown && wanted_.scene; };
+      const auto is_new = [&] { return request_.number != shown && request_.scene; };
       changed_.wait(lock, [&] { return quits_ || is_new() || (place_ && session_); });
       if (quits_) return;
       if (!is_new()) place = std::exchange(place_, std::nullopt);
-      wanted = wanted_;
+      request = request_;
     }
     if (place) {
-      Picked picked = look_at(*place);
+      Picked picked = pick(*place);
       {
         const std::lock_guard lock(mutex_);
         picked_ = std::move(picked);
@@ -110,22 +110,22 @@ void FrameSource::run() {
       notify_();
       continue;
     }
-    shown = wanted.number;
+    shown = request.number;
     try {
-      show(wanted);
+      show(request);
     } catch (const std::exception& error) {
       // The machine may be in any state.
       session_.reset();
       Frame frame;
       frame.error = error.what();
-      frame.number = wanted.number;
+      frame.number = request.number;
       frame.is_final = true;
       publish(std::move(frame));
     }
   }
 }
 
-Picked FrameSource::look_at(const Place& place) {
+Picked FrameSource::pick(const Place& place) {
   Picked picked;
   picked.scene = scene_;
   picked.is_middle = place.is_middle;
@@ -146,49 +146,49 @@ Picked FrameSource::look_at(const Place& place) {
   return picked;
 }
 
-void FrameSource::show(const Wanted& wanted) {
-  take_machine(wanted);
-  session_->set_camera(wanted.camera);
-  camera_ = wanted.camera;
-  number_ = wanted.number;
-  const double pixels = pixels_of(wanted.options);
+void FrameSource::show(const FrameRequest& request) {
+  take_machine(request);
+  session_->set_camera(request.camera);
+  camera_ = request.camera;
+  number_ = request.number;
+  const double pixels = pixels_of(request.options);
   int scale = pace_.first_scale(pixels);
-  if (!render(wanted, scale, true, false)) return;
+  if (!render(request, scale, true, false)) return;
   while (scale > 1) {
     scale = pace_.next_scale(pixels, scale);
-    if (!render(wanted, scale, false, false)) return;
+    if (!render(request, scale, false, false)) return;
   }
-  if (wanted.options.antialiasing) render(wanted, 1, false, true);
+  if (request.options.antialiasing) render(request, 1, false, true);
 }
 
-void FrameSource::take_machine(const Wanted& wanted) {
-  if (session_ && machine_ == wanted.machine && scene_ == wanted.scene) return;
-  if (!session_ || machine_ != wanted.machine) {
+void FrameSource::take_machine(const FrameRequest& request) {
+  if (session_ && machine_ == request.machine && scene_ == request.scene) return;
+  if (!session_ || machine_ != request.machine) {
     session_.reset();
-    session_ = std::make_unique<Session>(*wanted.scene, wanted.options);
-    machine_ = wanted.machine;
+    session_ = std::make_unique<Session>(*request.scene, request.options);
+    machine_ = request.machine;
   } else {
-    session_->replace(*wanted.scene);
+    session_->replace(*request.scene);
   }
-  scene_ = wanted.scene;
+  scene_ = request.scene;
   pace_.forget();
 }
 
-bool FrameSource::render(const Wanted& wanted, int scale, bool is_first, bool antialiased) {
-  RenderOptions options = wanted.options;
+bool FrameSource::render(const FrameRequest& request, int scale, bool is_first, bool antialiased) {
+  RenderOptions options = request.options;
   options.width = scaled(options.width, scale);
   options.height = scaled(options.height, scale);
   if (!antialiased) options.antialiasing.reset();
-  options.work_map = wanted.work_map;
+  options.work_map = request.work_map;
   options.finished_block = nullptr;
   growing_.reset();
-  if (pace_.expected(pixels_of(wanted.options), scale) > kSlow) {
+  if (pace_.expected(pixels_of(request.options), scale) > kSlow) {
     options.finished_block = [this](const PictureBlock& block) { grow(block); };
     growing_.emplace();
     growing_->image = last_.rgba.empty() ? Image(options.width, options.height)
                                          : resized(last_, options.width, options.height);
     growing_->scale = scale;
-    growing_->number = wanted.number;
+    growing_->number = request.number;
     growing_->is_complete = false;
     growing_->is_antialiased = antialiased;
     growing_->statistics = statistics_;
@@ -200,7 +200,7 @@ bool FrameSource::render(const Wanted& wanted, int scale, bool is_first, bool an
   double done = 0;
   RenderResult result = session_->render([&](double fraction) {
     done = fraction;
-    return goes_on(wanted, is_first, start);
+    return should_continue(request, is_first, start);
   });
   // Building a BVH does not count for the estimate of the next frame.
   const RenderStatistics& statistics = result.statistics;
@@ -215,21 +215,21 @@ bool FrameSource::render(const Wanted& wanted, int scale, bool is_first, bool an
   Frame frame;
   frame.image = std::move(result.image);
   frame.scale = scale;
-  frame.is_final = scale == 1 && (antialiased || !wanted.options.antialiasing);
+  frame.is_final = scale == 1 && (antialiased || !request.options.antialiasing);
   frame.is_antialiased = antialiased;
-  frame.number = wanted.number;
+  frame.number = request.number;
   frame.statistics = statistics;
   frame.work = std::move(result.work);
   publish(std::move(frame));
-  return goes_on(wanted, false, start);
+  return should_continue(request, false, start);
 }
 
 /// Returns whether the present picture is still worth finishing.
-bool FrameSource::goes_on(const Wanted& wanted, bool is_first, Clock::time_point start) {
+bool FrameSource::should_continue(const FrameRequest& request, bool is_first, Clock::time_point start) {
   const std::lock_guard lock(mutex_);
   if (quits_) return false;
-  if (wanted_.number == wanted.number) return true;
-  const bool is_other = wanted_.machine != wanted.machine || wanted_.scene != wanted.scene;
+  if (request_.number == request.number) return true;
+  const bool is_other = request_.machine != request.machine || request_.scene != request.scene;
   return is_first && !is_other && Clock::now() - start < kLate;
 }
 

@@ -21,8 +21,8 @@ class Session;
 
 namespace celltrace::viewer {
 
-/// The picture that the window wants.
-struct Wanted {
+/// The picture that the window requests.
+struct FrameRequest {
   std::shared_ptr<const Scene> scene; ///< null: none yet
   Camera camera;
   /// Machine, size and antialiasing; only pictures at rest are antialiased.
@@ -41,7 +41,7 @@ struct Frame {
   bool is_complete = true; ///< false: the picture is still growing
   bool is_final = false;   ///< true: nothing better comes until something else is wanted
   bool is_antialiased = false;
-  std::uint64_t number = 0;    ///< Wanted::number
+  std::uint64_t number = 0;    ///< FrameRequest::number
   RenderStatistics statistics; ///< statistics of the last complete frame
   std::vector<WorkRecord> work;
   std::string error; ///< message of an error; the image is empty then
@@ -51,7 +51,7 @@ struct Frame {
 struct Picked {
   std::shared_ptr<const Scene> scene; ///< the scene that was queried
   bool is_middle = false;             ///< true for answers to ask_middle()
-  std::uint64_t number = 0;           ///< Wanted::number of the picture
+  std::uint64_t number = 0;           ///< FrameRequest::number of the picture
   std::optional<Index> object;        ///< index in Scene::objects; nothing if there is no object
   Vec3 point{0, 0, 0};                ///< point on the object
   double distance = 0;                ///< distance from the origin of the camera's ray
@@ -70,7 +70,7 @@ public:
 
   /// Requests a picture, without waiting. A picture under way for something else is cancelled, unless it is
   /// nearly done.
-  void want(const Wanted& wanted);
+  void request(const FrameRequest& request);
   /// Returns the newest frame since the last call.
   std::optional<Frame> take();
 
@@ -90,20 +90,20 @@ private:
   };
 
   void run();
-  Picked look_at(const Place& place);
-  void show(const Wanted& wanted);
-  void take_machine(const Wanted& wanted);
-  /// Renders a picture. Returns false if it was cancelled, or if something else is wanted by
+  Picked pick(const Place& place);
+  void show(const FrameRequest& request);
+  void take_machine(const FrameRequest& request);
+  /// Renders a picture. Returns false if it was cancelled, or if something else is request by
   /// now.
-  bool render(const Wanted& wanted, int scale, bool is_first, bool antialiased);
-  bool goes_on(const Wanted& wanted, bool is_first, Clock::time_point start);
+  bool render(const FrameRequest& request, int scale, bool is_first, bool antialiased);
+  bool should_continue(const FrameRequest& request, bool is_first, Clock::time_point start);
   void grow(const PictureBlock& block);
   void publish(Frame frame);
 
   const std::function<void()> notify_;
   std::mutex mutex_; ///< guards the next seven members
   std::condition_variable changed_;
-  Wanted wanted_;
+  FrameRequest request_;
   std::optional<Frame> frame_;
   std::optional<Place> place_;
   std::optional<Picked> picked_;

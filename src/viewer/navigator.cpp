@@ -51,28 +51,28 @@ Vec3 Navigator::up() const {
 
 /// Returns the point on the camera's axis, in front of the camera, that is nearest to the middle of the
 /// scene.
-Vec3 Navigator::point_looked_at() const {
+Vec3 Navigator::view_centre() const {
   const Vec3 axis = unit(camera_.direction);
   const double along = glm::dot(0.5 * (low_ + high_) - camera_.location, axis);
   return camera_.location + axis * std::max(along, 5 * kStep * size_);
 }
 
 void Navigator::forget_pivot() {
-  knows_pivot_ = false;
-  pivot_ = point_looked_at();
+  has_pivot_ = false;
+  pivot_ = view_centre();
   step_ = kStep * std::min(size_, 2 * glm::length(pivot_ - camera_.location));
 }
 
 /// Notes that the point in the middle has changed. Steps keep their length until set_pivot() is called, so
 /// that going back leads back.
-void Navigator::keep_looking() {
-  knows_pivot_ = false;
-  pivot_ = point_looked_at();
+void Navigator::recentre_pivot() {
+  has_pivot_ = false;
+  pivot_ = view_centre();
 }
 
 void Navigator::set_pivot(double distance) {
   pivot_ = camera_.location + unit(camera_.direction) * distance;
-  knows_pivot_ = true;
+  has_pivot_ = true;
   step_ = kStep * std::min(size_, 2 * distance);
 }
 
@@ -111,13 +111,13 @@ void Navigator::walk(double right, double forward) {
   ahead.y = 0;
   if (glm::length(ahead) < 1e-6 * glm::length(camera_.direction)) ahead = {camera_.up.x, 0, camera_.up.z};
   camera_.location += step_ * (right * unit(camera_.right) + forward * unit(ahead));
-  keep_looking();
+  recentre_pivot();
 }
 
 void Navigator::rise(double steps) {
   if (mode_ == Mode::planar) {
     camera_.location.y += step_ * steps;
-    keep_looking();
+    recentre_pivot();
     return;
   }
   const Vec3 away = camera_.location - pivot_;
@@ -128,7 +128,7 @@ void Navigator::rise(double steps) {
 void Navigator::turn(double right, double up) {
   rotate({0, 1, 0}, right, camera_.location);
   rotate(camera_.right, -up, camera_.location);
-  keep_looking();
+  recentre_pivot();
 }
 
 void Navigator::zoom(double factor) {
@@ -146,7 +146,7 @@ void Navigator::zoom(double factor) {
     return;
   default:
     camera_.location += unit(camera_.direction) * (step_ * 5 * std::log(factor));
-    keep_looking();
+    recentre_pivot();
   }
 }
 
@@ -165,7 +165,7 @@ Camera Navigator::camera_towards(const Vec3& direction, const Vec3& up) const {
   return camera;
 }
 
-void Navigator::look_from(std::size_t view) {
+void Navigator::show_view(std::size_t view) {
   view_ = view % names_.size();
   camera_ = view_ == 0 ? own_ : camera_towards(kViews[view_ - 1].direction, kViews[view_ - 1].up);
   forget_pivot();

@@ -36,26 +36,26 @@ public:
   /// Moves to the right and forward in the plane, by steps, in any mode.
   void walk(double right, double forward);
   /// Returns whether the point to orbit was set by set_pivot().
-  bool knows_pivot() const { return knows_pivot_; }
+  bool has_pivot() const { return has_pivot_; }
   /// Sets the point to orbit, in the middle of the picture at this distance.
   void set_pivot(double distance);
   /// Zooms; a factor above 1 enlarges: by a narrower angle, or by moving closer if the camera has none or in
   /// radial mode.
   void zoom(double factor);
   /// Goes to one of the views, of which the first is the scene's own camera; all movement is forgotten.
-  void look_from(std::size_t view);
+  void show_view(std::size_t view);
   std::size_t view() const { return view_; }
   const std::vector<std::string>& views() const { return names_; }
   /// Goes back to the start of the present view.
-  void reset() { look_from(view_); }
+  void reset() { show_view(view_); }
 
 private:
   Vec3 up() const;
   void rotate(const Vec3& axis, double degrees, const Vec3& around);
   Camera camera_towards(const Vec3& direction, const Vec3& up) const;
-  Vec3 point_looked_at() const;
+  Vec3 view_centre() const;
   void forget_pivot();
-  void keep_looking();
+  void recentre_pivot();
 
   Camera camera_, own_;
   Vec3 low_, high_;
@@ -63,7 +63,7 @@ private:
   double step_ = 1;
   Mode mode_ = Mode::planar;
   Vec3 pivot_{0, 0, 0};
-  bool knows_pivot_ = false;
+  bool has_pivot_ = false;
   std::size_t view_ = 0;
   std::vector<std::string> names_;
 };

@@ -140,7 +140,7 @@ private:
     if (is_movement(control->action)) {
       held_[control->action] = Clock::now() + kHold;
       move(control->action, 1);
-      return want();
+      return request_frame();
     }
     obey(control->action);
   }
@@ -155,21 +155,21 @@ private:
       break;
     case Action::reset:
       if (navigator_) navigator_->reset();
-      return want();
+      return request_frame();
     case Action::next_view:
-      if (navigator_) navigator_->look_from(navigator_->view() + 1);
-      return want();
+      if (navigator_) navigator_->show_view(navigator_->view() + 1);
+      return request_frame();
     case Action::information:
       shows_information_ = !shows_information_;
       break;
     case Action::strips:
       shows_strips_ = !shows_strips_;
       shows_costs_ = false;
-      return want_work();
+      return request_work();
     case Action::costs:
       shows_costs_ = !shows_costs_;
       shows_strips_ = false;
-      return want_work();
+      return request_work();
     case Action::next_backend:
       backend_ = (backend_ + 1) % backends_.size();
       render_.backend = backends_[backend_];
@@ -182,7 +182,7 @@ private:
     case Action::antialiasing:
       antialiasing_ =
           antialiasing_ ? std::nullopt : std::optional(options_.render.antialiasing.value_or(Antialiasing()));
-      return want();
+      return request_frame();
     case Action::screenshot:
       save_screenshot();
       break;
@@ -191,7 +191,7 @@ private:
       break;
     case Action::pause:
       is_paused_ = !is_paused_;
-      if (!is_paused_) return want();
+      if (!is_paused_) return request_frame();
       break;
     case Action::help:
       if (++help_page_ > help_pages().size()) help_page_ = 0;
@@ -217,7 +217,7 @@ private:
   /// Asks for the object in the middle of the picture, which becomes the point to orbit when the answer
   /// comes.
   void ask_middle() {
-    if (navigator_ && !navigator_->knows_pivot()) source_.ask_middle();
+    if (navigator_ && !navigator_->has_pivot()) source_.ask_middle();
   }
 
   void move(Action action, double steps) {
@@ -256,7 +256,7 @@ private:
       last = now;
       moved = true;
     }
-    if (moved) want();
+    if (moved) request_frame();
   }
 
   void drag(Uint32 buttons, bool has_shift, int x, int y) {
@@ -270,7 +270,7 @@ private:
       navigator_->walk(0.1 * x, -0.1 * y);
     else
       return;
-    want();
+    request_frame();
   }
 
   /// Asks for the object at a point, in pixels of the window.
@@ -282,7 +282,7 @@ private:
   void zoom(int steps) {
     if (!navigator_ || steps == 0) return;
     navigator_->zoom(std::pow(kZoomPerStep, steps));
-    want();
+    request_frame();
   }
 
   /// Plays a step as if the user had done it.
@@ -312,38 +312,38 @@ private:
     if (width == render_.width && height == render_.height) return;
     render_.width = width;
     render_.height = height;
-    want();
+    request_frame();
   }
 
   void change_machine() {
     ++machine_;
-    want();
+    request_frame();
   }
   /// Requests a frame with work records, if strips or costs are shown: frames without them have no such
   /// information.
-  void want_work() {
-    if (shows_strips_ || shows_costs_) return want();
+  void request_work() {
+    if (shows_strips_ || shows_costs_) return request_frame();
     is_dirty_ = true;
   }
 
-  void want() {
+  void request_frame() {
     is_dirty_ = true;
     if (!scene_ || is_paused_) return;
-    Wanted wanted;
-    wanted.scene = scene_;
-    wanted.options = render_;
-    wanted.options.ray_queries = true;
-    wanted.options.antialiasing = render_.model == Model::shared ? antialiasing_ : std::nullopt;
-    if (render_.backend != Backend::native && wanted.options.spes == 0 &&
+    FrameRequest request;
+    request.scene = scene_;
+    request.options = render_;
+    request.options.ray_queries = true;
+    request.options.antialiasing = render_.model == Model::shared ? antialiasing_ : std::nullopt;
+    if (render_.backend != Backend::native && request.options.spes == 0 &&
         options_.render.backend == Backend::native)
-      wanted.options.spes = 8;
-    wanted.work_map = shows_strips_ || shows_costs_;
-    wanted.machine = machine_;
-    wanted.number = ++number_;
+      request.options.spes = 8;
+    request.work_map = shows_strips_ || shows_costs_;
+    request.machine = machine_;
+    request.number = ++number_;
     is_final_ = false; // also for log lines before its first frame
-    wanted.camera = navigator_ ? fitted(navigator_->camera()) : fitted(scene_->camera);
-    asked_ = Clock::now();
-    source_.want(wanted);
+    request.camera = navigator_ ? fitted(navigator_->camera()) : fitted(scene_->camera);
+    requested_ = Clock::now();
+    source_.request(request);
   }
 
   /// Returns a camera for a window of other proportions, which sees the same height.
@@ -380,7 +380,7 @@ private:
     }
     scene_camera_ = scene_->camera;
     if (has_new_camera_ && !is_first) navigator_.reset();
-    want();
+    request_frame();
   }
 
   static bool same(const Camera& a, const Camera& b) {
@@ -402,7 +402,7 @@ private:
     if (frame->is_complete && frame->number != shown_number_) times_.push_back(Clock::now());
     while (!times_.empty() && seconds_since(times_.front()) > 1)
       times_.pop_front();
-    if (frame->number != shown_number_ && frame->number == number_) latency_ = seconds_since(asked_);
+    if (frame->number != shown_number_ && frame->number == number_) latency_ = seconds_since(requested_);
     shown_number_ = std::max(shown_number_, frame->number);
     is_final_ = frame->is_final && frame->number == number_;
     if (!navigator_ && scene_)
@@ -414,7 +414,7 @@ private:
     const std::optional<Picked> picked = source_.take_picked();
     if (!picked) return;
     if (picked->is_middle) {
-      if (navigator_ && picked->object && !navigator_->knows_pivot())
+      if (navigator_ && picked->object && !navigator_->has_pivot())
         navigator_->set_pivot(glm::length(picked->point - navigator_->camera().location));
       return;
     }
@@ -461,7 +461,7 @@ private:
     forget(hint_, hint_ends_);
     if (is_still() != was_still_) is_dirty_ = true;
   }
-  bool is_still() const { return is_final_ && Clock::now() - asked_ > kStill; }
+  bool is_still() const { return is_final_ && Clock::now() - requested_ > kStill; }
 
   void save_screenshot() {
     const std::string stem = options_.scene.stem().string();
@@ -591,7 +591,8 @@ private:
   Frame frame_;                        ///< the frame that is shown
   std::uint64_t machine_ = 1, number_ = 0, shown_number_ = 0;
   bool is_final_ = false;
-  Clock::time_point asked_ = start_, next_file_check_ = start_, message_ends_ = start_, hint_ends_ = start_;
+  Clock::time_point requested_ = start_, next_file_check_ = start_, message_ends_ = start_,
+                    hint_ends_ = start_;
   double latency_ = 0; ///< seconds from the last input to the first picture of what it asked for
   std::deque<Clock::time_point> times_; ///< times of the frames of the last second
   std::map<Action, Clock::time_point> held_;

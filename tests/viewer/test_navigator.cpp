@@ -123,7 +123,7 @@ TEST_CASE("Views look at the scene from each side") {
   Navigator n(straight(), {-1, -2, 3}, {5, 2, 7});
   for (std::size_t view = 1; view < n.views().size(); ++view) {
     INFO(n.views()[view]);
-    n.look_from(view);
+    n.show_view(view);
     const Camera& camera = n.camera();
     const Vec3 towards = Vec3(2, 0, 5) - camera.location;
     check_near(glm::normalize(towards), glm::normalize(camera.direction));
@@ -131,7 +131,7 @@ TEST_CASE("Views look at the scene from each side") {
     // Left-handed, as POV-Ray's axes.
     check_near(glm::normalize(glm::cross(camera.up, camera.direction)), glm::normalize(camera.right));
   }
-  n.look_from(n.views().size());
+  n.show_view(n.views().size());
   CHECK(n.view() == 0);
   check_near(n.camera().location, straight().location);
 }
@@ -147,21 +147,21 @@ TEST_CASE("Going around keeps what is in the middle there, in any mode") {
   for (const Navigator::Mode mode : {Navigator::Mode::planar, Navigator::Mode::radial}) {
     Navigator n = navigator();
     n.set_mode(mode);
-    CHECK(!n.knows_pivot());
+    CHECK(!n.has_pivot());
     n.set_pivot(4);
-    CHECK(n.knows_pivot());
+    CHECK(n.has_pivot());
     const Vec3 pivot(0, 0, -6);
     for (int i = 0; i < 10; ++i) {
       n.orbit(20, i - 5);
       CHECK(glm::length(n.camera().location - pivot) == Approx(4));
       check_near(glm::normalize(pivot - n.camera().location), glm::normalize(n.camera().direction));
     }
-    CHECK(n.knows_pivot());
+    CHECK(n.has_pivot());
     // Looking elsewhere, something else is in the middle.
     const Vec3 place = n.camera().location;
     n.turn(10, 5);
     check_near(n.camera().location, place);
-    CHECK(!n.knows_pivot());
+    CHECK(!n.has_pivot());
   }
 }
 
