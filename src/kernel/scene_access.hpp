@@ -132,7 +132,7 @@ public:
   }
 
   /// Returns the cache of results that patterns have computed for points.
-  typename Strategy<Spu>::template KnownPatterns<Spu>& known_patterns() { return known_patterns_; }
+  typename Strategy<Spu>::template PatternCaches<Spu>& pattern_caches() { return pattern_caches_; }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
@@ -169,7 +169,7 @@ private:
   }
 
   SoftwareCache<Spu, DataKind> cache_;
-  [[no_unique_address]] typename Strategy<Spu>::template KnownPatterns<Spu> known_patterns_;
+  [[no_unique_address]] typename Strategy<Spu>::template PatternCaches<Spu> pattern_caches_;
 };
 
 } // namespace celltrace::kernel

@@ -32,7 +32,7 @@ void set_diffuse(FinishDefinition& finish, bool is_albedo, double before, double
 }
 
 /// The formulas are POV-Ray's.
-void settle_albedos(FinishDefinition& finish) {
+void resolve_albedos(FinishDefinition& finish) {
   Finish& value = finish.value;
   if (finish.diffuse_is_albedo) {
     value.diffuse *= (value.brilliance + 1) / 2;

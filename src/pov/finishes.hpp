@@ -24,7 +24,7 @@ struct ReflectionDefinition {
 void set_diffuse(FinishDefinition& finish, bool is_albedo, double before, double behind);
 /// Turns albedos, which are shares of light reflected to all sides together, into the numbers that the
 /// formulas take.
-void settle_albedos(FinishDefinition& finish);
+void resolve_albedos(FinishDefinition& finish);
 /// Sets reflection by the old form, which is one colour.
 void set_reflection(Finish& finish, const Vec3& colour);
 double roughness(Session& session, double value, const Location& where);

@@ -221,7 +221,7 @@ entry_start // an average's entries need no weight; a number is one, not a colou
 // ---- Finishes and textures ----
 
 finish_body
-  : finish_parts { $$ = $1; settle_albedos(*$$); }
+  : finish_parts { $$ = $1; resolve_albedos(*$$); }
   ;
 
 finish_parts

@@ -108,7 +108,7 @@ double SceneBuilder::from_srgb(double channel) const {
   return std::copysign(std::pow(std::fabs(linear), 1 / scene_.assumed_gamma), linear);
 }
 
-void SceneBuilder::settle_gamma() {
+void SceneBuilder::resolve_gamma() {
   scene_.version = version_.value_or(kVersionIfNoneGiven);
   if (!gamma_given_)
     scene_.gamma_mode = scene_.version < kVersionOfGamma ? GammaMode::none : GammaMode::assumed;
@@ -132,7 +132,7 @@ void SceneBuilder::leave_background() {
 
 Scene SceneBuilder::finish(const std::string& name) {
   scene_.name = name;
-  settle_gamma();
+  resolve_gamma();
   scene_.noise_generator = noise_generator();
   const CameraDefinition& camera = camera_ ? *camera_ : default_camera;
   diagnostics_.supports(camera.first_unsupported(), camera.where);

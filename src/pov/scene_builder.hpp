@@ -154,7 +154,7 @@ private:
     bool operator<(const PlacedTexture& other) const;
   };
 
-  void settle_gamma();
+  void resolve_gamma();
   void show_background(const Location& where);
   /// Removes objects, sky, fogs and rainbows, which leaves the background.
   void leave_background();

@@ -139,7 +139,7 @@ private:
     if (a.is_inverse && b.is_inverse) return false;
     if (a.is_inverse || b.is_inverse) {
       const Face &ground = a.is_inverse ? a : b, &other = a.is_inverse ? b : a;
-      if (!list_.is_ground(ground) || list_.is_opaque(other) || list_.looks_at_eye(other)) return false;
+      if (!list_.is_ground(ground) || list_.is_opaque(other) || list_.faces_camera(other)) return false;
     }
     if (a.is_round || b.is_round) return a.is_round != b.is_round && list_.is_ground(a.is_round ? b : a);
     if (are_merged(a, b)) return true;

@@ -114,7 +114,7 @@ void FaceList::add(std::size_t object, std::size_t number, const Box& box, const
     face.faces_up = face.faces_up != is_seen_inside;
     // Opaque back faces are visible only through transparent objects and in mirrors: they are skipped, since
     // there may be many.
-    if (eye_ != nullptr && is_opaque(face) && !looks_at_eye(face)) continue;
+    if (eye_ != nullptr && is_opaque(face) && !faces_camera(face)) continue;
     face.object = object;
     face.solid = number;
     face.side = side;
@@ -148,7 +148,7 @@ void FaceList::add(std::size_t object, std::size_t number, const Round& solid, c
           middle + (across * (corner & 1 ? 1.0 : -1.0) + up * (corner & 2 ? 1.0 : -1.0)) * radius;
     Face face = face_of(corners, side != 0 ? axis : -axis, transform);
     face.material = material;
-    if (is_opaque(face) || (eye_ != nullptr && looks_at_eye(face))) continue;
+    if (is_opaque(face) || (eye_ != nullptr && faces_camera(face))) continue;
     face.object = object;
     face.solid = number;
     face.side = side;

@@ -109,11 +109,11 @@ public:
     return wide >= 2;
   }
   /// Returns whether an object on the face can be seen to stand on it.
-  bool is_ground(const Face& face) const { return is_opaque(face) && looks_at_eye(face); }
+  bool is_ground(const Face& face) const { return is_opaque(face) && faces_camera(face); }
   bool is_opaque(const Face& face) const {
     return (material_flags_[face.material] & kernel::object_flag::opaque) != 0;
   }
-  bool looks_at_eye(const Face& face) const { return face.faces_up == is_seen_from_above(face); }
+  bool faces_camera(const Face& face) const { return face.faces_up == is_seen_from_above(face); }
   /// Returns whether the eye is on the side of the normal.
   bool is_seen_from_above(const Face& face) const { return glm::dot(*eye_, face.normal) > face.distance; }
 

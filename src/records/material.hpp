@@ -28,15 +28,15 @@ constexpr uint32_t layered = 0x10;  ///< has a layer below
 constexpr uint32_t mapped = 0x20;   ///< texture map: `pattern` has MaterialRecords; other members are unused
 constexpr uint32_t old_opacity = 0x40; ///< filter counts by the brightest channel, as before version 3.7
 // Flags of members: a member is only read if the flag that concerns it is set.
-constexpr uint32_t bends_diffuse = 0x80; ///< brilliance is not 1
+constexpr uint32_t brilliance = 0x80; ///< brilliance is not 1
 constexpr uint32_t phong = 0x100;
 constexpr uint32_t specular = 0x200;
 constexpr uint32_t highlights = phong | specular;
 constexpr uint32_t metallic = 0x400; ///< highlights have the colour of the surface
 constexpr uint32_t reflects = 0x800;
 constexpr uint32_t metallic_mirror = 0x1000;
-constexpr uint32_t falloff = 0x2000;          ///< the falloff of reflection is not 1
-constexpr uint32_t bends_reflection = 0x4000; ///< the exponent of reflection is not 1
+constexpr uint32_t falloff = 0x2000;             ///< the falloff of reflection is not 1
+constexpr uint32_t reflection_exponent = 0x4000; ///< the exponent of reflection is not 1
 constexpr uint32_t transmits = 0x8000; ///< constants let light through; a pattern may do so without this flag
 } // namespace material_flag
 

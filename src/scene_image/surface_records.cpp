@@ -92,14 +92,14 @@ std::uint32_t numeric_flags(const MaterialRecord& r) {
   const auto any = [](const float(&v)[3]) { return v[0] != 0 || v[1] != 0 || v[2] != 0; };
   std::uint32_t flags = 0;
   const auto set = [&](bool is_asked_for, std::uint32_t flag) { flags |= is_asked_for ? flag : 0; };
-  set(r.brilliance != 1, material_flag::bends_diffuse);
+  set(r.brilliance != 1, material_flag::brilliance);
   set(r.phong > 0, material_flag::phong);
   set(r.specular > 0, material_flag::specular);
   set(r.metallic != 0, material_flag::metallic);
   set(any(r.reflection_min) || any(r.reflection_max), material_flag::reflects);
   set(r.reflection_metallic != 0, material_flag::metallic_mirror);
   set(r.reflection_falloff != 1, material_flag::falloff);
-  set(r.inverse_reflection_exponent != 1, material_flag::bends_reflection);
+  set(r.inverse_reflection_exponent != 1, material_flag::reflection_exponent);
   set(r.filter != 0 || r.transmit != 0, material_flag::transmits);
   return flags;
 }

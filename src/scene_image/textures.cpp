@@ -41,7 +41,7 @@ std::uint32_t sum_of_greatest(std::vector<std::uint32_t> nodes, std::size_t coun
 /// that collects it.
 std::uint32_t nodes_of_mirror(const MaterialRecord& r) {
   if ((r.flags & material_flag::reflects) == 0) return 0;
-  return (r.flags & material_flag::bends_reflection) != 0 ? 2 : 1;
+  return (r.flags & material_flag::reflection_exponent) != 0 ? 2 : 1;
 }
 
 } // namespace

@@ -291,7 +291,7 @@ TEST_CASE("What shadow rays cross of translucent objects is listed in the order 
           [&](ShadowTraversal& traversal, const LightRecord& light, ShadowBundle& bundle,
               ShadowBundle& alone) {
             auto pool = std::make_unique<CrossingPool>();
-            auto kept = std::make_unique<KeptCrossings<Simd>[]>(kPackets);
+            auto kept = std::make_unique<CrossingList<Simd>[]>(kPackets);
             std::uint32_t asked[kPackets];
             VectorLanes whole[kPackets];
             for (std::uint32_t i = 0; i < kPackets; ++i) {
@@ -307,7 +307,7 @@ TEST_CASE("What shadow rays cross of translucent objects is listed in the order 
               for (RayQuery& query : bundle.queries)
                 traversal.keep_crossings(query, true);
             for (const RayQuery& query : bundle.queries) {
-              auto& crossings = static_cast<KeptCrossings<Simd>&>(*query.light);
+              auto& crossings = static_cast<CrossingList<Simd>&>(*query.light);
               const auto i = static_cast<std::size_t>(&crossings - kept.get());
               const std::uint32_t known = asked[i] & ~crossings.overflowed;
               for_each_lane(known & ~query.lanes,

@@ -124,13 +124,13 @@ public:
 
   /// Result of gather(): the objects, all of them opaque; or only the nodes of the BVH that are touched and
   /// have leaves; or nothing, if there are too many or the light is parallel.
-  enum class Known { objects, nodes, nothing };
+  enum class Gathered { objects, nodes, nothing };
 
-  Known gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
-               const LightRecord& light) {
+  Gathered gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
+                  const LightRecord& light) {
     cheap_count_ = node_count_ = 0;
     first_heavy_ = kMost;
-    if (is_parallel(light)) return Known::nothing;
+    if (is_parallel(light)) return Gathered::nothing;
     const Shaft<S> shaft(rays, lanes, light);
     bool are_known = true; // true while all objects are known
     const auto add_object = [&](const Occluder& object) {
@@ -141,8 +141,8 @@ public:
     uint32_t self = frame.object_offset - frame.unbounded_count * kBytes;
     for (; self != frame.object_offset; self += kBytes)
       add_object({self, kNoOffset, 0});
-    if (!gather_bounded(tests, frame, shaft, add_object)) return Known::nothing;
-    return are_known ? Known::objects : Known::nodes;
+    if (!gather_bounded(tests, frame, shaft, add_object)) return Gathered::nothing;
+    return are_known ? Gathered::objects : Gathered::nodes;
   }
   bool are_none() const { return cheap_count_ == 0 && first_heavy_ == kMost; }
 

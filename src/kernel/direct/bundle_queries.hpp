@@ -13,7 +13,7 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// Answers a query of shadow rays whose light is a KeptCrossings: keeps the surfaces that the rays cross,
+  /// Answers a query of shadow rays whose light is a CrossingList: keeps the surfaces that the rays cross,
   /// without their transmittance if `lists`. The light of lanes for which there is no room becomes 0.
   void keep_crossings(RayQuery& query, bool lists) {
     keep(lists, [&] { traversal().intersect_packet(query); });
@@ -24,13 +24,13 @@ public:
   }
 
   /// Gathers the possible occluders between a packet's surfaces and an area light.
-  typename AreaOccluders<Spu>::Known gather_occluders(const RayPacket& rays, uint32_t lanes,
-                                                      const LightRecord& light,
-                                                      AreaOccluders<Spu>& occluders) {
-    using Known = typename AreaOccluders<Spu>::Known;
-    if (!traversal().uses_bvh()) return Known::nothing;
-    const Known known = occluders.gather(traversal().objects_, traversal().frame_, rays, lanes, light);
-    return known == Known::nodes && lists_all() ? Known::nothing : known;
+  typename AreaOccluders<Spu>::Gathered gather_occluders(const RayPacket& rays, uint32_t lanes,
+                                                         const LightRecord& light,
+                                                         AreaOccluders<Spu>& occluders) {
+    using Gathered = typename AreaOccluders<Spu>::Gathered;
+    if (!traversal().uses_bvh()) return Gathered::nothing;
+    const Gathered known = occluders.gather(traversal().objects_, traversal().frame_, rays, lanes, light);
+    return known == Gathered::nodes && lists_all() ? Gathered::nothing : known;
   }
   /// Multiplies `light` as transmittance() does, if the nodes in which rays may hit something are known.
   void transmittance_of(const AreaOccluders<Spu>& occluders, const RayPacket& rays, uint32_t lanes,

@@ -18,7 +18,7 @@ struct FractalSquares {
     const Complex<S> c = iteration.constant<S>(at);
     uint32_t rounds = 0;
     if (iteration.wants_least()) return counted_squares<S, true>(at, c, M::none(), iteration, rounds);
-    auto* const ahead = scene.known_patterns().fractals;
+    auto* const ahead = scene.pattern_caches().fractals;
     F value(iteration.inner());
     M known = iteration.is_julia() ? M::none() : surely_bounded<S>(c);
     if (ahead != nullptr) known = known | ahead->find(iteration.record, at, value);

@@ -76,7 +76,7 @@ private:
                                                          float metric, const Wanted& wanted,
                                                          Nearest& nearest) {
     const NeighboursOfLanes<S> neighbours(features, p);
-    const uint32_t most = features.scene().known_patterns().neighbours != nullptr
+    const uint32_t most = features.scene().pattern_caches().neighbours != nullptr
                               ? tuning::kMostCellsInCache
                               : tuning::kMostCellsOfFeatures;
     if (!neighbours.are_of_more_cells_than(most)) return false;
@@ -144,7 +144,7 @@ private:
   template <class Spu>
   static const FeatureNeighbours<S>& neighbours_of(const uint32_t (&cell)[3], Features<Spu>& features,
                                                    FeatureNeighbours<S>& room) {
-    if (auto* const cache = features.scene().known_patterns().neighbours)
+    if (auto* const cache = features.scene().pattern_caches().neighbours)
       return cache->around(features, cell);
     room.gather(features, cell);
     return room;

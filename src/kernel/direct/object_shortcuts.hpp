@@ -4,7 +4,7 @@
 
 #include "kernel/accel/object_tests.hpp"
 #include "kernel/direct/clipping.hpp"
-#include "kernel/direct/kept_crossings.hpp"
+#include "kernel/direct/crossing_list.hpp"
 #include "kernel/direct/shadow_cache.hpp"
 #include "kernel/direct/shape_shadows.hpp"
 
@@ -117,7 +117,7 @@ public:
   /// The effect of translucent objects on shadow rays.
   enum class Translucency {
     attenuates, ///< multiply the light
-    is_kept,    ///< kept for later: the light is that of KeptCrossings
+    is_kept,    ///< kept for later: the light is that of CrossingList
     is_listed   ///< kept for later, without the transmittance of surfaces
   };
   void set_translucency(Translucency translucency) { translucency_ = translucency; }
@@ -131,7 +131,7 @@ protected:
 
   bool dims_at_once(const F& at, const Crossings<S>& c, uint32_t lanes, VectorLanes*& light, uint32_t& dark) {
     if (translucency_ == Translucency::attenuates) return true;
-    light = static_cast<KeptCrossings<S>*>(light)->add(at, c, lanes, crossed_);
+    light = static_cast<CrossingList<S>*>(light)->add(at, c, lanes, crossed_);
     if (light == nullptr) dark = lanes;
     return light != nullptr && translucency_ != Translucency::is_listed;
   }

@@ -8,32 +8,32 @@
 namespace celltrace::kernel {
 
 struct DirectPatterns {
-  template <class Spu> struct KnownPatterns {
+  template <class Spu> struct PatternCaches {
     using S = typename Spu::rare_simd;
     NeighbourCache<S>* neighbours = nullptr; ///< feature points for points that are close together; or null
     FractalValues<S, kBundlePackets<Spu>>* fractals = nullptr; ///< values for points of a bundle; or null
   };
-  /// Values that are kept in a KnownPatterns for the lifetime of this object.
-  template <class Spu, class Values, Values* KnownPatterns<Spu>::*kMember> class KeptValues {
+  /// Values that are kept in a PatternCaches for the lifetime of this object.
+  template <class Spu, class Values, Values* PatternCaches<Spu>::*kMember> class ScopedCache {
   public:
-    explicit KeptValues(SceneAccess<Spu>& scene) : scene_(scene) { begin(); }
-    ~KeptValues() { scene_.known_patterns().*kMember = nullptr; }
-    KeptValues(const KeptValues&) = delete;
-    KeptValues& operator=(const KeptValues&) = delete;
+    explicit ScopedCache(SceneAccess<Spu>& scene) : scene_(scene) { begin(); }
+    ~ScopedCache() { scene_.pattern_caches().*kMember = nullptr; }
+    ScopedCache(const ScopedCache&) = delete;
+    ScopedCache& operator=(const ScopedCache&) = delete;
 
   private:
     /// Not inlined: GCC 12 would warn that the pointer outlives the values, in spite of the destructor.
-    [[gnu::noinline]] void begin() { scene_.known_patterns().*kMember = &values_; }
+    [[gnu::noinline]] void begin() { scene_.pattern_caches().*kMember = &values_; }
 
     SceneAccess<Spu>& scene_;
     Values values_;
   };
   template <class Spu>
-  using KeptNeighbours =
-      KeptValues<Spu, NeighbourCache<typename Spu::rare_simd>, &KnownPatterns<Spu>::neighbours>;
+  using ScopedNeighbours =
+      ScopedCache<Spu, NeighbourCache<typename Spu::rare_simd>, &PatternCaches<Spu>::neighbours>;
   template <class Spu>
-  using KeptFractals = KeptValues<Spu, FractalValues<typename Spu::rare_simd, kBundlePackets<Spu>>,
-                                  &KnownPatterns<Spu>::fractals>;
+  using ScopedFractals = ScopedCache<Spu, FractalValues<typename Spu::rare_simd, kBundlePackets<Spu>>,
+                                     &PatternCaches<Spu>::fractals>;
 
   template <class S> using InnerCells = kernel::InnerCells<S>;
 

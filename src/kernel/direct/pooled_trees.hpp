@@ -59,7 +59,7 @@ protected:
     tracer().pooling().queue = BundlePool<Spu>::has_own_lanes(all().frame_) ? nullptr : &pool_.rays;
     pool_.begin();
     tracer().add_transparency_to(pool_.transparency);
-    if (auto* const fractals = all().scene_.known_patterns().fractals;
+    if (auto* const fractals = all().scene_.pattern_caches().fractals;
         fractals != nullptr && fractals->begin())
       iterate_fractals(*fractals);
   }
@@ -71,7 +71,7 @@ protected:
   }
   template <class Member> [[gnu::always_inline]] bool shade_end(Member& member) {
     pool_.reset_transparency();
-    if (auto* const fractals = all().scene_.known_patterns().fractals) fractals->show(member.number);
+    if (auto* const fractals = all().scene_.pattern_caches().fractals) fractals->show(member.number);
     HitPoints<S>& points = all().store_.points;
     if (member.hit != 0) {
       find_hit_points(all().scene_, member.rays, member.hits, member.hit, points);

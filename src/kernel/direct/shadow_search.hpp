@@ -4,7 +4,7 @@
 
 #include "kernel/direct/area_pairs.hpp"
 #include "kernel/direct/bundle_queries.hpp"
-#include "kernel/direct/kept_crossings.hpp"
+#include "kernel/direct/crossing_list.hpp"
 #include "kernel/shading/shadow_tracer.hpp"
 
 namespace celltrace::kernel {
@@ -33,7 +33,7 @@ protected:
   /// with more crossings than there is room for are walked.
   bool trace_crossings(const LightRecord& light, RayQuery* queries, uint32_t count) {
     CrossingPool pool;
-    KeptCrossings<S> crossings[kPackets];
+    CrossingList<S> crossings[kPackets];
     VectorLanes* colours[kPackets];
     for (uint32_t i = 0; i < count; ++i) {
       colours[i] = queries[i].light;
@@ -42,7 +42,7 @@ protected:
     }
     tracer().traversal_.keep_crossings(queries, count, light, lists_crossings());
     for (uint32_t i = 0; i < count; ++i) {
-      auto& crossed = static_cast<KeptCrossings<S>&>(*queries[i].light);
+      auto& crossed = static_cast<CrossingList<S>&>(*queries[i].light);
       finish(light, queries[i], crossed, *colours[&crossed - crossings]);
     }
     return true;
@@ -51,7 +51,7 @@ protected:
   void trace_crossings(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                        const FloatLanes& distance, VectorLanes& colour) {
     CrossingPool pool;
-    KeptCrossings<S> crossings;
+    CrossingList<S> crossings;
     crossings.begin(colour, pool);
     RayQuery query = {&rays, nullptr, &distance, &crossings, lanes};
     tracer().traversal_.keep_crossings(query, lists_crossings());
@@ -61,17 +61,17 @@ protected:
   /// Samples an area light with all possible occluders if they are known, otherwise with the shadow cache.
   /// Returns false if it did not.
   bool sample_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
-    using Known = typename AreaOccluders<Spu>::Known;
+    using Gathered = typename AreaOccluders<Spu>::Gathered;
     if (is_projected(light) || tracer().walks_all(light)) return false;
     AreaShadow<S>& area = *tracer().area_;
     AreaOccluders<Spu> occluders;
-    const Known known = tracer().traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders);
-    if (known == Known::objects)
+    const Gathered known = tracer().traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders);
+    if (known == Gathered::objects)
       test_gathered(light, lanes, occluders, colour);
     else if (tracer().walk_ != nullptr)
       sample_crossed_area(light, colour);
     else
-      sample_occluded_area(light, known == Known::nodes ? &occluders : nullptr, colour);
+      sample_occluded_area(light, known == Gathered::nodes ? &occluders : nullptr, colour);
     return true;
   }
 
@@ -86,7 +86,7 @@ private:
   bool lists_crossings() const {
     return walks_translucent(tracer().frame_) && !walks_for_fading(tracer().frame_);
   }
-  void finish(const LightRecord& light, const RayQuery& query, KeptCrossings<S>& crossings,
+  void finish(const LightRecord& light, const RayQuery& query, CrossingList<S>& crossings,
               VectorLanes& colour) {
     if (walks_translucent(tracer().frame_))
       pass_crossings(query, crossings);
@@ -95,7 +95,7 @@ private:
     walk_some(light, query, crossings, crossings.overflowed, colour);
   }
   /// Takes rays through the surfaces that they cross, one after another.
-  void pass_crossings(const RayQuery& query, KeptCrossings<S>& crossings) {
+  void pass_crossings(const RayQuery& query, CrossingList<S>& crossings) {
     if (query.lanes == 0 || crossings.empty()) return;
     ShadowWalk<S>& walk = *tracer().walk_;
     VectorLanes light = crossings, transmittance;

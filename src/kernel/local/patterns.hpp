@@ -6,12 +6,12 @@
 namespace celltrace::kernel {
 
 struct LocalPatterns {
-  template <class Spu> struct KnownPatterns {};
-  template <class Spu> struct KeptNeighbours {
-    explicit KeptNeighbours(SceneAccess<Spu>&) {}
+  template <class Spu> struct PatternCaches {};
+  template <class Spu> struct ScopedNeighbours {
+    explicit ScopedNeighbours(SceneAccess<Spu>&) {}
   };
-  template <class Spu> struct KeptFractals {
-    explicit KeptFractals(SceneAccess<Spu>&) {}
+  template <class Spu> struct ScopedFractals {
+    explicit ScopedFractals(SceneAccess<Spu>&) {}
   };
 
   template <class S> struct InnerCells {

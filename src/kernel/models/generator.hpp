@@ -17,7 +17,7 @@ template <class Spu> void generator(Spu& spu, ea_t argument) {
     uint32_t context = 0;
     if (doorbell.take(bell::stop)) feed.stop();
     while (doorbell.take_context(context))
-      feed.give_back(context);
+      feed.release(context);
     doorbell.wait();
   }
   spu.wait_all(PrimaryFeed<Spu>::kTags);

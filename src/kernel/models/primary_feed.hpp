@@ -18,7 +18,7 @@ public:
         slots_(spu.template allocate<Slot>(kSlots)) {}
 
   /// Accepts a context that is free for the first time, or because its packet is complete.
-  void give_back(uint32_t context) {
+  void release(uint32_t context) {
     const uint32_t bit = 1u << context;
     reported_ |= bit;
     if ((busy_ & bit) != 0) ++completed_;

@@ -101,7 +101,7 @@ private:
       spu_.send_signal(orders_.generator, Signal::two, placed_);
       return;
     }
-    for_each_lane(placed_, [&](uint32_t context) { feed_.give_back(context); });
+    for_each_lane(placed_, [&](uint32_t context) { feed_.release(context); });
   }
 
   /// Waits for the answer to a context. Returns false if the frame is over.
@@ -292,7 +292,7 @@ private:
                   context.tracer.light().template load<S>() + context.of_root.template load<S>());
     context.awaits = Awaits::packet;
     if (stage_.has(task::generate))
-      feed_.give_back(number);
+      feed_.release(number);
     else
       spu_.send_signal(orders_.generator, Signal::two, 1u << number);
   }

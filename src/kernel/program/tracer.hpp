@@ -150,7 +150,7 @@ private:
   void render() {
     spu_.enter_module(modules::kStart);
     begin_frame();
-    [[maybe_unused]] const typename Strategy<Spu>::template KeptFractals<Spu> fractals(phase_->scene);
+    [[maybe_unused]] const typename Strategy<Spu>::template ScopedFractals<Spu> fractals(phase_->scene);
     const uint32_t start = spu_.read_decrementer();
     uint32_t idle = 0;
     exchange_.begin_frame(frame_, UnitRange{strip_.begin, strip_.end - strip_.begin});

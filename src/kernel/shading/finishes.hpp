@@ -127,7 +127,7 @@ CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Sur
             set_part<Spu>(light, first, select<R>(R::M::from_bits(some), before * shares, before));
           };
           pass(onward.reflected_inside, factors);
-          if (!onward.bends_reflection) return pass(onward.mirror, factors);
+          if (!onward.has_reflection_exponent) return pass(onward.mirror, factors);
           // Mirrored light is raised to a power when it arrives, and so is the film's factor.
           const F power = part_of<Spu>(onward.reflection_power, first);
           const auto raised = [&](const F& factor) { return pow<R>(R::max(factor, F(0.0f)), power); };

@@ -70,7 +70,7 @@ bent_cosine(const MaterialLanes<typename Spu::simd>& m, const IncidentLight<type
   using R = typename Spu::rare_simd;
   using RF = typename R::F;
   typename S::F bent = light.cosine;
-  if (m.has(material_flag::bends_diffuse)) {
+  if (m.has(material_flag::brilliance)) {
     if (Strategy<Spu>::template bend_by_whole_power<S>(m.brilliance, light.facing, bent)) return bent;
     by_parts<Spu>(
         bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,

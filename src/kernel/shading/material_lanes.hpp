@@ -89,7 +89,7 @@ CELLTRACE_ONE_COPY void gather_material(const MaterialRecord& r, uint32_t taken,
   put(m.transmit, r.transmit);
   put(m.opacity, r.opacity);
   put(m.diffuse, r.diffuse);
-  if ((wanted & (material_flag::bends_diffuse | material_flag::highlights)) != 0) {
+  if ((wanted & (material_flag::brilliance | material_flag::highlights)) != 0) {
     put(m.brilliance, r.brilliance);
     put(m.phong, r.phong);
     put(m.phong_size, r.phong_size);

@@ -230,7 +230,7 @@ private:
       return;
     child.reflected = child.lanes;
     counters_.reflection += count(child.lanes);
-    if (onward.bends_reflection && accumulators_in_use_ < kAccumulators) {
+    if (onward.has_reflection_exponent && accumulators_in_use_ < kAccumulators) {
       scene_.spu().enter_module(modules::kFading);
       redirect(onward.reflection_power);
     }

@@ -178,9 +178,9 @@ template <class S> struct SecondaryRays {
   V3<S> mirror, through;
   F mirror_weight, through_weight;
   V3<S> reflected_inside;              ///< factor of totally reflected light, in lanes of `transmits`
-  F reflection_power;                  ///< exponent of mirrored light, if bends_reflection
+  F reflection_power;                  ///< exponent of mirrored light, if has_reflection_exponent
   uint32_t mirrors = 0, transmits = 0; ///< lanes with mirrored light, and with transmitted light
-  bool bends_reflection = false;
+  bool has_reflection_exponent = false;
 
   static SecondaryRays nothing() {
     SecondaryRays o;
@@ -193,7 +193,7 @@ template <class S> struct SecondaryRays {
     mirror_weight = through_weight = zero;
     reflection_power = F(1.0f);
     mirrors = transmits = 0;
-    bends_reflection = false;
+    has_reflection_exponent = false;
   }
   /// Sets the values of lanes that have none yet.
   template <class Spu> void set_part(uint32_t first, const SecondaryRays<typename Spu::rare_simd>& part) {
@@ -204,7 +204,7 @@ template <class S> struct SecondaryRays {
     kernel::set_part<Spu>(reflection_power, first, part.reflection_power);
     mirrors |= part.mirrors << first;
     transmits |= part.transmits << first;
-    bends_reflection = part.bends_reflection;
+    has_reflection_exponent = part.has_reflection_exponent;
   }
   bool is_nothing() const { return (mirrors | transmits) == 0; }
   /// Returns true if adaptive depth control would treat the rays of both alike, and neither bends
@@ -218,7 +218,7 @@ template <class S> struct SecondaryRays {
       };
       unlike |= differ(mirror_weight, other.mirror_weight) | differ(through_weight, other.through_weight);
     });
-    return unlike == 0 && !bends_reflection && !other.bends_reflection;
+    return unlike == 0 && !has_reflection_exponent && !other.has_reflection_exponent;
   }
   /// Adds the light of another material of the same surfaces, with the same directions and weights.
   template <class Spu> void add(const SecondaryRays& other) {
@@ -260,7 +260,7 @@ secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const 
     const auto mirrors = S::M::from_bits(onward.mirrors);
     onward.mirror = mirrored * S::select(mirrors, share, zero);
     onward.mirror_weight = S::select(mirrors, S::select(S::M::from_bits(m.fresnel), strength, most), zero);
-    onward.bends_reflection = m.has(material_flag::bends_reflection);
+    onward.has_reflection_exponent = m.has(material_flag::reflection_exponent);
     onward.reflection_power = m.inverse_reflection_exponent;
   }
   if (!m.has(material_flag::transmits)) return;

@@ -44,7 +44,7 @@ slope_disturbance(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& 
                                            {-0.471404521f, -1.0f / 3, -0.816496581f},
                                            {0.0f, 1.0f, 0.0f}};
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
-  [[maybe_unused]] const typename Strategy<Spu>::template KeptNeighbours<Spu> neighbours(scene);
+  [[maybe_unused]] const typename Strategy<Spu>::template ScopedNeighbours<Spu> neighbours(scene);
   for (const float(&corner)[3] : kCorners) {
     const V3<S> to = splat3<S>(corner);
     PatternPoints<S> beside = points;

@@ -22,7 +22,7 @@ struct CrossingPool {
 };
 
 /// The light of a packet's shadow rays. The transmittance of crossed surfaces is kept apart until finish().
-template <class S> struct KeptCrossings : VectorLanes {
+template <class S> struct CrossingList : VectorLanes {
   using F = typename S::F;
   using M = typename S::M;
 
