@@ -60,7 +60,7 @@ class Replay {
 public:
   explicit Replay(const CacheConfig& shape) : spu_(Cache::local_store_bytes(shape)), cache_(spu_, shape, 0) {}
 
-  void ask(const CacheRequest& request) {
+  void access(const CacheRequest& request) {
     const std::uint32_t offset = request.line * kLineBytes;
     switch (request.operation) {
     case Operation::read:
@@ -147,7 +147,7 @@ ReplayResult replay(const CacheTrace& trace, const CacheConfig& shape) {
   if (!shape.valid()) throw InputError("cache trace: no cache can have this shape");
   Replay replay(shape);
   for (const CacheRequest& request : trace.requests)
-    replay.ask(request);
+    replay.access(request);
   return replay.result();
 }
 

@@ -68,10 +68,9 @@ constexpr uint32_t kLeastMixedPackets = 4;
 /// on. Rays of the models, and of legocar most of all, which leaves much of its picture empty.
 constexpr uint32_t kMaxEnteredNodes = 24;
 
-/// Nodes that a packet's frustum, but none of its rays, has hit when it counts as incoherent. From then on
-/// the rays are tested as well. Larger: more nodes are hit in vain; smaller: rays are tested where frusta
-/// would do. The threshold matters at silhouettes, where the origins of shadow rays lie far apart. Rays of
-/// the models; also for SPEs.
+/// Nodes hit by a packet's frustum, but none of its rays, from which on the packet counts as incoherent, and
+/// its rays are tested as well. Larger: more nodes are hit in vain; smaller: rays are tested where frusta
+/// would do. Matters at silhouettes, where origins of shadow rays lie far apart. Rays of models; also SPEs.
 constexpr uint32_t kMissesOfIncoherent = 2;
 /// Factor by which the rectangle of a packet of shadow rays, seen from the light, exceeds its share of the
 /// bundle's if the packet is incoherent: its origins lie on several surfaces, and only its frustum hits

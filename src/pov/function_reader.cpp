@@ -167,7 +167,7 @@ private:
     if (!is_pigment && !pigment.pattern.exists() && !pigment.first_unsupported())
       session_.fail(where, "there is no pattern in this function");
     function_->body = is_pigment ? pigment_function(pigment) : pattern_function(pigment);
-    function_->gives_vector = function_->gives_colour = is_pigment;
+    function_->returns_vector = function_->returns_colour = is_pigment;
     advance();
   }
 
@@ -175,7 +175,7 @@ private:
   void read_value() {
     session_.tokens.unread_last();
     const Value value = session_.tokens.evaluate(Start::value);
-    function_->gives_vector = true;
+    function_->returns_vector = true;
     if (const auto* transform = std::get_if<Transform>(&value)) {
       function_->body = *transform;
     } else {
@@ -373,7 +373,7 @@ private:
     auto function = std::make_shared<UserFunction>();
     function->body = spline_function(spline);
     function->parameters = 1;
-    function->gives_vector = true;
+    function->returns_vector = true;
     splines_.emplace_back(spline, function);
     return function;
   }
@@ -392,7 +392,7 @@ private:
     const FunctionCallee called =
         code ? FunctionCallee(*code) : std::get<std::shared_ptr<const NativeFunction>>(callee->body);
     const FunctionValue result = builder_->call(called, arguments);
-    if (!callee->gives_vector) return result;
+    if (!callee->returns_vector) return result;
     return read_component([&](std::uint32_t which) { return builder_->component(result, which); });
   }
 

@@ -350,10 +350,10 @@ Value evaluate(Session& session, int number, const std::vector<Value>& arguments
 
 std::vector<FunctionName> function_names() {
   std::vector<FunctionName> names;
-  bool gives_text = false;
+  bool returns_text = false;
   for (const Function& function : kFunctions) {
-    gives_text = gives_text || std::strcmp(function.name, kFirstTextFunction) == 0;
-    names.push_back({function.name, gives_text});
+    returns_text = returns_text || std::strcmp(function.name, kFirstTextFunction) == 0;
+    names.push_back({function.name, returns_text});
   }
   return names;
 }

@@ -12,7 +12,7 @@ namespace celltrace::pov {
 /// A function's name, and whether it returns a text. The index in the list is the function's number.
 struct FunctionName {
   const char* name;
-  bool gives_text;
+  bool returns_text;
 };
 std::vector<FunctionName> function_names();
 

@@ -360,8 +360,8 @@ std::vector<ReservedWord> make_reserved_words() {
     words.push_back({text, tokens::T_READ_APART, 0, false});
   int number = 0;
   for (const FunctionName& function : function_names())
-    words.push_back(
-        {function.name, function.gives_text ? tokens::T_TEXT_FUNCTION : tokens::T_FUNCTION, number++, false});
+    words.push_back({function.name, function.returns_text ? tokens::T_TEXT_FUNCTION : tokens::T_FUNCTION,
+                     number++, false});
   number = 0;
   for (const char* shape : shape_names())
     words.push_back({shape, tokens::T_SHAPE, number++, false});

@@ -44,7 +44,7 @@ Quantity value_of(Session& session, const UserFunction& function, const double* 
   Quantity result;
   native.evaluate(arguments, context, result.v.data());
   result.count = static_cast<int>(native.results());
-  result.is_colour = function.gives_colour;
+  result.is_colour = function.returns_colour;
   return result;
 }
 

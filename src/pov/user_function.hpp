@@ -26,8 +26,8 @@ using FunctionBody =
 struct UserFunction {
   std::size_t parameters = 3;
   FunctionBody body;
-  bool gives_vector = false; ///< true: the function returns a vector or a colour
-  bool gives_colour = false;
+  bool returns_vector = false; ///< true: the function returns a vector or a colour
+  bool returns_colour = false;
   int depth = 1; ///< levels of nested calls
   Location where = {};
   MemoryShare memory = {}; ///< memory of an expression

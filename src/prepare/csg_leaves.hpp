@@ -25,15 +25,15 @@ struct LeafPlace {
   }
 };
 
-/// Returns whether `ask(leaf, whether the object is made of the leaf's outside)` is true for an object that
-/// is no CSG, or for any leaf of one. Rare properties are found this way without computing places.
-template <class Ask> bool has_leaf(const Object& object, bool inverse, const Ask& ask) {
+/// Returns whether `predicate(leaf, whether the object is made of the leaf's outside)` is true for an object
+/// that is no CSG, or for any leaf of one. Rare properties are found this way without computing places.
+template <class Ask> bool has_leaf(const Object& object, bool inverse, const Ask& predicate) {
   const bool is_inverse = inverse != object.inverse;
   const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
-  if (csg == nullptr) return ask(object, is_inverse);
+  if (csg == nullptr) return predicate(object, is_inverse);
   const bool takes_away = (*csg)->operation == Csg::Operation::difference;
   for (std::size_t i = 0; i < (*csg)->parts.size(); ++i)
-    if (has_leaf((*csg)->parts[i], is_inverse != (takes_away && i > 0), ask)) return true;
+    if (has_leaf((*csg)->parts[i], is_inverse != (takes_away && i > 0), predicate)) return true;
   return false;
 }
 

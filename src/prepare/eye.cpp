@@ -33,18 +33,18 @@ void Eye::move_to(const Camera& camera, const Scene& scene) {
 
 bool Eye::is_near_surface(const Sphere& sphere, const Transform& transform) const {
   if (transform.is_identity()) {
-    if (is_near(sphere, location_)) return is_asked_ = true;
+    if (is_near(sphere, location_)) return is_used_ = true;
     if (may_move_) spheres_.push_back(sphere);
     return false;
   }
   const Transform to_sphere = transform.inverse();
-  if (is_near(sphere, to_sphere.point(location_))) return is_asked_ = true;
+  if (is_near(sphere, to_sphere.point(location_))) return is_used_ = true;
   if (may_move_) placed_spheres_.push_back({sphere, to_sphere});
   return false;
 }
 
 bool Eye::prepares_alike_but_boundaries(const Vec3& location) const {
-  if (is_asked_ || !may_move_) return false;
+  if (is_used_ || !may_move_) return false;
   return std::none_of(spheres_.begin(), spheres_.end(),
                       [&](const Sphere& sphere) { return is_near(sphere, location); }) &&
          std::none_of(placed_spheres_.begin(), placed_spheres_.end(), [&](const PlacedSphere& placed) {

@@ -24,14 +24,14 @@ public:
 
   /// Returns the location. The prepared scene depends on the location from then on.
   const Vec3& location() const noexcept {
-    is_asked_ = true;
+    is_used_ = true;
     return location_;
   }
   /// Returns a point that is as far away as the origins of rays, since the precision of rays depends on that:
   /// the location or, if it is so far away that rays start just before the scene, a nearer point. The
   /// prepared scene depends on this point from then on.
   const Vec3& start() const noexcept {
-    is_asked_ = true;
+    is_used_ = true;
     return start_;
   }
   /// Returns start() for boundaries of CSG's solids. From then on nothing but these boundaries depends on it;
@@ -56,7 +56,7 @@ public:
   void move_to(const Camera& camera, const Scene& scene);
   /// Returns whether there may be locations for which the prepared scene differs.
   bool matters() const noexcept {
-    return !may_move_ || is_asked_ || has_boundaries_ || !spheres_.empty() || !placed_spheres_.empty();
+    return !may_move_ || is_used_ || has_boundaries_ || !spheres_.empty() || !placed_spheres_.empty();
   }
 
 private:
@@ -69,7 +69,7 @@ private:
   Vec3 start_ = Vec3(0);
   bool may_move_ = false;
   // Mutable, since passes get a const eye.
-  mutable bool is_asked_ = false;
+  mutable bool is_used_ = false;
   mutable bool has_boundaries_ = false;
   mutable std::vector<Sphere> spheres_; ///< spheres that the eye is not near, in the world
   mutable std::vector<PlacedSphere> placed_spheres_;

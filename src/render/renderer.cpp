@@ -247,10 +247,10 @@ private:
   }
 
   /// Returns FrameBlock::units_per_word. On emulated machines the result does not depend on the host's time.
-  std::uint32_t units_per_word(std::uint32_t units, bool is_asked) {
+  std::uint32_t units_per_word(std::uint32_t units, bool is_requested) {
     if (options_.finished_block || options_.work_map) return kEachUnit;
     if (!machine_->direct_memory()) return units / 64 + 1;
-    return is_asked ? report_pace().units_per_word(units) : 0;
+    return is_requested ? report_pace().units_per_word(units) : 0;
   }
   ReportPace& report_pace() {
     return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::samples ? sample_pace_ : pace_;

@@ -134,7 +134,7 @@ InstancedMeshes::InstancedMeshes(const Scene& scene, std::size_t objects,
     }
     const MeshPrototype& prototype = meshes_[use.mesh].prototype;
     if (prototype.triangles().empty() || !has_moderate_size(prototype, object.transform) ||
-        !prototype.surely_keeps_areas(object.transform))
+        !prototype.surely_preserves_areas(object.transform))
       continue;
     instance_of_[i] = instance_count();
     add_instance(object, use.mesh);

@@ -73,7 +73,7 @@ MeshInstances::MeshInstances(const Scene& scene, const InstancedMeshes& instance
     const HostPart mine(count, part, parts);
     for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
       ProgressMonitor::check_cancelled();
-      instances_[i].is_sound = keeps_areas(instances_[i]);
+      instances_[i].is_sound = preserves_areas(instances_[i]);
     }
   });
   const auto is_unsound = [](const Instance& instance) { return !instance.is_sound; };
@@ -114,10 +114,10 @@ void MeshInstances::find(const Scene& scene, const InstancedMeshes& instanced,
 
 /// Returns whether all triangles keep an area. Throws InputError if single precision cannot hold the
 /// coordinates.
-bool MeshInstances::keeps_areas(const Instance& instance) const {
+bool MeshInstances::preserves_areas(const Instance& instance) const {
   const MeshPrototype& prototype = prototypes_[instance.prototype];
   const Transform& transform = instance.object->transform;
-  if (prototype.surely_keeps_areas(transform)) return true;
+  if (prototype.surely_preserves_areas(transform)) return true;
   std::vector<Vec3f> world;
   for (const Vec3f& vertex : prototype.vertices()) {
     const Vec3f at = in_world(transform, vertex);

@@ -52,14 +52,14 @@ private:
   struct Instance {
     const Object* object;
     std::uint32_t prototype;
-    bool is_sound;                                          ///< result of keeps_areas()
+    bool is_sound;                                          ///< result of preserves_areas()
     std::uint32_t first_object, first_normals, first_group; ///< among those of all instances
   };
   class Writer;
 
   void find(const Scene& scene, const InstancedMeshes& instanced,
             const std::vector<std::uint32_t>& material_flags, unsigned threads);
-  bool keeps_areas(const Instance& instance) const;
+  bool preserves_areas(const Instance& instance) const;
   bool are_tangled() const;
   void number();
 

@@ -254,7 +254,7 @@ void MeshPrototype::measure() {
   }
 }
 
-bool MeshPrototype::surely_keeps_areas(const Transform& transform) const {
+bool MeshPrototype::surely_preserves_areas(const Transform& transform) const {
   constexpr double kMost = 1e17;
   double farthest = 0; // greatest coordinate of a corner of the box around all
   for (unsigned corner = 0; corner < 8; ++corner) {

@@ -40,7 +40,7 @@ public:
   std::uint32_t smooth() const { return smooth_; }
   /// Returns whether, without testing each triangle, it is certain that the transformed triangles keep their
   /// areas in single precision, and that single precision holds their coordinates.
-  bool surely_keeps_areas(const Transform& transform) const;
+  bool surely_preserves_areas(const Transform& transform) const;
 
 private:
   void measure();

@@ -91,7 +91,7 @@ void set_area(const LightArea& area, LightRecord& r) {
 std::uint32_t numeric_flags(const MaterialRecord& r) {
   const auto any = [](const float(&v)[3]) { return v[0] != 0 || v[1] != 0 || v[2] != 0; };
   std::uint32_t flags = 0;
-  const auto set = [&](bool is_asked_for, std::uint32_t flag) { flags |= is_asked_for ? flag : 0; };
+  const auto set = [&](bool is_needed, std::uint32_t flag) { flags |= is_needed ? flag : 0; };
   set(r.brilliance != 1, material_flag::brilliance);
   set(r.phong > 0, material_flag::phong);
   set(r.specular > 0, material_flag::specular);

@@ -75,7 +75,7 @@ void FrameSource::pick(double x, double y) {
   changed_.notify_one();
 }
 
-void FrameSource::ask_middle() {
+void FrameSource::pick_middle() {
   {
     const std::lock_guard lock(mutex_);
     if (!place_) place_ = {0.5, 0.5, true};

@@ -50,7 +50,7 @@ struct Frame {
 /// The object at a point of the picture.
 struct Picked {
   std::shared_ptr<const Scene> scene; ///< the scene that was queried
-  bool is_middle = false;             ///< true for answers to ask_middle()
+  bool is_middle = false;             ///< true for answers to pick_middle()
   std::uint64_t number = 0;           ///< FrameRequest::number of the picture
   std::optional<Index> object;        ///< index in Scene::objects; nothing if there is no object
   Vec3 point{0, 0, 0};                ///< point on the object
@@ -78,7 +78,7 @@ public:
   /// top. Does not wait: the answer comes when nothing is rendered.
   void pick(double x, double y);
   /// Asks for the object in the middle of the picture.
-  void ask_middle();
+  void pick_middle();
   std::optional<Picked> take_picked();
 
 private:

@@ -112,7 +112,7 @@ private:
       return;
     case SDL_MOUSEBUTTONDOWN:
       dragged_ = 0;
-      if (event.button.button == SDL_BUTTON_LEFT) ask_middle();
+      if (event.button.button == SDL_BUTTON_LEFT) pick_middle();
       return;
     case SDL_MOUSEBUTTONUP:
       if (event.button.button == SDL_BUTTON_LEFT && dragged_ <= kClick) pick(event.button.x, event.button.y);
@@ -211,18 +211,18 @@ private:
     const bool is_radial = navigator_->mode() == Navigator::Mode::planar;
     navigator_->set_mode(is_radial ? Navigator::Mode::radial : Navigator::Mode::planar);
     hint(is_radial ? "keys: radial, around the middle" : "keys: planar");
-    if (is_radial) ask_middle();
+    if (is_radial) pick_middle();
   }
 
   /// Asks for the object in the middle of the picture, which becomes the point to orbit when the answer
   /// comes.
-  void ask_middle() {
-    if (navigator_ && !navigator_->has_pivot()) source_.ask_middle();
+  void pick_middle() {
+    if (navigator_ && !navigator_->has_pivot()) source_.pick_middle();
   }
 
   void move(Action action, double steps) {
     if (!navigator_) return;
-    if (navigator_->mode() == Navigator::Mode::radial) ask_middle();
+    if (navigator_->mode() == Navigator::Mode::radial) pick_middle();
     switch (action) {
     case Action::left:
       return navigator_->go(-steps, 0);

@@ -66,7 +66,7 @@ struct Sampling {
     return sample(lanes, [&](const Surfaces<Simd>& surfaces, const IncidentLight<Simd>& incident,
                              VectorLanes& sum) {
       const std::uint32_t rays = sample_area(spu, record, surfaces, incident, to_place, *shadow, sum, trace);
-      CHECK(rays == shadow->rays_asked);
+      CHECK(rays == shadow->ray_count);
     });
   }
   /// The same of a light that is not tinted, in pairs. `lit_lanes(rays, lanes, distance)` returns those
@@ -268,9 +268,9 @@ TEST_CASE("Places in pairs with surfaces leave the share that they leave one by 
     const VectorLanes expected = sampling.run(lanes, [&](AreaShadow<Simd>& shadow) {
       answer(shadow, lit_lanes(shadow.to_place->rays, shadow.lanes, shadow.to_place->distance));
     });
-    const std::uint32_t rays = sampling.shadow->rays_asked;
+    const std::uint32_t rays = sampling.shadow->ray_count;
     const VectorLanes found = sampling.run_in_pairs(lanes, lit_lanes);
-    CHECK(sampling.shadow->rays_asked == rays);
+    CHECK(sampling.shadow->ray_count == rays);
     for_each_lane(sampling.facing, [&](unsigned l) { CHECK(test::at(found, l) == test::at(expected, l)); });
     divided += rays > 4 * kSimdLanes;
   }
@@ -300,7 +300,7 @@ TEST_CASE("There is room for all quads of a grid that is looked at in pairs") {
     REQUIRE(AreaPairs<DirectSpu, false>::can_sample(sampling.record));
     const VectorLanes sum = sampling.run_in_pairs(
         0xFFFF, [](const RayPacket&, std::uint32_t lanes, const FloatLanes&) { return lanes; });
-    CHECK(sampling.shadow->rays_asked ==
+    CHECK(sampling.shadow->ray_count ==
           std::uint32_t(size.first * size.second * __builtin_popcount(sampling.facing)));
     for_each_lane(sampling.facing, [&](unsigned l) { CHECK(test::at(sum, l) == light.colour); });
   }
@@ -330,11 +330,11 @@ TEST_CASE("What comes tinted from places in pairs with surfaces is what does one
             asks ? light.colour * tint(shadow.to_place->rays, l, shadow.to_place->distance) : Vec3(0));
       }
     });
-    const std::uint32_t rays = sampling.shadow->rays_asked;
+    const std::uint32_t rays = sampling.shadow->ray_count;
     const std::optional<VectorLanes> found = sampling.run_tinted_in_pairs(lanes, tint);
     REQUIRE(found);
     // One by one what comes tinted is asked for again.
-    CHECK(sampling.shadow->rays_asked <= rays);
+    CHECK(sampling.shadow->ray_count <= rays);
     for_each_lane(sampling.facing, [&](unsigned l) {
       REQUIRE(glm::length(test::at(*found, l) - test::at(expected, l)) < 1e-5);
     });

@@ -158,7 +158,7 @@ public:
       packets |= (queries[i].lanes != 0 ? 1u : 0u) << i;
     for (uint32_t i = 0; i < cheap_count_ && packets != 0; ++i) {
       tests.test_occlusion_of_all(queries, packets, objects_[i].self);
-      packets = still_asking(queries, packets);
+      packets = nonempty_of(queries, packets);
     }
     if (first_heavy_ != kMost && packets != 0) test_heavy(tests, queries, packets);
   }
@@ -196,10 +196,10 @@ private:
     return true;
   }
 
-  static uint32_t still_asking(const RayQuery* queries, uint32_t packets) {
-    uint32_t asking = 0;
-    for_each_lane(packets, [&](uint32_t i) { asking |= (queries[i].lanes != 0 ? 1u : 0u) << i; });
-    return asking;
+  static uint32_t nonempty_of(const RayQuery* queries, uint32_t packets) {
+    uint32_t nonempty = 0;
+    for_each_lane(packets, [&](uint32_t i) { nonempty |= (queries[i].lanes != 0 ? 1u : 0u) << i; });
+    return nonempty;
   }
   /// Tests objects whose tests take long. Rays that are occluded already, or miss the leaf, are left out.
   void test_heavy(ObjectTests<Spu>& tests, RayQuery* queries, uint32_t packets) const {
@@ -219,12 +219,12 @@ private:
       }
     });
     for (uint32_t k = first_heavy_; k < kMost; ++k) {
-      uint32_t asking = 0;
+      uint32_t nonempty = 0;
       for_each_lane(hitting[k], [&](uint32_t i) {
         lanes[k][i] &= queries[i].lanes;
-        asking |= (lanes[k][i] != 0 ? 1u : 0u) << i;
+        nonempty |= (lanes[k][i] != 0 ? 1u : 0u) << i;
       });
-      if (asking != 0) tests.test_occlusion_of_some(queries, asking, lanes[k], objects_[k].self);
+      if (nonempty != 0) tests.test_occlusion_of_some(queries, nonempty, lanes[k], objects_[k].self);
     }
   }
 

@@ -116,7 +116,7 @@ public:
       lit_[i] = 0;
     for (uint32_t first = 0; first < places; first += S::kLanes) {
       I::splat(0).store(wanted_ + first);
-      I::splat(0).store(asked_ + first);
+      I::splat(0).store(queued_ + first);
     }
   }
 
@@ -134,7 +134,7 @@ public:
         want_corners(quads[i]);
       for (uint32_t i = 0; i < block_count_; ++i)
         want_between(blocks_[i]);
-      ask_wanted(test);
+      queue_wanted(test);
       if (packet_count() != 0) test_packets(test);
       if (is_full_) {
         area_.is_tinted = 0;
@@ -187,22 +187,22 @@ private:
     for (const uint32_t place : places)
       first[place] |= q.lanes;
   }
-  /// Asks for places that are wanted and have not been asked for.
-  template <class Test> void ask_wanted(const Test& test) {
+  /// Queues pairs for places that are wanted and were not queued yet.
+  template <class Test> void queue_wanted(const Test& test) {
     const uint32_t places = columns_ * light_.rows;
     for (uint32_t first = 0; first < places; first += S::kLanes) {
-      const I wanted = I::load(wanted_ + first), lanes = wanted ^ I::load(asked_ + first);
-      const uint32_t asking = ~(lanes == I::splat(0)).bits() & 0xFFFF;
-      if (asking == 0) continue;
-      wanted.store(asked_ + first);
+      const I wanted = I::load(wanted_ + first), lanes = wanted ^ I::load(queued_ + first);
+      const uint32_t unqueued = ~(lanes == I::splat(0)).bits() & 0xFFFF;
+      if (unqueued == 0) continue;
+      wanted.store(queued_ + first);
       WordLanes by_place;
       store_words<S>(by_place, lanes);
-      for_each_lane(asking, [&](uint32_t i) { ask(first + i, by_place.lane[i], test); });
+      for_each_lane(unqueued, [&](uint32_t i) { queue(first + i, by_place.lane[i], test); });
     }
   }
-  template <class Test> void ask(uint32_t place, uint32_t lanes, const Test& test) {
+  template <class Test> void queue(uint32_t place, uint32_t lanes, const Test& test) {
     const auto count = static_cast<uint32_t>(__builtin_popcount(lanes));
-    area_.rays_asked += count;
+    area_.ray_count += count;
     if (pair_count_ + count > kMostPairs) test_packets(test);
     const LightGrid::Place on_grid = grid_.at(place);
     S::lane_numbers(lanes).store_unaligned(lane_ + pair_count_);
@@ -235,7 +235,7 @@ private:
     return from_place;
   }
 
-  /// Tests all pairs that have been asked for.
+  /// Tests all pairs that are queued.
   template <class Test> [[gnu::noinline]] void test_packets(const Test& test) {
     aim_pairs();
     test(queries_, packet_count());
@@ -264,10 +264,10 @@ private:
       store_words<S>(objects, S::pick(start_object, lane));
       make_shadow_rays(of_pair(origin), objects, from_place, rays_[i].rays, rays_[i].distance);
       const uint32_t left = pair_count_ - first;
-      ask_packet(i, left < S::kLanes ? (1u << left) - 1 : 0xFFFF);
+      make_query(i, left < S::kLanes ? (1u << left) - 1 : 0xFFFF);
     }
   }
-  void ask_packet(uint32_t i, uint32_t lanes) {
+  void make_query(uint32_t i, uint32_t lanes) {
     VectorLanes* light = &area_.light();
     if constexpr (kTinted) {
       light = &came_[i];
@@ -416,9 +416,9 @@ private:
   [[no_unique_address]] Present<AreaTints<S>, kTinted> tints_;
   const uint32_t columns_;
   bool is_full_ = false; ///< true if there was no room for all tints
-  // Lanes by place: those that want it, have asked for it, and are lit. The places beyond the last one are
+  // Lanes by place: those that want it, are queued for it, and are lit. The places beyond the last one are
   // unused.
-  alignas(64) int32_t wanted_[kMostPlaces + kSlack], asked_[kMostPlaces + kSlack];
+  alignas(64) int32_t wanted_[kMostPlaces + kSlack], queued_[kMostPlaces + kSlack];
   uint16_t lit_[kMostPlaces];
   LightQuad quads_[2][kMostPlaces];   ///< quads of one size each, in turn
   LightQuad blocks_[kMostPlaces / 4]; ///< quads of 3 x 3 places that are to be divided

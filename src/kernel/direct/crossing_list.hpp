@@ -1,6 +1,5 @@
-// Crossings of shadow rays with translucent surfaces, kept where their order matters: some may be so near
-// each other that not all of them count, interiors may fade, and the transmittance of a surface may depend on
-// where a ray comes from. Kernel dialect.
+// Crossings of shadow rays with translucent surfaces, for cases where order matters: near crossings may not
+// all count, interiors may fade, and transmittance may depend on where a ray comes from. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"

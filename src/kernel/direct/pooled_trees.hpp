@@ -88,19 +88,19 @@ protected:
     pool_.begin_tree(member.number, tracer().pooling().pixels);
   }
   /// Returns true for a root: shade_end() has already found its points.
-  static bool knows_points(const void* root) { return root != nullptr; }
+  static bool has_hit_points(const void* root) { return root != nullptr; }
   uint32_t take_hits() {
-    return tracer().take_hits([&](uint32_t missed) { return leave_sky(missed); });
+    return tracer().take_hits([&](uint32_t missed) { return defer_sky(missed); });
   }
   /// Leaves hits without secondary rays to shade_ending(), if they are few. Returns these hits.
-  uint32_t leave_ends(uint32_t hit) {
+  uint32_t defer_ends(uint32_t hit) {
     const HitPoints<S>& points = all().store_.points;
     const uint32_t ends = hit & ~(points.spawning | points.blended);
     if (ends == 0 || !may_wait(ends) || !pool_.hits.has_room()) return 0;
     pool_.hits.push(0, ends, {waiting_rays(), tracer().hits()});
     return ends;
   }
-  template <class Member> void keep_tree(const Member& member) {
+  template <class Member> void store_tree(const Member& member) {
     pool_.put_tree(member.number, member.lanes, tracer().light());
   }
   void end_tree() {
@@ -126,7 +126,7 @@ protected:
 
   /// Leaves light of a few lanes of the current node to light_points(). Returns false if it has to be traced
   /// now, as it does not go to pixels or its rays have a packet of their own.
-  bool leave_light(uint32_t number, uint32_t lanes, const VectorLanes& colour) {
+  bool defer_light(uint32_t number, uint32_t lanes, const VectorLanes& colour) {
     if (lanes == 0 || !may_wait(lanes) || number >= ShadowPoints::kKeys) return false;
     VectorLanes point;
     point.template store<S>(all().store_.points.point);
@@ -136,7 +136,7 @@ protected:
                        *this);
     return true;
   }
-  template <class Member> void add_left_light(Member& member) {
+  template <class Member> void add_deferred_light(Member& member) {
     pool_.add(member.number, member.hit, LightRound::from(all().frame_, 0, member.light));
   }
 
@@ -219,7 +219,7 @@ private:
   PooledRays::Source waiting_rays() { return {tracer().node(), tracer().pooling().pixels}; }
   /// Leaves a few lanes of the current node without a hit to see_sky(). Returns false if their sky has to be
   /// added now.
-  bool leave_sky(uint32_t missed) {
+  bool defer_sky(uint32_t missed) {
     if (all().frame_.sky == kNoOffset || !may_wait(missed)) return false;
     pool_.skies.push(0, missed, waiting_rays(), *this);
     return true;

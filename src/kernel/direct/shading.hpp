@@ -61,8 +61,8 @@ struct DirectShading {
 
   /// Raises cosines to whole powers. Returns false if not all powers are whole.
   template <class S>
-  [[gnu::always_inline]] static bool bend_by_whole_power(const typename S::F& power, uint32_t lanes,
-                                                         typename S::F& cosine) {
+  [[gnu::always_inline]] static bool raise_to_whole_power(const typename S::F& power, uint32_t lanes,
+                                                          typename S::F& cosine) {
     const typename S::I whole = whole_power<S>(power);
     if ((lanes & ~(S::to_float(whole) == power).bits()) != 0) return false;
     cosine = whole_pow<S>(cosine, whole);

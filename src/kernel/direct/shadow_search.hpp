@@ -223,14 +223,14 @@ private:
   template <class Trace> bool sample_pairs(const LightRecord& light, const Trace& trace) {
     AreaShadow<S>& area = *tracer().area_;
     if (!AreaPairs<Spu, true>::can_sample(light)) return false;
-    const uint32_t asked = area.rays_asked;
+    const uint32_t ray_count = area.ray_count;
     AreaPairs<Spu, true> pairs(light, grid_, area);
     const auto test = [&](RayQuery* queries, uint32_t count) {
       for (uint32_t i = 0; i < count; ++i)
         if (!trace(queries[i], pairs.surface_lanes(i), *queries[i].light)) queries[i].lanes = 0;
     };
     if (pairs.sample(test)) return true;
-    area.rays_asked = asked;
+    area.ray_count = ray_count;
     return false;
   }
 

@@ -224,7 +224,7 @@ template <class S> struct AreaShadow {
 
   LightPlace place; ///< current place
   uint32_t lanes;
-  uint32_t rays_asked; ///< number of rays so far
+  uint32_t ray_count; ///< number of rays so far
 
   Known& known_at(const LightPlace& at) {
     const auto name = static_cast<uint16_t>(at.row * kMaxLightPlaces + at.column);
@@ -249,7 +249,7 @@ CELLTRACE_ONE_COPY void begin_area(const LightRecord& light, const Surfaces<S>& 
   a.is_visible = (absolute_sum<S>(incident.colour) > F(AreaShadow<S>::kTolerance)).bits();
   for (typename AreaShadow<S>::Known& entry : a.known)
     entry = {0, 0, 0}; // place 0 is unknown, too
-  a.rays_asked = 0;
+  a.ray_count = 0;
   a.quad_count = 0;
   a.lanes = 0;
   a.corner_count = 0;
@@ -379,7 +379,7 @@ CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShad
       a.light() = a.whole;
       a.place = place;
       a.lanes = lanes;
-      a.rays_asked += static_cast<uint32_t>(__builtin_popcount(lanes));
+      a.ray_count += static_cast<uint32_t>(__builtin_popcount(lanes));
       return true;
     }
     finish_quad<Spu>(light, a);
@@ -452,7 +452,7 @@ uint32_t sample_area(Spu& spu, const LightRecord& light, const Surfaces<typename
   while (next_place(spu, light, shadow))
     trace(shadow);
   module_areas::dim(spu, shadow, sent);
-  return shadow.rays_asked;
+  return shadow.ray_count;
 }
 
 } // namespace celltrace::kernel

@@ -39,7 +39,7 @@ constexpr bool is_dimmed(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::dimmed) != 0;
 }
 /// Returns true if shadow rays have to determine how much of the light reaches surfaces.
-constexpr bool is_asked_for(const LightRecord& light) {
+constexpr bool needs_shadow_rays(const LightRecord& light) {
   return (light.kind_and_flags & (light_flag::shadowless | light_flag::projected)) != light_flag::shadowless;
 }
 constexpr bool has_area(const LightRecord& light) {

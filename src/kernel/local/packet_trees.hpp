@@ -30,22 +30,22 @@ protected:
   static void begin_trees() {}
   static void hint(uint32_t) {}
   template <class Member> static constexpr bool shade_end(const Member&) { return false; }
-  static constexpr bool knows_points(const void*) { return false; }
+  static constexpr bool has_hit_points(const void*) { return false; }
   template <class Member> void begin_tree(const Member& member) {
     if (all().samples_ != nullptr)
       all().tracer_.add_transparency_to(all().samples_->at[member.number].transparency);
   }
   CELLTRACE_ONE_COPY uint32_t take_hits() { return all().tracer_.take_hits(); }
-  static constexpr uint32_t leave_ends(uint32_t) { return 0; }
-  template <class Member> void keep_tree(Member& member) {
+  static constexpr uint32_t defer_ends(uint32_t) { return 0; }
+  template <class Member> void store_tree(Member& member) {
     copy_packet<Spu>(all().tracer_.light(), member.shaded.seen);
   }
   static void end_tree() {}
   template <class Stopped> static constexpr bool finish(const Stopped&) { return true; }
   static void drop() {}
 
-  static constexpr bool leave_light(uint32_t, uint32_t, const VectorLanes&) { return false; }
-  template <class Member> void add_left_light(Member& member) {
+  static constexpr bool defer_light(uint32_t, uint32_t, const VectorLanes&) { return false; }
+  template <class Member> void add_deferred_light(Member& member) {
     const LightRound round = LightRound::from(all().frame_, 0, member.light);
     round.template add_to<S>(member.shaded.seen, member.hit);
   }

@@ -43,7 +43,7 @@ struct LocalShading {
     return false;
   }
   template <class S>
-  static constexpr bool bend_by_whole_power(const typename S::F&, uint32_t, const typename S::F&) {
+  static constexpr bool raise_to_whole_power(const typename S::F&, uint32_t, const typename S::F&) {
     return false;
   }
 

@@ -191,7 +191,7 @@ private:
       // Pixels receive light in the order of the rounds, as in the other programs.
       round.only_gathers = first != 0;
       context.tracer.shade_hits(context.points, context.hit, round);
-      ask_for_light(context, round);
+      request_light(context, round);
     }
     context.searches = writer_.count();
     if (context.searches == 0) return false;
@@ -201,7 +201,7 @@ private:
   }
   /// Sends the shadow searches of a round. Not inlined, so that its surfaces are not on the stack while hits
   /// are shaded.
-  CELLTRACE_ONE_COPY void ask_for_light(Context& context, const LightRound& round) {
+  CELLTRACE_ONE_COPY void request_light(Context& context, const LightRound& round) {
     const RayPacket& rays = context.tracer.node().rays;
     Surfaces<S> surfaces =
         context.points.surfaces(rays.direction.template load<S>(), context.tracer.hits().object);
@@ -216,7 +216,7 @@ private:
         incident.facing = lanes;
         incident.colour = gathered.template load<S>();
         context.tracer.counters().shadow += static_cast<uint32_t>(__builtin_popcount(lanes));
-        ask_for_light_of(i, surfaces, incident);
+        request_light_of(i, surfaces, incident);
         return;
       }
       surfaces.any_side = lanes;
@@ -227,12 +227,12 @@ private:
           IncidentLight<S> from_place(light.colour);
           spu_.enter_module(modules::kAreas);
           module_areas::aim_shadow_rays(spu_, light, surfaces, {column, row}, incident, from_place);
-          ask_for_light_of(i, surfaces, from_place);
+          request_light_of(i, surfaces, from_place);
         }
     });
   }
 
-  void ask_for_light_of(uint32_t number, const Surfaces<S>& surfaces, const IncidentLight<S>& incident) {
+  void request_light_of(uint32_t number, const Surfaces<S>& surfaces, const IncidentLight<S>& incident) {
     spu_.compute(model_work::kCopy);
     SearchRecord& search = writer_.next();
     make_shadow_rays(surfaces.point, *surfaces.objects, incident, search.rays, search.light.distance);
@@ -284,7 +284,7 @@ private:
     const bool more = context.tracer.advance();
     context.is_root = false;
     if (more && !stopped_) {
-      ask_for_hits(number);
+      request_hits(number);
       return;
     }
     if (!more)
@@ -297,7 +297,7 @@ private:
       spu_.send_signal(orders_.generator, Signal::two, 1u << number);
   }
 
-  void ask_for_hits(uint32_t number) {
+  void request_hits(uint32_t number) {
     Context& context = *contexts_[number];
     const RayNode& node = context.tracer.node();
     writer_.begin(number);

@@ -12,8 +12,8 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kChannels>
 class AdaptiveSampler : public PixelSampler<Spu, SamplingMethod::adaptive, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::adaptive, kChannels>;
-  using Base::arrive, Base::ask, Base::asked_, Base::channel_from, Base::column_, Base::differing,
-      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch,
+  using Base::arrive, Base::request, Base::requested_, Base::channel_from, Base::column_, Base::differing,
+      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_requests, Base::fetch,
       Base::first_line, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_, Base::kEdge,
       Base::kHasAlpha, Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_, Base::row_mask,
       Base::scratch_, Base::send, Base::smaller_of, Base::store_, Base::take_channels, Base::take_points,
@@ -48,7 +48,7 @@ public:
       divide_squares();
     else
       begin_block(column, row);
-    in_progress_ = ask_for_squares();
+    in_progress_ = request_squares();
     return in_progress_;
   }
 
@@ -71,31 +71,31 @@ private:
 
   /// Makes the samples of as many squares as there is room for, the last ones first. Returns false if the
   /// block is complete.
-  CELLTRACE_ONE_COPY bool ask_for_squares() {
+  CELLTRACE_ONE_COPY bool request_squares() {
     while (waiting_ == 0) {
       if (rows_ != 0) write_rows();
       if (next_row_ == height_) return false;
       compare_corners();
     }
-    asked_ = smaller_of(waiting_, kSquares);
-    waiting_ -= asked_;
+    requested_ = smaller_of(waiting_, kSquares);
+    waiting_ -= requested_;
     fetch_squares();
-    for (uint32_t i = 0; i < asked_; ++i) {
+    for (uint32_t i = 0; i < requested_; ++i) {
       const Square& square = scratch().squares[i];
       const float size = edge_of(square), half = 0.5f * size;
       const uint32_t first = i * kSamplesOfSquare;
-      ask(first, square.x + half, square.y);
-      ask(first + 1, square.x, square.y + half);
-      ask(first + 2, square.x + half, square.y + half);
-      ask(first + 3, square.x + size, square.y + half);
-      ask(first + 4, square.x + half, square.y + size);
+      request(first, square.x + half, square.y);
+      request(first + 1, square.x, square.y + half);
+      request(first + 2, square.x + half, square.y + half);
+      request(first + 3, square.x + size, square.y + half);
+      request(first + 4, square.x + half, square.y + size);
     }
-    end_asking(asked_ * kSamplesOfSquare);
+    end_requests(requested_ * kSamplesOfSquare);
     return true;
   }
   /// Fetches the squares that are being divided, which follow the waiting ones.
   void fetch_squares() {
-    fetch(scratch().squares, stored_square(waiting_), asked_ * static_cast<uint32_t>(sizeof(Square)));
+    fetch(scratch().squares, stored_square(waiting_), requested_ * static_cast<uint32_t>(sizeof(Square)));
   }
   static float edge_of(const Square& square) { return 1.0f / static_cast<float>(1u << square.level); }
 
@@ -168,8 +168,8 @@ private:
   /// Divides each square with samples in four: squares with equal corners are complete, the others wait.
   CELLTRACE_ONE_COPY void divide_squares() {
     fetch_squares();
-    take_channels(asked_ * kSamplesOfSquare);
-    for (uint32_t i = 0; i < asked_; ++i)
+    take_channels(requested_ * kSamplesOfSquare);
+    for (uint32_t i = 0; i < requested_; ++i)
       divide(scratch().squares[i], i * kSamplesOfSquare);
   }
   CELLTRACE_ONE_COPY void divide(Square& square, uint32_t first) {

@@ -43,14 +43,14 @@ template <class S, class PrimaryRays> struct BundleMember : LitPoints, PrimaryRa
 //   shade_end(member)                 shades a member whose hits spawn no rays; false: it does spawn some
 //   begin_tree(member)                is called before the tree of a member is traced
 //   take_hits()                       does what RayTracer::take_hits() does
-//   knows_points(root)                true if the hit points of a node are known; `root`: null if no root
-//   leave_ends(hit)                   returns the hits of a node that are shaded later
-//   leave_light(number, lanes, colour)  true if light of a node is traced later
-//   keep_tree(member)                 stores the colours of a member, which lack what was left for later
+//   has_hit_points(root)                true if the hit points of a node are known; `root`: null if no root
+//   defer_ends(hit)                   returns the hits of a node that are shaded later
+//   defer_light(number, lanes, colour)  true if light of a node is traced later
+//   store_tree(member)                 stores the colours of a member, which lack what was left for later
 //   end_tree()                        is called after the tree of a member was traced
 //   finish(stopped)                   traces and shades what was left for later; false: it was stopped
 //   drop()                            forgets what was left for later
-//   add_left_light(member)            adds the unoccluded light that the root's first round gathered
+//   add_deferred_light(member)            adds the unoccluded light that the root's first round gathered
 //   lanes_with_ray(member), light_of(member)    return the pixels with a ray, and their colours
 
 /// Traces bundles.
@@ -183,13 +183,13 @@ private:
       }
       if (member.lanes == 0 || !shade_root(member)) continue;
       if (!trace_tree(stopped)) return false;
-      Trees::keep_tree(member);
+      Trees::store_tree(member);
       Trees::end_tree();
     }
     find_lights();
     if (!Trees::finish(stopped)) return false;
     for (uint32_t i = 0; i < kPackets; ++i)
-      if (store_.members[i].hit != 0) Trees::add_left_light(store_.members[i]);
+      if (store_.members[i].hit != 0) Trees::add_deferred_light(store_.members[i]);
     return true;
   }
 
@@ -248,12 +248,12 @@ private:
   CELLTRACE_ONE_COPY void shade_node(Member* root) {
     uint32_t hit = Trees::take_hits();
     if (hit == 0) return;
-    if (!Trees::knows_points(root))
+    if (!Trees::has_hit_points(root))
       find_hit_points(scene_, tracer_.node().rays, tracer_.hits(), hit, store_.points);
     if (root != nullptr)
       copy_packet<Spu>(store_.points.point, root->point);
     else
-      hit &= ~Trees::leave_ends(hit);
+      hit &= ~Trees::defer_ends(hit);
     if (hit == 0) return;
     shade_points(root, hit);
   }
@@ -295,14 +295,14 @@ private:
     const LightRound lights = LightRound::from(frame_, 0, nullptr);
     shadows_.set_interiors(nullptr);
     for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
-      if (is_asked_for(light)) find_light(number, light);
+      if (needs_shadow_rays(light)) find_light(number, light);
     });
   }
   void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
     const bool by_packet = shadows_.traces_by_packet(light);
     const bool is_at_pinhole = shadows_.is_at_pinhole(light);
-    uint32_t asked = 0;
+    uint32_t query_count = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
       if (member.hit == 0) continue;
@@ -320,17 +320,17 @@ private:
       }
       shadows_.aim(light, member.to_light, member.point, member.shaded.object,
                    Strategy<Spu>::is_aimed(number, 0), lanes);
-      queries[asked++] = {&member.to_light.rays, nullptr, &member.to_light.distance, &colour, lanes};
+      queries[query_count++] = {&member.to_light.rays, nullptr, &member.to_light.distance, &colour, lanes};
     }
-    if (asked != 0) shadows_.trace(light, queries, asked);
+    if (query_count != 0) shadows_.trace(light, queries, query_count);
   }
   /// Traces shadow rays for the light of a round at the hits of the current node.
   CELLTRACE_ONE_COPY void light_packet(uint32_t hit, const LightRound& round) {
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
-      if (!is_asked_for(light)) return;
+      if (!needs_shadow_rays(light)) return;
       VectorLanes& colour = round.gathered[number - round.first];
       uint32_t lanes = tracer_.lanes_that_count(colour, hit);
-      if (Trees::leave_light(number, lanes, colour)) lanes = 0;
+      if (Trees::defer_light(number, lanes, colour)) lanes = 0;
       shadows_.set_interiors(&tracer_.node());
       shadows_.trace(light, store_.lit.to_light, store_.points.point, tracer_.hits().object,
                      Strategy<Spu>::is_aimed(number, round.first), lanes, colour);

@@ -15,8 +15,8 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kChannels>
 class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
-  using Base::arrive, Base::asked_, Base::channel_from, Base::column_, Base::differing, Base::encode,
-      Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::first_line, Base::found_at,
+  using Base::arrive, Base::requested_, Base::channel_from, Base::column_, Base::differing, Base::encode,
+      Base::encode_pixels_of, Base::encode_points, Base::end_requests, Base::first_line, Base::found_at,
       Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kSamples,
       Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
       Base::scratch_, Base::send_object, Base::smaller_of, Base::store_, Base::take_channels,
@@ -70,7 +70,7 @@ public:
       take_samples();
     else
       begin_block(column, row);
-    in_progress_ = ask_for_pixels();
+    in_progress_ = request_pixels();
     return in_progress_;
   }
 
@@ -290,12 +290,12 @@ private:
       }
   }
   /// Makes as many samples as there is room for. Returns false if the block is complete.
-  CELLTRACE_ONE_COPY bool ask_for_pixels() {
+  CELLTRACE_ONE_COPY bool request_pixels() {
     for (;;) {
-      const uint32_t count = ask_for_wanted();
+      const uint32_t count = request_samples();
       if (count != 0) {
-        end_asking(count);
-        asked_ = count;
+        end_requests(count);
+        requested_ = count;
         return true;
       }
       bool any = false;
@@ -310,10 +310,10 @@ private:
     return false;
   }
   /// Makes samples of pixels, one pixel after another. Returns the number of samples.
-  CELLTRACE_ONE_COPY uint32_t ask_for_wanted() {
+  CELLTRACE_ONE_COPY uint32_t request_samples() {
     PixelGrid& grid = scratch().grid;
     find_samples_of_pixel(grid);
-    float *const to_x = scratch().asked.x, *const to_y = scratch().asked.y;
+    float *const to_x = scratch().requested.x, *const to_y = scratch().requested.y;
     const uint32_t samples = samples_of_pixel();
     uint32_t count = 0;
     while (count < kSamples && find_pixel(cursor_)) {
@@ -342,13 +342,13 @@ private:
     const uint32_t samples = samples_of_pixel();
     const float share = 1.0f / static_cast<float>(samples + 1);
     uint32_t means = 0;
-    take_channels(asked_);
-    for (uint32_t i = 0; i < asked_;) {
+    take_channels(requested_);
+    for (uint32_t i = 0; i < requested_;) {
       find_pixel(taken_);
       const uint32_t x = taken_.x(), y = taken_.y();
       // The middle of the pixel counts as one more sample.
       if (taken_.sample == 0) fetch_point(x + 1, y + 1, sum_);
-      const uint32_t some = smaller_of(samples - taken_.sample, asked_ - i);
+      const uint32_t some = smaller_of(samples - taken_.sample, requested_ - i);
       Colour sum = sum_;
       for (uint32_t sample = i; sample < i + some; ++sample)
         for (uint32_t axis = 0; axis < kChannels; ++axis)

@@ -137,7 +137,7 @@ protected:
   /// Memory that is not kept from call to call. Samples are numbered through all packets.
   struct Scratch {
     union {
-      alignas(64) Places asked;                       ///< positions of samples
+      alignas(64) Places requested;                   ///< positions of samples
       alignas(64) float sampled[kChannels][kSamples]; ///< colours of the last call's samples
     };
     SampleLanes packets[Points::kPackets];
@@ -269,15 +269,15 @@ protected:
     y += (static_cast<float>(static_cast<int32_t>(random >> 16)) * kUnit - 0.5f) * amount;
   }
   /// Makes a sample, at a position in points of the grid.
-  void ask(uint32_t number, float x, float y) {
-    scratch_.asked.x[number] = x;
-    scratch_.asked.y[number] = y;
+  void request(uint32_t number, float x, float y) {
+    scratch_.requested.x[number] = x;
+    scratch_.requested.y[number] = y;
   }
   /// Puts samples into lanes. Unused lanes get the position of the last sample.
-  CELLTRACE_ONE_COPY void end_asking(uint32_t count) {
+  CELLTRACE_ONE_COPY void end_requests(uint32_t count) {
     const uint32_t whole = (count + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
     for (uint32_t i = count; i < whole; ++i)
-      ask(i, scratch_.asked.x[count - 1], scratch_.asked.y[count - 1]);
+      request(i, scratch_.requested.x[count - 1], scratch_.requested.y[count - 1]);
     for (uint32_t packet = 0; packet < kPackets; ++packet) {
       const uint32_t first = packet * kSimdLanes;
       const uint32_t lanes = count <= first ? 0 : smaller_of(count - first, kSimdLanes);
@@ -292,7 +292,7 @@ protected:
     const float amount = frame_.sampling.jitter;
     const float middle_x = frame_.camera.middle_x, middle_y = frame_.camera.middle_y;
     for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
-      float x = scratch_.asked.x[first + lane], y = scratch_.asked.y[first + lane];
+      float x = scratch_.requested.x[first + lane], y = scratch_.requested.y[first + lane];
       jitter(x, y, amount);
       packet.x.lane[lane] = x - middle_x;
       packet.y.lane[lane] = y - middle_y;
@@ -337,7 +337,7 @@ protected:
   bool in_progress_ = false;
   uint32_t column_ = 0, row_ = 0;   ///< position of the block
   uint32_t width_ = 0, height_ = 0; ///< size of the block's part in the picture, in pixels
-  uint32_t asked_ = 0;              ///< number of samples, or of squares
+  uint32_t requested_ = 0;          ///< number of samples, or of squares
 };
 
 } // namespace celltrace::kernel

@@ -65,18 +65,18 @@ V3<S> highlight(const Surfaces<S>& s, const MaterialLanes<S>& m, const IncidentL
 /// Returns the cosine of light to the power of the materials' brilliance.
 template <class Spu>
 [[gnu::always_inline]] inline typename Spu::simd::F
-bent_cosine(const MaterialLanes<typename Spu::simd>& m, const IncidentLight<typename Spu::simd>& light) {
+diffuse_lobe(const MaterialLanes<typename Spu::simd>& m, const IncidentLight<typename Spu::simd>& light) {
   using S = typename Spu::simd;
   using R = typename Spu::rare_simd;
   using RF = typename R::F;
-  typename S::F bent = light.cosine;
+  typename S::F lobe = light.cosine;
   if (m.has(material_flag::brilliance)) {
-    if (Strategy<Spu>::template bend_by_whole_power<S>(m.brilliance, light.facing, bent)) return bent;
+    if (Strategy<Spu>::template raise_to_whole_power<S>(m.brilliance, light.facing, lobe)) return lobe;
     by_parts<Spu>(
-        bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
+        lobe, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
         m.brilliance);
   }
-  return bent;
+  return lobe;
 }
 
 /// Returns the light that surfaces reflect. Rare features of materials are computed by parts, as their code
@@ -86,8 +86,8 @@ V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
                                        const MaterialLanes<typename Spu::simd>& m,
                                        const IncidentLight<typename Spu::simd>& light, bool highlights) {
   using R = typename Spu::rare_simd;
-  const typename Spu::simd::F bent = bent_cosine<Spu>(m, light);
-  V3<typename Spu::simd> sum = m.pigment * light.colour * (m.diffuse * m.opacity * bent);
+  const typename Spu::simd::F lobe = diffuse_lobe<Spu>(m, light);
+  V3<typename Spu::simd> sum = m.pigment * light.colour * (m.diffuse * m.opacity * lobe);
   if (highlights && m.has(material_flag::highlights))
     for_each_part<Spu>([&](uint32_t first) {
       set_part<Spu>(sum, first,
@@ -116,11 +116,11 @@ CELLTRACE_ONE_COPY void light_of_both_sides(SceneAccess<Spu>& scene, const Surfa
   for_each_value<S>(*m.offsets, behind, [&](uint32_t offset, uint32_t same) {
     share = S::select(S::M::from_bits(same), F(scene.material(offset)->diffuse_behind), share);
   });
-  const F bent = bent_cosine<Spu>(m, light);
+  const F lobe = diffuse_lobe<Spu>(m, light);
   const auto is_behind = S::M::from_bits(behind);
   const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
   light.colour = select<S>(is_behind & (share == F(0.0f)), dark, light.colour);
-  sent = select<S>(is_behind, m.pigment * light.colour * (share * m.opacity * bent), sent);
+  sent = select<S>(is_behind, m.pigment * light.colour * (share * m.opacity * lobe), sent);
 }
 
 } // namespace detail
@@ -201,8 +201,8 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
       if (is_fresh) gathered.template store<S>(dark);
       return;
     }
-    const bool is_asked = is_asked_for(light);
-    if (is_asked && Strategy<Spu>::wants_rays(round, number))
+    const bool needs_rays = needs_shadow_rays(light);
+    if (needs_rays && Strategy<Spu>::wants_rays(round, number))
       make_shadow_rays(s.point, *s.objects, incident, round.to_first->rays, round.to_first->distance);
     scene.spu().compute(scalar_work::kLight);
     V3<S> sent;
@@ -218,7 +218,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
       change_special_light(scene, s, m, incident, number, sent);
     }
     sent = select<S>(S::M::from_bits(facing), sent, dark);
-    if (!is_asked) {
+    if (!needs_rays) {
       sum = sum + sent;
       if (is_fresh) gathered.template store<S>(dark);
       return;

@@ -157,7 +157,7 @@ private:
     take_area_light(colour);
   }
   void take_area_light(VectorLanes& colour) {
-    counters_.shadow += area_->rays_asked;
+    counters_.shadow += area_->ray_count;
     scene_.spu().enter_module(modules::kAreas);
     module_areas::dim(scene_.spu(), *area_, colour);
   }
