@@ -64,8 +64,8 @@ public:
   Flight& at(unsigned spe, std::size_t index) { return lists_[spe].flights[index]; }
 
   void add(unsigned spe, const Flight& flight);
-  /// Removes the flights for which `gone(flight)` is true.
-  template <class Gone> void remove_if(unsigned spe, Gone gone);
+  /// Removes the flights for which `predicate(flight)` is true.
+  template <class Predicate> void remove_if(unsigned spe, Predicate predicate);
   /// Calls `change(flight)` for each flight while no other thread reads them.
   template <class Change> void for_each(unsigned spe, Change change);
 
@@ -93,13 +93,13 @@ struct Overlap {
 };
 Overlap overlap_of(const Flight& a, const Flight& b);
 
-template <class Gone> void Flights::remove_if(unsigned spe, Gone gone) {
+template <class Predicate> void Flights::remove_if(unsigned spe, Predicate predicate) {
   List& list = lists_[spe];
   const std::lock_guard lock(list.lock);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < list.flights.size(); ++i) {
     Flight& flight = list.flights[i];
-    if (gone(flight)) {
+    if (predicate(flight)) {
       if (!flight.writes_local_store()) outward_.fetch_sub(1, std::memory_order_relaxed);
       continue;
     }

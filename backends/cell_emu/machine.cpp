@@ -71,11 +71,11 @@ public:
   unsigned in_mailbox_space(unsigned spe) const override;
   std::optional<std::uint32_t> read_out_mailbox(unsigned spe) override {
     Spe& from = *spes_.at(spe);
-    return from.state.take_out_mailbox(scheduler_->enter());
+    return from.state.read_out_mailbox(scheduler_->enter());
   }
   std::optional<std::uint32_t> read_out_interrupt_mailbox(unsigned spe) override {
     Spe& from = *spes_.at(spe);
-    return from.state.take_out_interrupt_mailbox(scheduler_->enter());
+    return from.state.read_out_interrupt_mailbox(scheduler_->enter());
   }
   void write_signal(unsigned spe, Signal which, std::uint32_t value) override;
   bool wait_for_mail(std::chrono::milliseconds timeout) override;

@@ -241,8 +241,8 @@ private:
   /// reported.
   bool note_drained(const FlightInfo& flight, Diagnostic& diagnostic, Cycle now);
   void report_drained(const FlightInfo& flight, Cycle now);
-  /// Notes that the program knows that the flights for which `seen(flight)` is true are complete.
-  template <class Seen> void observe_if(Seen seen, Cycle now);
+  /// Notes that the program knows that the flights for which `predicate(flight)` is true are complete.
+  template <class Predicate> void observe_if(Predicate predicate, Cycle now);
   /// Notes that the program knows the transferred part of a list.
   void observe_part(std::uint64_t command, Cycle now);
   void observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now);
@@ -253,7 +253,7 @@ private:
   void permit(Flight& flight);
   void report_access(const FlightInfo& flight, Rule rule, const std::string& what, CallSite site, Cycle now);
   void watch(const Flight& flight);
-  template <class Gone> void remove_flights(Gone gone);
+  template <class Predicate> void remove_flights(Predicate predicate);
 
   // --- progress ---
 

@@ -131,18 +131,18 @@ void Mfc::watch(const Flight& flight) {
     watch_[quadword] |= bits;
 }
 
-template <class Gone> void Mfc::remove_flights(Gone gone) {
+template <class Predicate> void Mfc::remove_flights(Predicate predicate) {
   if (watch_ != nullptr) {
     for (const Flight& flight : context_.flights.of(spe_))
-      if (gone(flight))
+      if (predicate(flight))
         std::memset(watch_ + flight.transfer.lsa / 16, 0,
                     (flight.transfer.lsa % 16 + flight.bytes() + 15) / 16);
   }
   if (has_checker_)
     context_.flights.for_each(spe_, [&](Flight& flight) {
-      if (gone(flight)) permit(flight);
+      if (predicate(flight)) permit(flight);
     });
-  context_.flights.remove_if(spe_, gone);
+  context_.flights.remove_if(spe_, predicate);
   // Restore the marks of other flights in the same quadwords.
   for (const Flight& flight : context_.flights.of(spe_)) {
     watch(flight);
@@ -288,16 +288,16 @@ void Mfc::move(Flight& flight, Cycle now, bool observed) {
   }
 }
 
-template <class Seen> void Mfc::observe_if(Seen seen, Cycle now) {
+template <class Predicate> void Mfc::observe_if(Predicate predicate, Cycle now) {
   for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
     Flight& flight = context_.flights.at(spe_, i);
-    if (!seen(flight)) continue;
+    if (!predicate(flight)) continue;
     if (!flight.moved)
       move(flight, now, true);
     else
       verify(flight, now);
   }
-  remove_flights(seen);
+  remove_flights(predicate);
 }
 
 void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now) {

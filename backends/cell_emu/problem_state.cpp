@@ -1,7 +1,7 @@
 #include "backends/cell_emu/problem_state.hpp"
 
-#include "celltrace/spe/channels.hpp"
 #include "backends/cell_emu/diagnostic_log.hpp"
+#include "celltrace/spe/channels.hpp"
 
 #include <algorithm>
 
@@ -94,12 +94,12 @@ std::optional<std::uint32_t> ProblemState::take(Mailbox<1>& mailbox, const char*
   return received(what, word, Diagnostic::kPpe, now);
 }
 
-std::optional<std::uint32_t> ProblemState::take_out_mailbox(Cycle now) {
+std::optional<std::uint32_t> ProblemState::read_out_mailbox(Cycle now) {
   if (out_mailbox_space() != 0) return std::nullopt;
   return take(out_mailbox_, "out mailbox", event::out_mailbox, now);
 }
 
-std::optional<std::uint32_t> ProblemState::take_out_interrupt_mailbox(Cycle now) {
+std::optional<std::uint32_t> ProblemState::read_out_interrupt_mailbox(Cycle now) {
   if (out_interrupt_mailbox_space() != 0) return std::nullopt;
   return take(out_interrupt_mailbox_, "out interrupt mailbox", event::out_intr_mailbox, now);
 }

@@ -47,8 +47,8 @@ public:
   /// Writes a signal. Returns false if an unread value was lost.
   bool write_signal(Signal which, std::uint32_t value, Sender sender);
   std::uint32_t peek_signal(Signal which) const;
-  std::optional<std::uint32_t> take_out_mailbox(Cycle now);
-  std::optional<std::uint32_t> take_out_interrupt_mailbox(Cycle now);
+  std::optional<std::uint32_t> read_out_mailbox(Cycle now);
+  std::optional<std::uint32_t> read_out_interrupt_mailbox(Cycle now);
   /// Raises events of this SPE.
   void raise(std::uint32_t events);
 

@@ -77,7 +77,7 @@ void Channels::write_out_mailbox(OutMailbox which, std::uint32_t value) {
   ppe_.ring();
 }
 
-std::optional<std::uint32_t> Channels::take_mail(OutMailbox which) {
+std::optional<std::uint32_t> Channels::read_out_mailbox(OutMailbox which) {
   OutRegister& mailbox = out_[index(which)];
   const Lock lock(mutex_);
   if (!has_mail(which)) return std::nullopt;

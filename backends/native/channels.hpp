@@ -81,7 +81,7 @@ public:
   bool has_mail(OutMailbox which) const noexcept {
     return out_[index(which)].full.load(std::memory_order_acquire);
   }
-  std::optional<std::uint32_t> take_mail(OutMailbox which);
+  std::optional<std::uint32_t> read_out_mailbox(OutMailbox which);
   void raise(std::uint32_t events);
 
   /// Begins a kernel: resets its event mask and decrementer; mailboxes and signals stay as others left

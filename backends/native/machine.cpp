@@ -253,11 +253,11 @@ unsigned NativeMachine::in_mailbox_space(unsigned spe) const {
 }
 
 std::optional<std::uint32_t> NativeMachine::read_out_mailbox(unsigned spe) {
-  return worker(spe).spe.channels.take_mail(OutMailbox::plain);
+  return worker(spe).spe.channels.read_out_mailbox(OutMailbox::plain);
 }
 
 std::optional<std::uint32_t> NativeMachine::read_out_interrupt_mailbox(unsigned spe) {
-  return worker(spe).spe.channels.take_mail(OutMailbox::interrupting);
+  return worker(spe).spe.channels.read_out_mailbox(OutMailbox::interrupting);
 }
 
 void NativeMachine::write_signal(unsigned spe, Signal which, std::uint32_t value) {

@@ -149,12 +149,12 @@ void add_client_options(CLI::App& command, RenderTexts& texts) {
 }
 
 /// Makes the last one of repeated options count, except for options that collect values.
-void let_the_last_count(CLI::App& command) {
+void take_last_options(CLI::App& command) {
   for (CLI::Option* option : command.get_options())
     if (!option->get_positional() && option->get_items_expected_max() == 1)
       option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   for (CLI::App* group : command.get_subcommands([](const CLI::App*) { return true; }))
-    let_the_last_count(*group);
+    take_last_options(*group);
 }
 
 void add_quality_option(CLI::App& command, RenderRequest& request) {
@@ -412,7 +412,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
       "the options name, no process starts and no network is reached");
   add_message_options(render_command, texts.messages);
   add_client_options(render_command, texts);
-  let_the_last_count(render_command);
+  take_last_options(render_command);
 
   ViewRequest view;
   RenderTexts view_texts;

@@ -53,7 +53,7 @@ enum class Action {
 };
 
 /// The treatment of a number out of range.
-enum class Beyond {
+enum class OutOfRange {
   refused,
   nearest ///< becomes the nearest number of the range
 };
@@ -65,7 +65,7 @@ struct PovSetting {
   std::string_view option = {}; ///< celltrace's option, a kind of messages, or the name of a rejected feature
   double least = std::numeric_limits<double>::lowest();
   double most = std::numeric_limits<double>::max();
-  Beyond beyond = Beyond::refused;
+  OutOfRange out_of_range = OutOfRange::refused;
 };
 
 /// Returns the setting whose switch begins the text, without its sign and in either case; the longest switch

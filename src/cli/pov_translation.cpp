@@ -81,7 +81,7 @@ double PovTranslation::number(const PovEntry& entry, std::string_view text, bool
   if (!std::isfinite(read->value)) fail(entry, "needs a number that is not as large");
   const PovSetting& setting = *entry.setting;
   const double value = std::clamp(read->value, setting.least, setting.most);
-  if (value != read->value && setting.beyond == Beyond::refused)
+  if (value != read->value && setting.out_of_range == OutOfRange::refused)
     fail(entry, "needs a number from " + number_text(setting.least) + " to " + number_text(setting.most));
   const bool is_cut = !read->rest.empty() && read->rest.substr(0, 2) != "//";
   if (is_cut || value != read->value) note(shown(entry.text) + " counts as " + number_text(value));

@@ -21,7 +21,7 @@ std::string minutes(double seconds) {
 
 } // namespace
 
-void TimeToGo::learn(double fraction, double seconds) {
+void RemainingTime::learn(double fraction, double seconds) {
   if (!first_) first_ = fraction_ = fraction;
   if (fraction <= fraction_) return;
   fraction_ = fraction;
@@ -31,7 +31,7 @@ void TimeToGo::learn(double fraction, double seconds) {
   end_ = end_ ? *end_ + kPart * (end - *end_) : end;
 }
 
-std::optional<double> TimeToGo::at(double seconds) const {
+std::optional<double> RemainingTime::at(double seconds) const {
   if (!end_) return std::nullopt;
   if (fraction_ >= 1) return 0;
   // The job is not over yet, whatever the estimate was.
@@ -64,11 +64,11 @@ void ProgressLine::update(double fraction) {
   if (!visible_) return;
   const Clock::time_point now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  to_go_.learn(fraction, seconds);
+  remaining_.learn(fraction, seconds);
   if (now < next_) return;
   next_ = now + std::chrono::milliseconds(100);
   drawn_ = true;
-  out_ << "\r\x1b[K" << job_ << progress_text(fraction, seconds, to_go_.at(seconds)) << std::flush;
+  out_ << "\r\x1b[K" << job_ << progress_text(fraction, seconds, remaining_.at(seconds)) << std::flush;
 }
 
 bool stderr_is_terminal() {

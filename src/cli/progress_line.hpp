@@ -11,7 +11,7 @@ namespace celltrace::cli {
 
 /// Estimates when a job is done. Between reports the remaining time runs down with the clock; a report
 /// corrects it by a part of its error, since jobs do not advance evenly.
-class TimeToGo {
+class RemainingTime {
 public:
   /// Records the fraction of the job, 0 to 1, that is done after this many seconds. If the first report is
   /// above 0, that part was done before.
@@ -52,7 +52,7 @@ private:
   bool drawn_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_;
-  TimeToGo to_go_;
+  RemainingTime remaining_;
 };
 
 bool stderr_is_terminal();

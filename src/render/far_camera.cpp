@@ -20,41 +20,41 @@ namespace {
 
 /// Half the size of the part of the scene that a camera sees, in multiples of its vectors right and up: the
 /// size at the camera, and the growth for each length of `direction` ahead.
-struct Reach {
+struct ViewExtent {
   double across = 0, across_growth = 0, up = 0, up_growth = 0;
 };
 
 /// Returns nothing if the picture may go all around.
-std::optional<Reach> reach_of(const Camera& camera) {
+std::optional<ViewExtent> view_extent_of(const Camera& camera) {
   constexpr double kRadiansPerDegree = std::numbers::pi / 180, kWidest = 0.5;
   const double right = glm::length(camera.right), up = glm::length(camera.up);
   const double angle = camera.angle * kRadiansPerDegree / 2, tangent = std::tan(angle);
   using Kind = Camera::Kind;
-  if (camera.kind == Kind::perspective) return Reach{0, 0.5, 0, 0.5};
-  if (camera.kind == Kind::orthographic) return Reach{0.5, 0, 0.5, 0};
+  if (camera.kind == Kind::perspective) return ViewExtent{0, 0.5, 0, 0.5};
+  if (camera.kind == Kind::orthographic) return ViewExtent{0.5, 0, 0.5, 0};
   if (!(angle < kWidest)) return std::nullopt;
   // All kinds but these two have axes of unit length.
   switch (camera.kind) {
   case Kind::spherical: {
     const double height = camera.vertical_angle * kRadiansPerDegree / 2;
     if (!(height < kWidest)) return std::nullopt;
-    return Reach{0, tangent, 0, std::tan(height) / std::cos(angle)};
+    return ViewExtent{0, tangent, 0, std::tan(height) / std::cos(angle)};
   }
   case Kind::ultra_wide_angle: {
     const double height = right > 0 ? angle * up / right : kWidest;
     if (!(height < kWidest)) return std::nullopt;
-    return Reach{0, tangent / std::cos(height), 0, std::tan(height) / std::cos(angle)};
+    return ViewExtent{0, tangent / std::cos(height), 0, std::tan(height) / std::cos(angle)};
   }
   case Kind::cylinder_1:
-    return Reach{0, tangent, 0, up / 2 / std::cos(angle)};
+    return ViewExtent{0, tangent, 0, up / 2 / std::cos(angle)};
   case Kind::cylinder_2:
-    return Reach{0, right / 2 / std::cos(angle), 0, tangent};
+    return ViewExtent{0, right / 2 / std::cos(angle), 0, tangent};
   case Kind::cylinder_3:
-    return Reach{0, tangent, up / 2, 0};
+    return ViewExtent{0, tangent, up / 2, 0};
   case Kind::cylinder_4:
-    return Reach{right / 2, 0, 0, tangent};
+    return ViewExtent{right / 2, 0, 0, tangent};
   case Kind::fisheye:
-    return Reach{0, tangent, 0, tangent};
+    return ViewExtent{0, tangent, 0, tangent};
   default:
     return std::nullopt;
   }
@@ -63,7 +63,7 @@ std::optional<Reach> reach_of(const Camera& camera) {
 /// The volume that a picture shows: a pyramid or a prism.
 class View {
 public:
-  View(const Camera& camera, const Reach& reach, double margin)
+  View(const Camera& camera, const ViewExtent& reach, double margin)
       : reach_(reach), location_(camera.location), forward_(camera.direction), right_(camera.right),
         up_(camera.up) {
     if (camera.kind != Camera::Kind::perspective && camera.kind != Camera::Kind::orthographic)
@@ -93,7 +93,7 @@ public:
   }
 
 private:
-  Reach reach_;
+  ViewExtent reach_;
   Vec3 location_, forward_, right_, up_, across_;
 };
 
@@ -227,7 +227,7 @@ Range distances_of(const Aabb& box, const View& view) {
 double start_of_rays(const Camera& camera, double margin, const SceneImage& image, PassedLimits* limits) {
   constexpr double kFar = 256;
   constexpr auto kMostObjects = static_cast<std::uint32_t>(most_of(PictureLimit::far_camera_objects));
-  const std::optional<Reach> reach = reach_of(camera);
+  const std::optional<ViewExtent> reach = view_extent_of(camera);
   if (!reach) return 0;
   const View view(camera, *reach, margin);
   if (!view.is_valid()) return 0;

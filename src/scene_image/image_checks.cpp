@@ -179,7 +179,7 @@ bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
   constexpr std::uint32_t kWord = sizeof(std::uint32_t), kBits = 32;
   if (h.light_set_count == 0 || h.light_set_count > kMaxLightSets) return false;
   const std::uint32_t words_a_light = (h.light_set_count + kBits - 1) / kBits;
-  const auto knows_its_sets = [&](const LightRecord& light) {
+  const auto has_valid_sets = [&](const LightRecord& light) {
     return refers_to(light.lit_sets, h.light_word_offset, h.light_word_count, kWord) &&
            h.light_word_count - (light.lit_sets - h.light_word_offset) / kWord >= words_a_light;
   };
@@ -195,7 +195,7 @@ bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
     return (light.kind_and_flags & light_flag::kind_mask) < Lights::kCount &&
            (!has_area(light) ||
             (is_count(light.columns) && is_count(light.rows) && light.columns * light.rows > 1)) &&
-           ((light.kind_and_flags & light_flag::selective) == 0 || knows_its_sets(light)) &&
+           ((light.kind_and_flags & light_flag::selective) == 0 || has_valid_sets(light)) &&
            (!is_projected(light) || has_projector(light));
   });
 }

@@ -85,25 +85,25 @@ Table study_models(Laboratory& laboratory) {
        true,
        {},
        {{"split", {}}, {"joined", {}}, {"offload", {}}, {"shared on a grid", {}}}}};
-  struct Way {
+  struct Variant {
     Model model;
     Accelerator accelerator;
   };
   // Pipelines and offload are the models of earlier work, which used the grid.
-  const std::vector<Way> ways = {{Model::pipeline_split, Accelerator::grid},
-                                 {Model::pipeline, Accelerator::grid},
-                                 {Model::offload, Accelerator::grid},
-                                 {Model::shared, Accelerator::grid},
-                                 {Model::shared, Accelerator::automatic}};
+  const std::vector<Variant> variants = {{Model::pipeline_split, Accelerator::grid},
+                                         {Model::pipeline, Accelerator::grid},
+                                         {Model::offload, Accelerator::grid},
+                                         {Model::shared, Accelerator::grid},
+                                         {Model::shared, Accelerator::automatic}};
   const std::vector<std::string> names =
       laboratory.quick ? std::vector<std::string>{"few", "molecule", "corner", "terrain"}
                        : std::vector<std::string>{"few", "molecule", "corner", "flake", "terrain"};
   std::vector<Job> jobs;
   for (const std::string& name : names)
-    for (const Way& way : ways) {
+    for (const Variant& variant : variants) {
       Job job{&laboratory.scene(name).scene, laboratory.options(320, 8), 2};
-      job.options.model = way.model;
-      job.options.accelerator = way.accelerator;
+      job.options.model = variant.model;
+      job.options.accelerator = variant.accelerator;
       jobs.push_back(job);
     }
   const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
@@ -112,27 +112,27 @@ Table study_models(Laboratory& laboratory) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::vector<const Outcome*> same;
     std::vector<double> cycles;
-    for (std::size_t way = 0; way < ways.size(); ++way) {
-      same.push_back(&outcomes[i * ways.size() + way]);
+    for (std::size_t variant = 0; variant < variants.size(); ++variant) {
+      same.push_back(&outcomes[i * variants.size() + variant]);
       cycles.push_back(megacycles(same.back()->last().render_cycles));
     }
     demand_same_picture(names[i], same);
-    const RenderOptions& options = jobs[i * ways.size() + 4].options;
+    const RenderOptions& options = jobs[i * variants.size() + 4].options;
     table.rows.push_back({names[i], cycles[0], cycles[1], cycles[2], cycles[3], cycles[4],
                           cycles[0] / cycles[1], cycles[1] / cycles[3], cycles[1] / cycles[4],
                           1e3 * native_seconds(laboratory.scene(names[i]).scene, options, 3)});
     const std::string size = laboratory.command_options(options) + ", second frame, ";
     joined_over_split.push_back(
         {names[i], size + "--model pipeline-split | --model pipeline", cycles[0] / cycles[1]});
-    shared_over_pipeline.push_back(
-        {names[i],
-         size + "--model pipeline (on a grid) | --model shared (on a BVH); " +
-             number(cycles[1] / cycles[3], 2) + " with --accelerator grid for both",
-         cycles[1] / cycles[4]});
+    shared_over_pipeline.push_back({names[i],
+                                    size + "--model pipeline (on a grid) | --model shared (on a BVH); " +
+                                        number(cycles[1] / cycles[3], 2) +
+                                        " with --accelerator grid for both",
+                                    cycles[1] / cycles[4]});
     most_on_grid = std::max(most_on_grid, cycles[1] / cycles[3]);
     table.chart.labels.push_back(names[i]);
-    for (std::size_t way = 0; way < 4; ++way)
-      table.chart.series[way].points.emplace_back(double(i), cycles[way] / cycles[4]);
+    for (std::size_t variant = 0; variant < 4; ++variant)
+      table.chart.series[variant].points.emplace_back(double(i), cycles[variant] / cycles[4]);
   }
   const Claim joined = make_claim(joined_over_split, Holds::somewhere, 1.3, false, 77.36 / 52.73);
   const Claim shared = make_claim(shared_over_pipeline, Holds::somewhere, 3, false, 3);

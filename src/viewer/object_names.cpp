@@ -26,7 +26,7 @@ ObjectNames::Place ObjectNames::placed(Index object) const {
 }
 
 std::string ObjectNames::describe(Index object) const {
-  if (!knows(object)) return "object " + std::to_string(object);
+  if (!contains(object)) return "object " + std::to_string(object);
   const auto text_of = [](const Place& place) {
     return std::string(place.file) + ':' + std::to_string(place.line);
   };

@@ -22,7 +22,7 @@ public:
   /// Adds an object; objects must come in the order of their indices.
   void add(Index object, const ObjectOrigin& origin);
 
-  bool knows(Index object) const { return object < entries_.size(); }
+  bool contains(Index object) const { return object < entries_.size(); }
   const char* kind(Index object) const { return entries_[object].kind; }
   const std::string& name(Index object) const { return texts_[entries_[object].name]; } ///< empty: none
   Place written(Index object) const;

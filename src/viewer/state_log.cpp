@@ -63,7 +63,7 @@ void StateLog::write(const State& state) {
         {"object", nullptr}, {"distance", state.picked->distance}, {"point", json_of(state.picked->point)}};
     if (const auto& object = state.picked->object) {
       json["picked"]["object"] = *object;
-      if (state.names != nullptr && state.names->knows(*object)) {
+      if (state.names != nullptr && state.names->contains(*object)) {
         const ObjectNames::Place written = state.names->written(*object);
         json["picked"]["kind"] = state.names->kind(*object);
         json["picked"]["name"] = state.names->name(*object);

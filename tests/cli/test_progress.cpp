@@ -15,7 +15,7 @@ TEST_CASE("the progress line says how far and how long") {
 }
 
 TEST_CASE("time to go is what an even job still takes") {
-  TimeToGo to_go;
+  RemainingTime to_go;
   CHECK(!to_go.at(0));
   to_go.learn(0, 0);
   to_go.learn(0.05, 0.5);
@@ -27,7 +27,7 @@ TEST_CASE("time to go is what an even job still takes") {
 }
 
 TEST_CASE("time to go runs down while nothing is heard, and never to nothing") {
-  TimeToGo to_go;
+  RemainingTime to_go;
   to_go.learn(0, 0);
   to_go.learn(0.5, 10);
   CHECK(*to_go.at(10) == Approx(10));
@@ -40,7 +40,7 @@ TEST_CASE("time to go runs down while nothing is heard, and never to nothing") {
 }
 
 TEST_CASE("time to go of a job that goes on leaves out what was done before") {
-  TimeToGo to_go;
+  RemainingTime to_go;
   to_go.learn(0.8, 0);
   to_go.learn(0.9, 30);
   CHECK(*to_go.at(30) == Approx(30));

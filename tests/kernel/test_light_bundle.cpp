@@ -302,10 +302,10 @@ TEST_CASE("What shadow rays cross of translucent objects is listed in the order 
               bundle.queries[i].light = &kept[i];
             }
             if (k % 2 == 0)
-              traversal.keep_crossings(bundle.queries, kPackets, light, true);
+              traversal.collect_crossings(bundle.queries, kPackets, light, true);
             else
               for (RayQuery& query : bundle.queries)
-                traversal.keep_crossings(query, true);
+                traversal.collect_crossings(query, true);
             for (const RayQuery& query : bundle.queries) {
               auto& crossings = static_cast<CrossingList<Simd>&>(*query.light);
               const auto i = static_cast<std::size_t>(&crossings - kept.get());

@@ -102,8 +102,8 @@ TEST_CASE("the event count follows the architecture's rules") {
     channels.write_event_mask(event::out_mailbox);
     channels.write_out_mailbox(OutMailbox::plain, 3);
     CHECK(channels.event_count() == 0);
-    CHECK(channels.take_mail(OutMailbox::plain) == 3u);
-    CHECK_FALSE(channels.take_mail(OutMailbox::plain).has_value());
+    CHECK(channels.read_out_mailbox(OutMailbox::plain) == 3u);
+    CHECK_FALSE(channels.read_out_mailbox(OutMailbox::plain).has_value());
     CHECK(channels.read_event_status() == event::out_mailbox);
   }
 }

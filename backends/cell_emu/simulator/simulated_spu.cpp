@@ -57,13 +57,13 @@ void SimulatedSpu::run(const StartRegisters& registers) {
 
 void SimulatedSpu::finish() {
   settle();
-  hand_in_profile();
+  flush_profile();
   SpuCore::finish();
 }
 
 void SimulatedSpu::abandon() {
   settle();
-  hand_in_profile();
+  flush_profile();
   leave();
 }
 
@@ -135,7 +135,7 @@ void SimulatedSpu::record_cycles() {
   waited_ = 0;
 }
 
-void SimulatedSpu::hand_in_profile() {
+void SimulatedSpu::flush_profile() {
   if (profile_ == nullptr) return;
   // The instruction that ended the program has not been recorded yet.
   if (executing_.issued) record();

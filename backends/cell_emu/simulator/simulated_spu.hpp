@@ -55,7 +55,7 @@ private:
   // For the profile: record the instruction under way; record the cycles that belong to no other instruction.
   void record();
   void record_cycles();
-  void hand_in_profile();
+  void flush_profile();
   const isa::Instruction& fetch(std::uint32_t pc);
   const isa::Instruction& decode_again(std::uint32_t pc, std::uint32_t word);
   /// Handles, between instructions, limits, interrupts, and the turns of others.

@@ -19,7 +19,7 @@ namespace celltrace::kernel {
 ///   end_view()                          is called if the bundle's rays do not pass through one point
 ///   view()                              BundleView of the bundle if its rays pass through a point, else null
 ///   trusts_frusta()                     true if frusta suffice at leaves, without slab tests of rays
-///   doubted_at(child)                   packets whose rays are tested in spite of trusts_frusta()
+///   untrusted_at(child)                   packets whose rays are tested in spite of trusts_frusta()
 ///   set_own_frustum(packet, query, frustum)   sets the frustum of a packet that leaves its bundle
 ///   shortening(packet)                  ratio of distances in a packet's frustum to distances along its rays
 ///   LeafTests(objects, view)            type of the tests of the bundle's packets against leaves
@@ -274,7 +274,7 @@ private:
       if (lanes == 0) continue;
       objects_.scene().hint(child);
       lanes &= ~packets_that_miss(node.bounds, ray_order, i, queries,
-                                  tests_rays ? lanes : lanes & (incoherent_ | Steps::doubted_at(child)));
+                                  tests_rays ? lanes : lanes & (incoherent_ | Steps::untrusted_at(child)));
       if (tests_rays && !child.is_leaf())
         for_each_lane(lanes, [&](uint32_t packet) {
           stack.push(first, {child, 1u << packet, enter[i], hit_rays_[packet]});

@@ -270,7 +270,7 @@ private:
   void make_query(uint32_t i, uint32_t lanes) {
     VectorLanes* light = &area_.light();
     if constexpr (kTinted) {
-      light = &came_[i];
+      light = &transmittance_[i];
       light->template store<S>({F(1.0f), F(1.0f), F(1.0f)});
     }
     queries_[i] = {&rays_[i].rays, nullptr, &rays_[i].distance, light, lanes};
@@ -279,10 +279,10 @@ private:
   void take_tints() {
     uint32_t tinted[kMostPackets], any = 0; // lanes
     for (uint32_t i = 0; i < packet_count(); ++i) {
-      const V3<S> came = came_[i].template load<S>();
+      const V3<S> tint = transmittance_[i].template load<S>();
       const F zero(0.0f), one(1.0f);
-      const uint32_t lit = ((came.x == one) & (came.y == one) & (came.z == one)).bits();
-      const uint32_t dark = ((came.x == zero) & (came.y == zero) & (came.z == zero)).bits();
+      const uint32_t lit = ((tint.x == one) & (tint.y == one) & (tint.z == one)).bits();
+      const uint32_t dark = ((tint.x == zero) & (tint.y == zero) & (tint.z == zero)).bits();
       tinted[i] = queries_[i].lanes & ~(lit | dark);
       queries_[i].lanes &= lit;
       any |= tinted[i];
@@ -295,7 +295,7 @@ private:
         const uint32_t packet = pair / S::kLanes, lane = pair % S::kLanes;
         if ((tinted[packet] >> lane & 1) == 0) continue;
         const auto surface = static_cast<uint32_t>(lane_[pair]);
-        is_full_ = !tints_.set(run.place, surface, came_[packet], lane) || is_full_;
+        is_full_ = !tints_.set(run.place, surface, transmittance_[packet], lane) || is_full_;
       }
     }
   }
@@ -430,7 +430,7 @@ private:
   alignas(64) float column_[kMostPairs + kSlack], row_[kMostPairs + kSlack];
   alignas(64) float jitter_x_[kMostPairs + kSlack], jitter_y_[kMostPairs + kSlack];
   ShadowRays rays_[kMostPackets];
-  VectorLanes came_[kMostPackets]; ///< by packet, the result for white light; with tints
+  VectorLanes transmittance_[kMostPackets]; ///< by packet, the result for white light; with tints
   RayQuery queries_[kMostPackets];
 };
 

@@ -15,11 +15,11 @@ public:
 
   /// Answers a query of shadow rays whose light is a CrossingList: keeps the surfaces that the rays cross,
   /// without their transmittance if `lists`. The light of lanes for which there is no room becomes 0.
-  void keep_crossings(RayQuery& query, bool lists) {
+  void collect_crossings(RayQuery& query, bool lists) {
     keep(lists, [&] { traversal().intersect_packet(query); });
   }
   /// Keeps the crossings of several queries toward one light. May change the order of the queries.
-  void keep_crossings(RayQuery* queries, uint32_t count, const LightRecord& light, bool lists) {
+  void collect_crossings(RayQuery* queries, uint32_t count, const LightRecord& light, bool lists) {
     keep(lists, [&] { traversal().intersect(queries, count, light); });
   }
 

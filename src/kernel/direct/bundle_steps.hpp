@@ -107,7 +107,7 @@ protected:
   const BundleView<S>* view() const { return view_; }
   /// Returns true if all rays pass through one point, as their frusta are then tight.
   bool trusts_frusta() const { return view_ != nullptr; }
-  uint32_t doubted_at(const NodeRef& child) const { return child.is_leaf() ? incoherent_origins_ : 0; }
+  uint32_t untrusted_at(const NodeRef& child) const { return child.is_leaf() ? incoherent_origins_ : 0; }
   void set_own_frustum(uint32_t packet, const RayQuery& query, Frustum<S>& frustum) {
     if (reversed_)
       frustum.set(bounds_of<S>(*query.rays, query.lanes), search().octant_);

@@ -40,7 +40,7 @@ protected:
       crossings[i].begin(*colours[i], pool);
       queries[i].light = &crossings[i];
     }
-    tracer().traversal_.keep_crossings(queries, count, light, lists_crossings());
+    tracer().traversal_.collect_crossings(queries, count, light, lists_crossings());
     for (uint32_t i = 0; i < count; ++i) {
       auto& crossed = static_cast<CrossingList<S>&>(*queries[i].light);
       finish(light, queries[i], crossed, *colours[&crossed - crossings]);
@@ -54,7 +54,7 @@ protected:
     CrossingList<S> crossings;
     crossings.begin(colour, pool);
     RayQuery query = {&rays, nullptr, &distance, &crossings, lanes};
-    tracer().traversal_.keep_crossings(query, lists_crossings());
+    tracer().traversal_.collect_crossings(query, lists_crossings());
     finish(light, query, crossings, colour);
   }
 

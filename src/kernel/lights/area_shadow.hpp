@@ -202,7 +202,7 @@ template <class S> struct AreaShadow {
   static_assert((1u << (kDivisions - 1)) >= kMaxLightPlaces);
 
   /// A place, and the lanes in which all or none of its light comes through.
-  struct Known {
+  struct CachedPlace {
     uint16_t place, lit, dark;
   };
   static_assert(kMaxLightPlaces * kMaxLightPlaces <= 1u << 16);
@@ -216,7 +216,7 @@ template <class S> struct AreaShadow {
   // none.
   VectorLanes colour[kCorners];
   uint32_t lit[kCorners], tinted[kCorners];
-  Known known[kPlaces];
+  CachedPlace cache[kPlaces];
   LightQuad quads[kMaxQuads];
   uint32_t quad_count;
   uint32_t corner_count; ///< number of finished corners
@@ -226,9 +226,9 @@ template <class S> struct AreaShadow {
   uint32_t lanes;
   uint32_t ray_count; ///< number of rays so far
 
-  Known& known_at(const LightPlace& at) {
+  CachedPlace& cached_at(const LightPlace& at) {
     const auto name = static_cast<uint16_t>(at.row * kMaxLightPlaces + at.column);
-    Known& entry = known[(at.row * 17 + at.column) % kPlaces];
+    CachedPlace& entry = cache[(at.row * 17 + at.column) % kPlaces];
     if (entry.place != name) entry = {name, 0, 0};
     return entry;
   }
@@ -247,7 +247,7 @@ CELLTRACE_ONE_COPY void begin_area(const LightRecord& light, const Surfaces<S>& 
   F(0.0f).store(a.share.lane);
   a.is_tinted = 0;
   a.is_visible = (absolute_sum<S>(incident.colour) > F(AreaShadow<S>::kTolerance)).bits();
-  for (typename AreaShadow<S>::Known& entry : a.known)
+  for (typename AreaShadow<S>::CachedPlace& entry : a.cache)
     entry = {0, 0, 0}; // place 0 is unknown, too
   a.ray_count = 0;
   a.quad_count = 0;
@@ -259,11 +259,11 @@ CELLTRACE_ONE_COPY void begin_area(const LightRecord& light, const Surfaces<S>& 
 /// Stores the result for the current place: its `lit` and `tinted` lanes.
 template <class S> void take_answer(AreaShadow<S>& a, uint32_t lit, uint32_t tinted) {
   const uint32_t corner = a.corner_count++;
-  typename AreaShadow<S>::Known& known = a.known_at(a.place);
+  typename AreaShadow<S>::CachedPlace& cached = a.cached_at(a.place);
   a.lit[corner] |= lit;
   a.tinted[corner] = tinted;
-  known.lit |= static_cast<uint16_t>(lit);
-  known.dark |= static_cast<uint16_t>(a.lanes & ~(lit | tinted));
+  cached.lit |= static_cast<uint16_t>(lit);
+  cached.dark |= static_cast<uint16_t>(a.lanes & ~(lit | tinted));
   a.lanes = 0;
 }
 template <class S> void take_colours(AreaShadow<S>& a) {
@@ -365,10 +365,10 @@ CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShad
   for (;;) {
     for (; a.corner_count < AreaShadow<S>::kCorners; ++a.corner_count) {
       const LightPlace place = a.quad.corner(a.corner_count);
-      const typename AreaShadow<S>::Known& known = a.known_at(place);
-      a.lit[a.corner_count] = known.lit;
+      const typename AreaShadow<S>::CachedPlace& cached = a.cached_at(place);
+      a.lit[a.corner_count] = cached.lit;
       a.tinted[a.corner_count] = 0;
-      const uint32_t lanes = a.quad.lanes & ~uint32_t(known.lit | known.dark);
+      const uint32_t lanes = a.quad.lanes & ~uint32_t(cached.lit | cached.dark);
       if (lanes == 0) continue;
       V3<S> direction;
       F distance;

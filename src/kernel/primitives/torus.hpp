@@ -83,18 +83,18 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static typename S::M crossed(const typename S::M& wanted, const LocalRays<S>& rays,
                                const typename S::F& ratio, const ClippedRays* clipped) {
     using F = typename S::F;
-    using Stretch = typename Quartic<S>::Stretch;
+    using Segment = typename Quartic<S>::Segment;
     if (wanted.bits() == 0) return wanted;
     const FromCentre<S> from_centre(rays);
     const Quartic<S> f(from_centre, ratio);
     const auto there = [&](const F& distance) { return from_centre.place_at(distance); };
     const F first = there(F(rays.request->enough));
     const F last = there(F::load(rays.request->limit->lane) - F(kShadowEpsilon));
-    if (clipped == nullptr) return f.crosses(wanted, {Stretch{first, last}});
+    if (clipped == nullptr) return f.crosses(wanted, {Segment{first, last}});
     const F enter = there(F::load(clipped->enter.lane)), leave = there(F::load(clipped->leave.lane));
-    if (clipped->keeps_inside) return f.crosses(wanted, {Stretch{S::max(first, enter), S::min(last, leave)}});
-    // For rays that miss the solid, both stretches overlap.
-    return f.crosses(wanted, {Stretch{first, S::min(last, enter)}, Stretch{S::max(first, leave), last}});
+    if (clipped->keeps_inside) return f.crosses(wanted, {Segment{S::max(first, enter), S::min(last, leave)}});
+    // For rays that miss the solid, both segments overlap.
+    return f.crosses(wanted, {Segment{first, S::min(last, enter)}, Segment{S::max(first, leave), last}});
   }
 
   /// Returns some of the rays for which crossed() is true, at little cost: rays that are inside the torus
@@ -233,19 +233,19 @@ private:
     }
 
     /// An interval in which a zero is searched for.
-    struct Stretch {
+    struct Segment {
       F first, last;
     };
-    /// Returns the rays of `wanted` with a zero in one of some stretches: the sign changes at an end of a
-    /// stretch or at a place where the slope is 0.
+    /// Returns the rays of `wanted` with a zero in one of some segments: the sign changes at an end of a
+    /// segment or at a place where the slope is 0.
     template <uint32_t kCount>
-    typename S::M crosses(const typename S::M& wanted, const Stretch (&stretches)[kCount]) const {
+    typename S::M crosses(const typename S::M& wanted, const Segment (&segments)[kCount]) const {
       const F zero(0.0f);
       uint32_t nonempty[kCount], inside[kCount], crossed = 0, all = 0;
       for (uint32_t i = 0; i < kCount; ++i) {
-        nonempty[i] = (wanted & (stretches[i].first < stretches[i].last)).bits();
-        inside[i] = (at(stretches[i].first) < zero).bits();
-        crossed |= nonempty[i] & (inside[i] ^ (at(stretches[i].last) < zero).bits());
+        nonempty[i] = (wanted & (segments[i].first < segments[i].last)).bits();
+        inside[i] = (at(segments[i].first) < zero).bits();
+        crossed |= nonempty[i] & (inside[i] ^ (at(segments[i].last) < zero).bits());
         all |= nonempty[i];
       }
       const auto unknown = S::M::from_bits(all & ~crossed & 0xFFFF);
@@ -254,8 +254,8 @@ private:
         stationary_points(unknown, place[0], place[1], place[2]);
         for (uint32_t i = 0; i < kCount; ++i)
           for (const F& t : place) {
-            const F in_stretch = S::min(S::max(t, stretches[i].first), stretches[i].last);
-            crossed |= nonempty[i] & (inside[i] ^ (at(in_stretch) < zero).bits());
+            const F in_segment = S::min(S::max(t, segments[i].first), segments[i].last);
+            crossed |= nonempty[i] & (inside[i] ^ (at(in_segment) < zero).bits());
           }
       }
       return S::M::from_bits(crossed & 0xFFFF);

@@ -93,7 +93,7 @@ AllowedFolders::Place AllowedFolders::place_at(const std::string& path) const {
   return {open_below(root->folder, below.substr(0, below.rfind('/'))), path.substr(slash + 1), path};
 }
 
-AllowedFolders::Place AllowedFolders::locate(std::string_view name, LastLink last) const {
+AllowedFolders::Place AllowedFolders::locate(std::string_view name, SymlinkPolicy last) const {
   if (name.empty()) throw CallFailed{SpuErrno::no_entry};
   if (name.size() >= PATH_MAX) throw CallFailed{SpuErrno::name_too_long};
   std::string path = name.starts_with('/') ? std::string(name) : joined(current(), name);
@@ -105,7 +105,7 @@ AllowedFolders::Place AllowedFolders::locate(std::string_view name, LastLink las
   const std::size_t slash = path.rfind('/');
   const std::string part = path.substr(slash + 1);
   const bool dots = part == "." || part == "..";
-  if (last == LastLink::follow || is_folder || dots) {
+  if (last == SymlinkPolicy::follow || is_folder || dots) {
     if (const auto whole = without_links(path)) return place_at(*whole);
     if (errno != ENOENT || dots) fail_with_host_errno();
   }

@@ -42,14 +42,14 @@ public:
     std::string name;
     std::string path; ///< without links, for messages and the current folder
   };
-  enum class LastLink { follow, keep };
+  enum class SymlinkPolicy { follow, keep };
 
   /// Makes the first folder the current one. Without folders, all names fail. Throws InputError for paths
   /// that are no folders.
   explicit AllowedFolders(const std::vector<std::filesystem::path>& folders);
 
   /// Finds the place of a name, whose last part need not exist.
-  Place locate(std::string_view name, LastLink last = LastLink::follow) const;
+  Place locate(std::string_view name, SymlinkPolicy last = SymlinkPolicy::follow) const;
 
   /// Opens a file or folder, never a device or a pipe. The mode is for files that are created.
   HostDescriptor open(std::string_view name, int host_flags, unsigned mode) const;

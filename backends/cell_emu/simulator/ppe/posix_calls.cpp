@@ -17,7 +17,7 @@ namespace celltrace::cell_emu {
 namespace {
 
 using Arguments = CallArguments;
-using LastLink = AllowedFolders::LastLink;
+using SymlinkPolicy = AllowedFolders::SymlinkPolicy;
 
 CallResult success() {
   return CallResult::number(0);
@@ -201,17 +201,17 @@ CallResult check_access(PpeState& state, const Arguments& arguments) {
 }
 
 CallResult unlink_file(PpeState& state, const Arguments& arguments) {
-  const auto place = state.folders.locate(arguments.string(0), LastLink::keep);
+  const auto place = state.folders.locate(arguments.string(0), SymlinkPolicy::keep);
   return checked(::unlinkat(place.folder.get(), place.name.c_str(), 0));
 }
 
 CallResult make_folder(PpeState& state, const Arguments& arguments) {
-  const auto place = state.folders.locate(arguments.string(0), LastLink::keep);
+  const auto place = state.folders.locate(arguments.string(0), SymlinkPolicy::keep);
   return checked(::mkdirat(place.folder.get(), place.name.c_str(), arguments.word(1) & ~state.umask & 0777));
 }
 
 CallResult remove_folder(PpeState& state, const Arguments& arguments) {
-  const auto place = state.folders.locate(arguments.string(0), LastLink::keep);
+  const auto place = state.folders.locate(arguments.string(0), SymlinkPolicy::keep);
   return checked(::unlinkat(place.folder.get(), place.name.c_str(), AT_REMOVEDIR));
 }
 
@@ -226,7 +226,7 @@ CallResult truncate_name(PpeState& state, const Arguments& arguments) {
 }
 
 CallResult read_link(PpeState& state, const Arguments& arguments) {
-  const auto place = state.folders.locate(arguments.string(0), LastLink::keep);
+  const auto place = state.folders.locate(arguments.string(0), SymlinkPolicy::keep);
   const auto to = arguments.local_store().range_up_to(arguments.word(1), arguments.word(2));
   if (to.empty()) throw CallFailed{SpuErrno::invalid};
   const ssize_t count =
@@ -320,7 +320,7 @@ CallResult status_of_file(PpeState& state, const Arguments& arguments) {
   return success();
 }
 
-CallResult status_of_name(PpeState& state, const Arguments& arguments, LastLink last) {
+CallResult status_of_name(PpeState& state, const Arguments& arguments, SymlinkPolicy last) {
   const auto place = state.folders.locate(arguments.string(0), last);
   struct stat status = {};
   if (::fstatat(place.folder.get(), place.name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
@@ -330,11 +330,11 @@ CallResult status_of_name(PpeState& state, const Arguments& arguments, LastLink 
 }
 
 CallResult status(PpeState& state, const Arguments& arguments) {
-  return status_of_name(state, arguments, LastLink::follow);
+  return status_of_name(state, arguments, SymlinkPolicy::follow);
 }
 
 CallResult status_of_link(PpeState& state, const Arguments& arguments) {
-  return status_of_name(state, arguments, LastLink::keep);
+  return status_of_name(state, arguments, SymlinkPolicy::keep);
 }
 
 // --- folders

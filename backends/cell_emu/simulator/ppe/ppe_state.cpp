@@ -59,7 +59,7 @@ std::shared_ptr<HostFile> PpeState::make_temporary(std::string_view prefix, std:
 std::string PpeState::temporary_name(std::string_view prefix) {
   for (unsigned i = 0; i < kMostTries; ++i) {
     std::string name = numbered(prefix, temporary_files++);
-    const AllowedFolders::Place place = folders.locate(name, AllowedFolders::LastLink::keep);
+    const AllowedFolders::Place place = folders.locate(name, AllowedFolders::SymlinkPolicy::keep);
     struct stat status;
     if (::fstatat(place.folder.get(), place.name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return name;
   }

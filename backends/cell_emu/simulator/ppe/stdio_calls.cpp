@@ -105,7 +105,7 @@ CallResult reopen_stream(PpeState& state, const Arguments& arguments) {
 CallResult open_temporary(PpeState& state, const Arguments&) {
   std::string name;
   std::shared_ptr<HostFile> file = state.make_temporary("tmp", name);
-  const AllowedFolders::Place place = state.folders.locate(name, AllowedFolders::LastLink::keep);
+  const AllowedFolders::Place place = state.folders.locate(name, AllowedFolders::SymlinkPolicy::keep);
   ::unlinkat(place.folder.get(), place.name.c_str(), 0);
   const std::int32_t descriptor = state.files.add(std::move(file));
   try {
@@ -372,15 +372,15 @@ CallResult scan_string(PpeState&, const Arguments& arguments) {
 // -----------------------------------------------------------------------------------------
 
 CallResult remove_name(PpeState& state, const Arguments& arguments) {
-  const auto place = state.folders.locate(arguments.string(0), AllowedFolders::LastLink::keep);
+  const auto place = state.folders.locate(arguments.string(0), AllowedFolders::SymlinkPolicy::keep);
   if (::unlinkat(place.folder.get(), place.name.c_str(), 0) == 0) return success();
   if (::unlinkat(place.folder.get(), place.name.c_str(), AT_REMOVEDIR) != 0) fail_with_host_errno();
   return success();
 }
 
 CallResult rename_file(PpeState& state, const Arguments& arguments) {
-  const auto from = state.folders.locate(arguments.string(0), AllowedFolders::LastLink::keep);
-  const auto to = state.folders.locate(arguments.string(1), AllowedFolders::LastLink::keep);
+  const auto from = state.folders.locate(arguments.string(0), AllowedFolders::SymlinkPolicy::keep);
+  const auto to = state.folders.locate(arguments.string(1), AllowedFolders::SymlinkPolicy::keep);
   if (::renameat(from.folder.get(), from.name.c_str(), to.folder.get(), to.name.c_str()) != 0)
     fail_with_host_errno();
   return success();
