@@ -19,7 +19,7 @@ namespace celltrace::kernel {
 ///   end_view()                          is called if the bundle's rays do not pass through one point
 ///   view()                              BundleView of the bundle if its rays pass through a point, else null
 ///   trusts_frusta()                     true if frusta suffice at leaves, without slab tests of rays
-///   untrusted_at(child)                   packets whose rays are tested in spite of trusts_frusta()
+///   untrusted_at(child)                 packets whose rays are tested in spite of trusts_frusta()
 ///   set_own_frustum(packet, query, frustum)   sets the frustum of a packet that leaves its bundle
 ///   shortening(packet)                  ratio of distances in a packet's frustum to distances along its rays
 ///   LeafTests(objects, view)            type of the tests of the bundle's packets against leaves

@@ -43,14 +43,14 @@ template <class S, class PrimaryRays> struct BundleMember : LitPoints, PrimaryRa
 //   shade_end(member)                 shades a member whose hits spawn no rays; false: it does spawn some
 //   begin_tree(member)                is called before the tree of a member is traced
 //   take_hits()                       does what RayTracer::take_hits() does
-//   has_hit_points(root)                true if the hit points of a node are known; `root`: null if no root
+//   has_hit_points(root)              true if the hit points of a node are known; `root`: null if no root
 //   defer_ends(hit)                   returns the hits of a node that are shaded later
 //   defer_light(number, lanes, colour)  true if light of a node is traced later
-//   store_tree(member)                 stores the colours of a member, which lack what was left for later
+//   store_tree(member)                stores the colours of a member, which lack what was left for later
 //   end_tree()                        is called after the tree of a member was traced
 //   finish(stopped)                   traces and shades what was left for later; false: it was stopped
 //   drop()                            forgets what was left for later
-//   add_deferred_light(member)            adds the unoccluded light that the root's first round gathered
+//   add_deferred_light(member)        adds the unoccluded light that the root's first round gathered
 //   lanes_with_ray(member), light_of(member)    return the pixels with a ray, and their colours
 
 /// Traces bundles.
