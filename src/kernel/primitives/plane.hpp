@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
-#include "kernel/primitives/local_shape.hpp"
+#include "kernel/primitives/flat_shape.hpp"
 
 namespace celltrace::kernel {
 
@@ -20,29 +20,21 @@ CELLTRACE_ONE_COPY void intersect_plane(const RayPacket& rays, const ObjectRecor
   c.near_hit = (S::abs(slope) > F(1e-10f)) & !lanes_that_start_on<S>(rays, self);
 }
 
-struct PlanePrimitive : LocalPrimitive<PlanePrimitive> {
+struct PlanePrimitive : FlatPrimitive<PlanePrimitive> {
   static constexpr const char* kName = "plane";
-  static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
+  static constexpr bool kHasFaces = false; // points need not be moved onto it
   static constexpr bool kIsBounded = false;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
-    using F = typename S::F;
-    Crossings<S>& c = *crossings;
-    c.clear();
-    c.near = -rays.origin.z * finite_inverse<S>(rays.direction.z);
+    typename S::F x, y;
     // A ray that starts on a plane does not cross it again.
-    c.near_hit = (S::abs(rays.direction.z) > F(1e-10f)) & !rays.starts_here;
+    crossings->near_hit = cross_plane<S>(rays, *crossings, x, y);
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>&) {
     return p.z < typename S::F(0.0f);
-  }
-
-  template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
-    using F = typename S::F;
-    return {F(0.0f), F(0.0f), F(1.0f)};
   }
 
   /// Returns unlimited bounds: planes are not in the BVH, unless CSG bounds them.

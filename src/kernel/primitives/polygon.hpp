@@ -3,17 +3,15 @@
 // Kernel dialect.
 #pragma once
 
-#include "kernel/primitives/local_shape.hpp"
+#include "kernel/primitives/flat_shape.hpp"
 
 #include <string.h>
 
 namespace celltrace::kernel {
 
-struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
+struct PolygonPrimitive : FlatPrimitive<PolygonPrimitive> {
   static constexpr const char* kName = "polygon";
-  static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = true;
-  static constexpr bool kHasFaces = true;
   static constexpr bool kHasEdges = true;
 
   /// Finds the crossings, and stores their x and y in u and v.
@@ -21,26 +19,12 @@ struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
     using F = typename S::F;
     Crossings<S>& c = *crossings;
-    c.clear();
-    c.near = -rays.origin.z * finite_inverse<S>(rays.direction.z);
-    c.u = rays.origin.x + rays.direction.x * c.near;
-    c.v = rays.origin.y + rays.direction.y * c.near;
-    c.near_hit = (S::abs(rays.direction.z) > F(1e-10f)) & (S::abs(c.u) <= F(1.0f)) &
-                 (S::abs(c.v) <= F(1.0f)) & !rays.starts_here;
+    const auto crosses = cross_plane<S>(rays, c, c.u, c.v);
+    c.near_hit = crosses & (S::abs(c.u) <= F(1.0f)) & (S::abs(c.v) <= F(1.0f));
   }
 
   template <class S> static typename S::M inside_local(const V3<S>&, const LocalParameters<S>&) {
     return S::M::none();
-  }
-
-  template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
-    using F = typename S::F;
-    return {F(0.0f), F(0.0f), F(1.0f)};
-  }
-
-  template <class S>
-  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>&, const V3<S>&) {
-    return p.z;
   }
 
   static LocalBounds local_bounds(float) { return {0.0f, 0.0f, 1.0f, true}; }
