@@ -19,7 +19,7 @@ struct CELLTRACE_EXPORT Transform {
   static Transform translate(const Vec3& offset);
   /// Rotates about x, then y, then z, in degrees, left-handed. NaN if an angle is not finite.
   static Transform rotate(const Vec3& degrees);
-  /// Scales; a factor of 0 counts as 1, as in POV-Ray.
+  /// Scales along the axes; a factor of 0 counts as 1, as in POV-Ray.
   static Transform scale(const Vec3& factors);
   static Transform matrix(const double (&values)[12]);
 
