@@ -31,7 +31,7 @@ public:
   const LocalStoreBlock& local_stores() const { return local_stores_; }
   SpeAddresses addresses(unsigned spe) const;
 
-  /// Returns what lies at [ea, ea + size).
+  /// Returns the kind of storage at [ea, ea + size), and its SPE.
   Place locate(ea_t ea, std::uint32_t size) const {
     const ea_t in_local_stores = ea - local_store_base_;
     if (in_local_stores < local_stores_.bytes()) return locate_local_store(in_local_stores, size);

@@ -60,7 +60,7 @@ class Flights {
 public:
   explicit Flights(unsigned spes) : spes_(spes), lists_(std::make_unique<List[]>(spes)) {}
 
-  /// Return flights of one SPE, for the thread that owns it; the members below change the list.
+  /// Return the flights of one SPE, for the thread that runs the SPE.
   const std::vector<Flight>& of(unsigned spe) const { return lists_[spe].flights; }
   Flight& at(unsigned spe, std::size_t index) { return lists_[spe].flights[index]; }
 

@@ -1,8 +1,8 @@
 // The free schedule: one host thread for each SPE; the host decides when they run.
 //
-// Every SPE's virtual clock is its own, and its MFC makes progress when the SPE accesses a channel. Stalls
-// and waits of the SPEs and the PPE are counted, so that a deadlock is detected when the last running thread
-// begins to wait.
+// The SPEs' virtual clocks are independent. An SPE's MFC makes progress when the SPE accesses a channel.
+// Stalls and waits of the SPEs and the PPE are counted, so that a deadlock is detected when the last running
+// thread begins to wait.
 #pragma once
 
 #include "backends/cell_emu/scheduler.hpp"

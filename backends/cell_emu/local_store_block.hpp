@@ -1,4 +1,4 @@
-// The memory of all local stores of a machine, with guards that detect stores just outside of them.
+// The memory of all local stores of a machine, with guards that detect stores just outside of a local store.
 //
 //   gap | edge | local store 0 | edge | gap | edge | local store 1 | edge | gap | ...
 //

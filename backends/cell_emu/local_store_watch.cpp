@@ -7,7 +7,7 @@
 namespace celltrace::cell_emu {
 namespace {
 
-// Pairs of words in the byte order of this machine's programs.
+// Fill patterns: pairs of words, in the byte order of host code.
 constexpr std::uint64_t kPoison = 0x7FB0DEAD'7FB0DEADu;
 constexpr std::uint32_t kInFlightWord = 0x7FB5DEADu;
 constexpr std::uint32_t kQuiet = 0x00400000u;

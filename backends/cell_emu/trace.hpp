@@ -81,7 +81,7 @@ private:
   void flush_compute(unsigned spe);
   void draw_messages(unsigned spe);
   void draw(const Message& message, Track track, std::uint64_t end);
-  // These functions begin an event; the caller adds arguments and ends it.
+  // The functions below begin an event; their caller adds arguments and ends the event.
   void begin_command(char phase, unsigned spe, std::uint64_t number, const char* opcode, std::uint64_t at);
   void begin_instant(unsigned spe, std::string_view category, std::string_view name, std::uint64_t at);
   void site_argument(const CallSite& site);

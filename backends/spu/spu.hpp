@@ -84,8 +84,8 @@ public:
 
 private:
   /// Keeps the compiler from moving memory accesses across a channel access. With -msafe-dma the compiler
-  /// itself does not move them across channels 21 to 27, but across mailboxes, signals and events, by which
-  /// other processors announce that memory has changed.
+  /// moves no accesses across channels 21 to 27, but it still moves them across mailboxes, signals and
+  /// events, by which other processors announce that memory has changed.
   template <Channel c> static void order_memory() {
     constexpr bool ordered_by_compiler = c >= Channel::mfc_cmd && c <= Channel::rd_atomic_stat;
     if constexpr (!ordered_by_compiler) __asm__ volatile("" ::: "memory");

@@ -1,5 +1,5 @@
 // Pictures in memory. Pictures with 8 bits a channel can be read from files, written to files and compared;
-// those with 16 bits a channel, and colours as floats, can be written to files.
+// pictures with 16 bits a channel, and colours as floats, can be written to files.
 //
 // Every function is safe to call from several threads at once on different pictures and files.
 #pragma once
@@ -43,8 +43,8 @@ private:
   }
 };
 
-/// Pictures whose values are those of files: encoded (sRGB by convention), with alpha not premultiplied. The
-/// largest alpha is opaque.
+/// Pictures with the values that files contain: encoded (sRGB by convention), with alpha not premultiplied.
+/// The largest alpha is opaque.
 using Image = BasicImage<std::uint8_t>;
 using DeepImage = BasicImage<std::uint16_t>;
 

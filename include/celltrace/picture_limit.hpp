@@ -21,8 +21,7 @@ enum class PictureLimit : std::uint8_t {
   large_spheres,        ///< spheres to which the camera is near, compared with their size
   coincident_objects,   ///< objects of a scene in which coincident surfaces are put in order
   coincident_pairs,     ///< pairs of coincident surfaces
-  far_camera_objects, ///< objects of a scene that is compared with rays of a camera that is far from what it
-                      ///< shows, but among objects
+  far_camera_objects, ///< objects of a scene whose camera is far from what it shows, but among other objects
   camera_interiors    ///< interiors that the camera is inside of
 };
 

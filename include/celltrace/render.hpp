@@ -37,7 +37,7 @@ enum class Balance {
 enum class Accelerator {
   automatic, ///< the BVH; for the pipeline models the grid
   grid,      ///< a uniform grid of voxels, which an SPE builds
-  bvh        ///< a four-wide bounding volume hierarchy; built by the PPE's side if SPEs have no direct memory
+  bvh        ///< a four-wide bounding volume hierarchy; the host builds it if SPEs have no direct memory
 };
 
 /// Function that the rendering thread calls every few milliseconds. `fraction` is the finished share of the
@@ -47,7 +47,7 @@ using Progress = std::function<bool(double fraction)>;
 /// The part of a frame that each SPE does (docs/programming-models.md). All models give the same picture.
 enum class Model {
   shared,         ///< everything: each SPE is a whole ray tracer
-  pipeline,       ///< SPEs that make, search and shade rays pass them on through main memory
+  pipeline,       ///< stages of SPEs generate, search and shade rays, and pass rays on through main memory
   pipeline_split, ///< as pipeline, but different SPEs traverse the grid and test objects
   offload         ///< SPEs only search; a PPE does everything else, played by the first of `spes` + 1 SPEs
 };
@@ -118,7 +118,7 @@ struct RenderOptions {
   /// The software cache of each SPE (native reads memory directly and has none).
   CacheConfig cache;
   Balance balance = Balance::gde;
-  /// `pipeline_split` takes only the grid.
+  /// The accelerator; `pipeline_split` takes only `automatic` and `grid`.
   Accelerator accelerator = Accelerator::automatic;
   /// Models other than `shared` need at least 2 SPEs and ignore `balance`.
   Model model = Model::shared;
@@ -205,8 +205,8 @@ struct CELLTRACE_EXPORT RenderStatistics {
     std::uint64_t jobs = 0;     ///< jobs of one or more searches that were taken from main memory
     std::uint64_t searches = 0; ///< searches of 16 rays; a search counts again each time that it is resumed
     std::uint64_t primary_hits = 0; ///< primary rays that hit something
-    /// For pipeline_split: primary rays that were sent back for traversal at least once, and the number of
-    /// these that hit something in the end.
+    /// For pipeline_split: number of primary rays that were sent back for traversal at least once, and of
+    /// such rays that hit something in the end.
     std::uint64_t primary_reprocessed = 0, primary_hits_reprocessed = 0;
     std::uint64_t returns = 0; ///< for pipeline_split: number of times that a ray was sent back
   };
@@ -221,7 +221,7 @@ struct CELLTRACE_EXPORT RenderStatistics {
   /// Number of objects after unions and copies of meshes are taken apart; an instance counts as one.
   std::uint64_t objects = 0;
 
-  /// Rays by kind; primary rays include those of antialiasing.
+  /// Rays by kind; primary rays include rays of antialiasing.
   std::uint64_t primary_rays = 0, shadow_rays = 0, reflection_rays = 0, refraction_rays = 0;
   /// Rays that limits of the SPE program cut off; above 0 only in extreme scenes.
   std::uint64_t dropped_rays = 0;
@@ -232,17 +232,17 @@ struct CELLTRACE_EXPORT RenderStatistics {
   /// Visits of voxels by rays, or of nodes by bundles, packets and parts of packets.
   std::uint64_t accelerator_visits = 0;
 
-  Accelerator accelerator = Accelerator::grid; ///< never automatic
+  Accelerator accelerator = Accelerator::grid; ///< the accelerator that was used; never automatic
   std::uint32_t grid_cells[3] = {0, 0, 0};     ///< all 0 for a BVH
   std::uint32_t bvh_nodes = 0;                 ///< 0 for a grid
   std::uint64_t accelerator_list_entries = 0;  ///< object numbers in all lists of voxels or leaves
   std::uint64_t accelerator_bytes = 0;
   /// The work on the accelerator and the scene image before this frame.
   enum class Preparation {
-    built,    ///< all was built
+    built,    ///< the scene image and the accelerator were built
     refitted, ///< records of the image were changed in place, and the nodes' bounds adjusted
     updated,  ///< as refitted, but no object had changed
-    kept      ///< nothing was changed: only the camera moved, and no record depends on its location
+    kept      ///< nothing was changed: only the camera moved, and no record depends on the camera's location
   };
   Preparation preparation = Preparation::built;
   /// Cache lines of the image that changed and that SPEs were told to fetch again; 0 where memory is direct.
@@ -269,7 +269,7 @@ struct CELLTRACE_EXPORT RenderStatistics {
   double imbalance = 0;
 
   // Virtual time of the SPE with the greatest total_cycle; 0 on native.
-  std::uint64_t prepare_cycles = 0; ///< until the accelerator is built and every SPE knows its address
+  std::uint64_t prepare_cycles = 0; ///< cycles until the accelerator is built and every SPE knows its address
   std::uint64_t render_cycles = 0;
   SpuCycles prepare; ///< cycles that SPEs spent building the accelerator, by use, summed over the SPEs
 
@@ -323,7 +323,7 @@ struct RenderResult {
 };
 
 /// A render context: a machine whose SPEs run the tracer, kept from frame to frame. The frame after a
-/// cancelled one is rendered as usual. Thread safety: one thread at a time; different renderers are
+/// cancelled frame is rendered as usual. Thread safety: one thread at a time; different renderers are
 /// independent.
 class CELLTRACE_EXPORT Renderer {
 public:

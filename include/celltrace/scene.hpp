@@ -72,7 +72,7 @@ enum class GammaMode {
 };
 
 /// The inside of an object. If a ray can be inside of two objects at once, each of them needs an interior of
-/// its own. Children of a union that have no interior share the union's.
+/// its own. Children of a union that have no interior share the union's interior.
 struct Interior {
   double ior = 1;
   /// Fading: light that travels `fade_distance` in the interior is halfway to `fade_colour`. After a distance
@@ -101,7 +101,7 @@ struct Fog {
   /// y times `altitude` above `offset`. Heights are measured along `up`, which has length 1.
   bool is_ground = false;
   double offset = 0;
-  double altitude = 0; ///< 0: there is no fog above the offset
+  double altitude = 0; ///< unit of the height above `offset`; 0: there is no fog above `offset`
   Vec3 up{0, 1, 0};
   Turbulence turbulence;           ///< thins the fog at random places, if an amount is not 0
   double turbulence_depth = 0.5;   ///< strength of the turbulence
@@ -139,11 +139,12 @@ inline constexpr Index kNoIndex = 0xFFFFFFFFu;
 /// location, each of which casts shadows as a point light does. As in POV-Ray, shadow rays to the corners of
 /// the grid are traced first, and the grid is divided where the corners differ.
 struct LightArea {
-  Vec3 across{1, 0, 0}, along{0, 1, 0}; ///< from the first column to the last, from the first row to the last
-  int columns = 2, rows = 2;            ///< 1 to 256 each
+  /// Vectors from the first to the last column, and from the first to the last row.
+  Vec3 across{1, 0, 0}, along{0, 1, 0};
+  int columns = 2, rows = 2; ///< 1 to 256 each
   /// Number of levels, 0 or more, by which the grid is divided even if its corners do not differ.
   int adaptive = 100;
-  /// True: points are moved by up to half of the distance to the next, always in the same manner.
+  /// True: points are moved by up to half of the distance between points, in the same way in every frame.
   bool jitter = false;
   bool circular = false; ///< true: the grid is deformed into an ellipse
   /// True: the area turns to face each surface point, both its sides are as long as `across`, and it counts

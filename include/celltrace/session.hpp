@@ -3,10 +3,10 @@
 //   Session session(parse_file("scene.pov"), options);
 //   session.render();
 //   session.set_transform(3, Transform::translate({0, 1, 0}));
-//   RenderResult next = session.render();      // costs what has changed
+//   RenderResult next = session.render();      // takes as long as the changes need
 //
-// Indices are those of the vectors in Scene. Thread safety: one thread at a time, except that any thread may
-// call cancel() and generation() at any time; different sessions are independent.
+// Indices are indices into the vectors of Scene. Thread safety: one thread at a time, except that any thread
+// may call cancel() and generation() at any time; different sessions are independent.
 #pragma once
 
 #include "celltrace/export.hpp"

@@ -14,8 +14,8 @@ namespace celltrace {
 struct Object;
 struct Pigment;
 
-/// A displacement of points by noise: `amount` times a sum of `octaves` octaves, each of them `lambda` times
-/// finer and `omega` times weaker than the one before.
+/// A displacement of points by noise: `amount` times a sum of `octaves` octaves, each octave `lambda` times
+/// finer, and with `omega` times the strength, of the octave before.
 struct Turbulence {
   Vec3 amount{0, 0, 0};
   int octaves = 6; ///< 1 to 10
@@ -67,7 +67,7 @@ struct Dents {};    ///< the cube of smooth noise
 struct Granite {};  ///< six octaves with creases
 struct Wrinkles {}; ///< ten octaves
 struct Agate {
-  double turbulence = 1; ///< strength of the bending of its bands
+  double turbulence = 1; ///< strength of the turbulence that bends the bands
 };
 struct Marble {};  ///< bands along x, with the pattern's turbulence
 struct Wood {};    ///< rings around the z axis, with the pattern's turbulence
@@ -135,10 +135,10 @@ namespace warp {
 
 /// Repeats the slice of space from 0 to `width` along an axis.
 struct Repeat {
-  int axis = 0;         ///< 0 to 2
-  double width = 1;     ///< not 0
+  int axis = 0;         ///< axis along which slices repeat, 0 to 2
+  double width = 1;     ///< width of a slice, not 0
   Vec3 flip{0, 0, 0};   ///< axes with a value other than 0 are mirrored in every other slice
-  Vec3 offset{0, 0, 0}; ///< shift of each slice against the one before
+  Vec3 offset{0, 0, 0}; ///< shift of each slice against the slice before
 };
 /// Draws the points in a sphere toward its centre.
 struct BlackHole {
@@ -181,8 +181,8 @@ struct Pattern {
   int noise_generator = 0; ///< 1 to 3, POV-Ray's numbers; 0: the scene's
   /// True: the pattern's space is (u, v, 0), the surface's coordinates, wherever in the scene the surface is
   /// and whatever maps are around the pattern. The coordinates are 0 to 1 around a sphere and from pole to
-  /// pole; over an unfolded box; around a torus and its tube; a Mesh has its own; for all other shapes they
-  /// are x and y of the point in the scene.
+  /// pole; over an unfolded box; around a torus and its tube; a Mesh has coordinates of its own; for all
+  /// other shapes the coordinates are x and y of the point in the scene.
   bool uv_mapping = false;
   /// With uv_mapping: transformation of normals, not of points, from the pattern's space to the scene.
   Transform normal_space = {};

@@ -30,7 +30,7 @@ struct CELLTRACE_EXPORT Transform {
   double determinant() const;
   /// Throws InputError if the transformation is singular.
   Transform inverse() const;
-  /// Returns the transformation that applies this one first, then `next`.
+  /// Returns the transformation that first applies this transformation, then `next`.
   Transform then(const Transform& next) const;
   bool is_identity() const;
 };

@@ -36,7 +36,8 @@ void fscrwr(State& state, const Instruction& i) {
       map<std::uint32_t>(state.gpr[i.ra], defined, [](std::uint32_t x, std::uint32_t y) { return x & y; });
 }
 
-// These instructions do nothing, because instructions are executed one by one and stores are visible at once.
+// The instructions below do nothing, because instructions are executed one by one and stores are visible at
+// once.
 void nop(State&, const Instruction&) {
 }
 void lnop(State&, const Instruction&) {

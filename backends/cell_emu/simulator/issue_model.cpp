@@ -42,8 +42,8 @@ void IssueModel::wait_for_operands(const isa::Instruction& instruction, Cycle re
 }
 
 void IssueModel::enter_line() {
-  // These instructions have not been fetched in time if loads and stores took the port in every cycle since
-  // the last line.
+  // The instructions of this line have not been fetched in time if loads and stores took the port in every
+  // cycle since the last line.
   const Cycle passed = last_ - line_entered_;
   if (passed != 0 && line_accesses_ >= passed) stall(StallReason::prefetch_miss, last_ + timing_.fetch_miss);
   line_entered_ = last_;

@@ -1,8 +1,8 @@
 // ProfileReport shows a profile by function and instruction: it implements profile_text() and profile_json()
 // of simulator.hpp.
 //
-// It shows for a whole run what IBM's spu_timing shows for straight-line code: for each instruction, the pipe
-// that it issues to, whether it issues together with its neighbour, and the causes of its delays.
+// The report shows for a whole run what IBM's spu_timing shows for straight-line code: for each instruction,
+// the pipe that it issues to, whether it issues together with its neighbour, and the causes of its delays.
 #pragma once
 
 #include "backends/cell_emu/simulator/code_places.hpp"

@@ -1,5 +1,5 @@
 // SimulatedSpu: the SPU that executes machine code. It fetches, issues and executes instructions from its
-// local store; channels and clock are those of SpuCore, as for host code.
+// local store; SpuCore implements its channels and clock, as for host code.
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"

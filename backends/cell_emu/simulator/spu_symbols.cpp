@@ -79,7 +79,7 @@ std::vector<SpuSymbols::Candidate> SpuSymbols::read(const ElfSection& table,
 }
 
 void SpuSymbols::keep_functions(std::vector<Candidate> candidates) {
-  // Of several symbols with one address, the most informative comes first and is kept.
+  // If several symbols have one address, the most informative comes first and is kept.
   const auto order = [](const Candidate& c) {
     return std::make_tuple(c.symbol.lsa, !c.typed, !c.global, c.symbol.bytes == 0);
   };

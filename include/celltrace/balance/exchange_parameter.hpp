@@ -24,7 +24,7 @@ namespace celltrace {
 
 namespace detail {
 
-/// Returns the magnitude of the larger root for one frequency.
+/// Returns the magnitude of the larger root of the equation above, for one frequency.
 inline double slowest_factor(double theta, double lambda) {
   const double half_sum = (1 - lambda) * (1 - lambda) + lambda * lambda * std::cos(theta);
   const double product = (1 - 2 * lambda) * (1 - 2 * lambda);

@@ -41,8 +41,8 @@
 // delivered before any later word of the same node, and if the owner passes delivered doorbells to
 // on_doorbell() before each word. Then at most 2 words from each neighbour wait for a node during a frame,
 // and 1 once the frame is complete, besides the two questions of the next frame, or the PPE's word that ends
-// this frame. This holds if the PPE starts a frame only after every node has left the one before; a frame
-// that is broken off early also needs every mailbox drained before the next one starts.
+// this frame. Besides, the PPE must start a frame only after every node has left the frame before; after a
+// frame that was broken off, every mailbox must be drained before the next frame starts.
 #pragma once
 
 #include <stdint.h>
@@ -340,7 +340,7 @@ private:
   uint32_t epoch_; ///< epoch of this frame or the last one; kNoFrame before the first
   uint32_t in_frame_;
   UnitRange units_;
-  uint32_t first_side_; ///< side of the edge to ask on next
+  uint32_t first_side_; ///< side of the edge on which the node asks next
   uint32_t taken_;
   uint32_t completed_;
   uint32_t reported_;

@@ -114,8 +114,8 @@ inline SystemGraph hypercube_graph(std::uint32_t dimensions) {
 inline SystemGraph complete_graph(std::uint32_t nodes) {
   celltrace::detail::require_nodes(nodes, 4096);
   // The colours are the rounds of a round-robin tournament: players a and b meet in round a + b, modulo an
-  // odd number of players. If there is one more player, it meets, in each round, the player who would have to
-  // meet himself.
+  // odd number of players. If the number of players is even, the last player meets, in each round, the player
+  // who would have to meet himself.
   const std::uint32_t rounds = nodes - 1 + nodes % 2;
   SystemGraph graph;
   graph.nodes = nodes;

@@ -3,7 +3,7 @@
 //
 // A cache without checks returns plain pointers into its lines. A checked cache returns pointers to copies in
 // a window of its own, and overwrites a copy when its lifetime ends, whether or not the line is still cached.
-// So a program that uses a pointer too late always fails, not only if the line happens to be replaced: a
+// A program that uses a pointer too late then always fails, not only if the line happens to be replaced: a
 // checked pointer halts the SPE with stale_pointer; a plain pointer or reference made from a checked pointer
 // reads poison.
 #pragma once

@@ -40,7 +40,7 @@ constexpr uint32_t words_after(Operation operation) {
   return operation == Operation::begin ? 2 : operation == Operation::synchronize ? 1 : 0;
 }
 
-// The words after `begin`.
+// The two words after `begin`, which encode the cache's configuration.
 constexpr uint32_t first_word(const CacheConfig& config) {
   return config.ways << 16 | config.sets;
 }

@@ -1,4 +1,4 @@
-// The SPU's channels: their names, their directions, and which of them stall.
+// The SPU's channels: names, directions, and whether a channel stalls.
 #pragma once
 
 #include "celltrace/spe/types.hpp"

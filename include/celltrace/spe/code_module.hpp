@@ -3,10 +3,11 @@
 //
 // Modules share regions of local store: a call into a module that is not in its region fetches the module
 // from main memory, in place of the module that is there. On an SPU the linker puts a module's functions into
-// an overlay section, and calls of them go through backends/spu/modules.S; on cell_emu, SpuBase's
+// an overlay section, and calls of these functions go through backends/spu/modules.S; on cell_emu, SpuBase's
 // enter_module() counts the fetch and its time; where memory is direct, a module is ordinary code.
 //
-// A module's functions may call each other and resident code, but no other module of the same region.
+// A module's functions may call each other and resident code, but no functions of another module in the same
+// region.
 #pragma once
 
 #include <stdint.h>

@@ -93,7 +93,7 @@ public:
     if (recorder_ != nullptr) [[unlikely]]
       recorder_->computed(id_, work);
   }
-  /// Takes the time of the DMA command that fetches the module, if it is not in local store.
+  /// Fetches the module if it is not in local store: spends the time of the DMA command.
   void enter_module(const CodeModule& module) {
     if (resident_modules_[module.region] != module.number) fetch_module(module);
   }

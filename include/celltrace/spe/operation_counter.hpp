@@ -1,5 +1,5 @@
 // Counts the work of a kernel on the emulated SPU: the instructions that a real SPU would issue for the
-// operations of the SIMD facade, and those that the kernel declares by compute().
+// operations of the SIMD facade, and the instructions that the kernel declares by compute().
 #pragma once
 
 #include "celltrace/spe/spu.hpp"

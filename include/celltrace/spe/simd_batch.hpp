@@ -1,5 +1,5 @@
-// Batches: the host's vector registers, of which simd_host.hpp composes its 16 lanes. They are xsimd's if
-// xsimd knows the processor. For other processors there are batches of four lanes, made with the vector
+// Batches: the host's vector registers, of which simd_host.hpp composes its 16 lanes. If xsimd knows the
+// processor, its batches are used. For other processors there are batches of four lanes, made with the vector
 // extensions of GCC and clang; they have the operations that simd_host.hpp needs, and give the same bits as
 // SSE2.
 #pragma once

@@ -138,7 +138,7 @@ template <celltrace::sdk::AnyVector V, class B> celltrace::sdk::VectorOf<V> spu_
       .halfword = Opcode::ah, .word = Opcode::a, .single = Opcode::fa, .doubleword = Opcode::dfa};
   return binary<T>(opcode_for<kAdd, T>(), register_of(a), operand<T>(b));
 }
-/// Subtracts; one of the operands may be a scalar.
+/// Returns a - b; one operand may be a scalar.
 template <class A, class B>
 requires celltrace::sdk::AnyVector<A> || celltrace::sdk::AnyVector<B>
 auto spu_sub(const A& a, const B& b) {

@@ -1,5 +1,5 @@
-// The parameters of the timing model of `cell_emu` and `cell_sim`. Times are those of a model, not of a real
-// machine.
+// The parameters of the timing model of `cell_emu` and `cell_sim`. A model's times differ from a real
+// machine's.
 //
 // Units are SPU cycles unless said otherwise. Sources: Kistler, Perrone, Petrini, "Cell Multiprocessor
 // Communication Network", IEEE Micro 2006 (290 cycles for a line from SPE to SPE, 25.6 GB/s a port); IBM Cell
@@ -90,8 +90,8 @@ struct TimingParameters {
   }
 };
 
-/// The cycles of an SPE by their use, under the names of IBM's full-system simulator. Some are always 0 on
-/// `cell_emu`, which cannot see them.
+/// The cycles of an SPE by their use, under the names of IBM's full-system simulator. Members that `cell_emu`
+/// cannot observe are always 0 there.
 struct SpuCycles {
   /// Sum of the cycles and stalls below, up to stall_due_to_injection.
   std::uint64_t total_cycle = 0;
@@ -106,7 +106,7 @@ struct SpuCycles {
   std::uint64_t stall_due_to_ls_contention = 0; ///< loads and stores waited for DMA's accesses to local store
   std::uint64_t channel_stall_cycle = 0;        ///< waits for DMA, mailboxes, signals and events
   std::uint64_t stall_due_to_injection = 0;     ///< delays from configured faults
-  // Instructions by unit.
+  // Numbers of issued instructions, by unit.
   std::uint64_t fx2 = 0, fx3 = 0, fxb = 0, fp6 = 0, fp7 = 0, fpd = 0; ///< even pipe
   std::uint64_t ls = 0, shuf = 0, br = 0, hbr = 0, spr = 0;           ///< odd pipe; spr: channel instructions
   std::uint64_t nop = 0;                                              ///< no-ops of both pipes

@@ -50,7 +50,7 @@ struct PpeState {
   OpenFiles files;
   Streams streams;
   EaHeap ea_heap;
-  /// Folder with number n, counted from 1, has index n - 1.
+  /// Folders that programs list; the folder with the program's number n has index n - 1.
   std::vector<std::unique_ptr<ListedFolder>> listed_folders;
   unsigned umask = 022;
   unsigned temporary_files = 0; ///< number of files made so far
