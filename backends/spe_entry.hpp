@@ -1,5 +1,5 @@
-// The entry point of an SPE program for one SPU type: the part of its source besides the kernel. See
-// cmake/celltrace_spe_program.cmake, which defines the CELLTRACE_SPU_... macros.
+// CELLTRACE_SPE_ENTRY, which makes a kernel the entry point of an SPE program for one SPU type.
+// cmake/celltrace_spe_program.cmake defines the CELLTRACE_SPU_... macros.
 #pragma once
 
 #include CELLTRACE_SPU_HEADER
@@ -9,7 +9,7 @@
 #define CELLTRACE_SPE_ENTRY_NAME_2(program, spu) program##_##spu
 #define CELLTRACE_SPE_ENTRY_NAME(program, spu) CELLTRACE_SPE_ENTRY_NAME_2(program, spu)
 
-/// Defines celltrace::PROGRAM_SPU, which runs `kernel`, a function template over the Spu type.
+/// Defines the function celltrace::PROGRAM_SPU, which runs `kernel`, a function template over the Spu type.
 #define CELLTRACE_SPE_ENTRY(program, kernel)                                                                 \
   namespace celltrace {                                                                                      \
   void CELLTRACE_SPE_ENTRY_NAME(program, CELLTRACE_SPU_NAME)(void* spu, ea_t argument);                      \

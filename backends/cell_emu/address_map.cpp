@@ -32,7 +32,7 @@ SpeAddresses AddressMap::addresses(unsigned spe) const {
 }
 
 AddressMap::Place AddressMap::locate_local_store(ea_t offset, std::uint32_t size) const {
-  // There is a gap in front of the first local store, and behind each.
+  // There is a gap in front of the first local store, and behind each local store.
   if (offset < kLocalStoreBytes) return {EaKind::unmapped, 0};
   const ea_t in_stride = (offset - kLocalStoreBytes) % LocalStoreBlock::kStride;
   if (in_stride + size > kLocalStoreBytes) return {EaKind::unmapped, 0};

@@ -1,9 +1,9 @@
 // The main storage domain: maps local stores and problem-state registers into the host's memory.
 //
 // Main memory is the host's; an effective address is a host address. Local stores lie in one block, each
-// aligned to its 256 KB, with gaps in between that are no storage. Behind every problem-state address lies
-// reserved memory, so that no object of the host can have the same address; the registers have their
-// architected offsets.
+// aligned to 256 KB, with gaps in between that are no storage. Problem-state addresses are in reserved
+// memory, so that no object of the host can have the same address; the registers have their architected
+// offsets.
 #pragma once
 
 #include "backends/cell_emu/local_store_block.hpp"
@@ -31,7 +31,7 @@ public:
   const LocalStoreBlock& local_stores() const { return local_stores_; }
   SpeAddresses addresses(unsigned spe) const;
 
-  /// Returns what lies at [ea, ea + size).
+  /// Returns the kind of storage at [ea, ea + size), and its SPE.
   Place locate(ea_t ea, std::uint32_t size) const {
     const ea_t in_local_stores = ea - local_store_base_;
     if (in_local_stores < local_stores_.bytes()) return locate_local_store(in_local_stores, size);
@@ -42,8 +42,8 @@ public:
 
 private:
   static constexpr ea_t kProblemStateBytes = 0x20000;
-  /// First address that may be mapped. No system maps its lowest pages: an address there is a null pointer or
-  /// an offset used as an address.
+  /// First address that counts as mapped. No system maps its lowest pages: an address below is a null
+  /// pointer, or an offset used as an address.
   static constexpr ea_t kFirstMapped = 0x10000;
 
   struct Free {

@@ -34,7 +34,7 @@ void Allocations::add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t al
   const std::lock_guard lock(mutex_);
   const std::uint32_t end = begin + bytes;
   if (!allocations_.empty()) allocations_.back().zone_end = std::min(allocations_.back().zone_end, begin);
-  // The program may itself have moved the fill of its arena.
+  // The program may have changed ArenaState::next itself.
   unshifted_ = std::min(unshifted_ + (begin - aligned(next_, alignment)), begin);
   unshifted_ = std::min(aligned(unshifted_, alignment) + bytes, end);
   const std::uint32_t grown = arena_end + end + kZoneBytes - unshifted_;

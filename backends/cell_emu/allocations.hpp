@@ -1,12 +1,12 @@
-// The allocations of a program in its local store, and the red zones behind them: poison, whose change
-// reveals a store past an allocation.
+// The allocations of a program in its local store, and the red zones behind allocations. Zones are filled
+// with poison; a change of the poison reveals a store past an allocation.
 //
 //   allocation | zone | allocation | zone | free ...
 //
 // A zone reaches to the next allocation, but not further than kZoneBytes. If red zones are configured, each
-// allocation lies a multiple of kZoneBytes further than without them, which keeps its alignment. The bytes of
-// the zones are added to the arena at its end, from the local store that is reserved for the stack, which a
-// program of host code does not use: so a program finds as much room as without red zones.
+// allocation lies a multiple of kZoneBytes further than without red zones, which keeps its alignment. The
+// arena grows at its end by the bytes of the zones, so that a program has as much room as without red zones.
+// The arena grows into local store that is reserved for the stack, which a program of host code does not use.
 #pragma once
 
 #include "celltrace/spe/call_site.hpp"
@@ -25,10 +25,10 @@ public:
   static constexpr std::uint32_t kZoneBytes = 128;
 
   struct Allocation {
-    std::uint32_t begin, end; ///< without its zone
+    std::uint32_t begin, end; ///< range of the allocation, without its zone
     std::uint32_t zone_end;
-    std::uint32_t behind;    ///< first offset at which the next one may begin
-    std::uint32_t unshifted; ///< the same offset without any zones
+    std::uint32_t behind;    ///< first offset at which the next allocation may begin
+    std::uint32_t unshifted; ///< value of `behind` if there were no zones
     CallSite site;
   };
   /// A store into the zone behind an allocation.
@@ -43,14 +43,15 @@ public:
   void end();
   bool known() const { return known_; }
 
-  /// Adds an allocation. `arena_end` is without zones. There is no zone where local store ends before it
-  /// would.
+  /// Adds an allocation. `arena_end` is the end of the arena without zones. An allocation whose zone would
+  /// not fit into local store gets no zone.
   void add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t alignment, std::uint32_t arena_end,
            CallSite site);
   /// Frees everything from `lsa` on.
   void release(std::uint32_t lsa);
 
-  /// Return where the next allocation may begin, and how many bytes further that is than without zones.
+  /// Return the offset at which the next allocation may begin, and the number of bytes by which zones have
+  /// moved this offset.
   std::uint32_t next() const { return next_; }
   std::uint32_t shift() const { return next_ - unshifted_; }
 
@@ -59,7 +60,7 @@ public:
   /// Returns the last allocation that begins at `lsa` or before.
   std::optional<Allocation> before(std::uint32_t lsa) const;
 
-  /// Returns a zone that was stored into, and restores it.
+  /// Returns a store into a zone, if a zone has changed, and restores this zone.
   std::optional<Overrun> take_overrun();
 
 private:
@@ -72,8 +73,8 @@ private:
   bool red_zones_ = false;
   std::uint32_t next_ = 0, unshifted_ = 0;
   bool known_ = false;
-  mutable std::mutex mutex_;            ///< guards changes, and reads from other threads
-  std::vector<Allocation> allocations_; ///< allocations in ascending order
+  mutable std::mutex mutex_;            ///< guards allocations_ against changes during reads of other threads
+  std::vector<Allocation> allocations_; ///< in ascending order
 };
 
 } // namespace celltrace::cell_emu

@@ -1,5 +1,5 @@
-// The bounds that commands have to keep besides those of the storage itself: the programs' allocations in
-// local stores, and the host's objects in main memory.
+// Bounds that transfers must not cross, besides the bounds of storage: allocations of programs in local
+// stores, and registered objects in main memory.
 #pragma once
 
 #include "backends/cell_emu/allocations.hpp"

@@ -13,8 +13,8 @@ std::uint8_t* host_address(ea_t ea) {
   return reinterpret_cast<std::uint8_t*>(static_cast<std::uintptr_t>(ea));
 }
 
-/// Lets the emulator copy data of a race, if the program was told to go on: the SPE that owns the local store
-/// may be forbidden to access it.
+/// Permits access to data of a race, so that the emulator can copy them if the rule's action lets the program
+/// go on: while a transfer is in flight, its local store is forbidden to the owner's program.
 void open_for_race(AddressMap::Place place, ea_t ea, std::uint32_t size) {
   if (place.kind == EaKind::local_store && !may_access(host_address(ea), size))
     permit_access(host_address(ea), size);
@@ -24,8 +24,8 @@ void open_for_race(AddressMap::Place place, ea_t ea, std::uint32_t size) {
 
 class Bus::LocalStoreLocks {
 public:
-  /// Locks local stores: `own` is the issuing SPE, `place` the target. Two are locked in the order of their
-  /// SPEs.
+  /// Locks the local stores of the issuing SPE `own` and of the target `place`, the lower-numbered SPE first,
+  /// to avoid deadlocks.
   LocalStoreLocks(Unit* units, unsigned own, AddressMap::Place place) {
     const unsigned other = place.kind == EaKind::local_store ? place.spe : own;
     first_ = &units[std::min(own, other)].local_store_lock;

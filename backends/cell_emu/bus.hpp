@@ -1,9 +1,10 @@
 // The element interconnect bus: moves bytes between local stores, main memory and registers, keeps lines
 // atomic, and watches the reservations of the lock-line commands.
 //
-// Every move takes the lock of the issuing SPE's local store, that of the target local store if there is
-// one, and line by line the stripe of the effective address. This orders DMA against DMA. Direct accesses to
-// memory by an SPE's program or the PPE are not ordered, and lose no reservation.
+// Every move takes the lock of the issuing SPE's local store, the lock of the target local store if the
+// target is a local store, and one after the other the locks of the stripes of lines that it touches
+// (line_locks.hpp). This orders DMA against DMA. Direct accesses to memory by an SPE's program or the PPE are
+// not ordered, and do not affect reservations.
 #pragma once
 
 #include "backends/cell_emu/address_map.hpp"
@@ -29,13 +30,13 @@ public:
 
   /// Copies storage to local store address `lsa` of SPE `spe`.
   void get(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size);
-  /// Copies local store to storage; loses the reservations on the lines it touches, the SPE's own included.
+  /// Copies local store to storage. All SPEs, also `spe`, lose reservations of lines that the put touches.
   void put(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size);
 
-  /// Zeroes lines of main memory or of a local store, as a put of zeroes would.
+  /// Zeroes lines of main memory or of a local store, as a put of zeros would.
   void zero(unsigned spe, ea_t ea, std::uint32_t size);
 
-  /// Returns how often DMA, or the MFC on its own account, has written into the local store.
+  /// Returns the number of writes into the local store by DMA and by the SPE's MFC.
   std::uint64_t local_store_writes(unsigned spe) const {
     return units_[spe].local_store_writes.load(std::memory_order_relaxed);
   }
@@ -55,7 +56,8 @@ public:
 
   // Lock-line operations on one line each. An SPE has one reservation; getllar replaces it.
   void get_line_and_reserve(unsigned spe, std::uint32_t lsa, ea_t ea);
-  /// Writes only if the reservation holds; in any case the reservation is gone afterwards.
+  /// Writes the line if the SPE still has its reservation. Returns whether it did; the SPE has no reservation
+  /// afterwards.
   bool put_line_conditional(unsigned spe, std::uint32_t lsa, ea_t ea);
   void put_line(unsigned spe, std::uint32_t lsa, ea_t ea);
   void drop_reservation(unsigned spe);
@@ -81,7 +83,7 @@ private:
     std::atomic<ea_t> reserved{kNoLine};
     std::atomic<Reservation> state{Reservation::none};
   };
-  /// An address that no line has, since it is not a multiple of 128.
+  /// The address of no line: it is not a multiple of 128.
   static constexpr ea_t kNoLine = 1;
 
   /// Holds the locks of the local stores that a transfer touches.

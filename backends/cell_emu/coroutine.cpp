@@ -20,10 +20,10 @@
 namespace celltrace::cell_emu {
 namespace {
 
-/// The stack_local() of the stack that is running.
+/// The stack_local() of the present stack.
 thread_local void* running_stack_local = nullptr;
 
-/// The exceptions that a thread has under way, in the layout of the C++ ABI. Each stack has its own.
+/// The exceptions that a thread is handling, in the layout of the C++ ABI. Each stack has its own.
 struct ExceptionState {
   void* caught = nullptr;
   unsigned int uncaught = 0;
@@ -113,7 +113,8 @@ bool Coroutine::ended() const {
   return impl_->ended();
 }
 
-// Not inlined: a coroutine may go on on another thread, and must not keep an address of the old thread's.
+// Not inlined: a coroutine that goes on on another thread must not use an address of the old thread's
+// variable.
 void*& stack_local() {
   return running_stack_local;
 }

@@ -1,5 +1,6 @@
-// A program with a stack of its own that takes turns with others on one thread. It runs on a SwitchedStack,
-// and informs the address and thread sanitizers and the exception machinery of every switch.
+// Coroutine: a function with a stack of its own that takes turns with other coroutines on one thread. A
+// coroutine runs on a SwitchedStack, and informs the address and thread sanitizers and the C++ exception
+// runtime of every switch.
 #pragma once
 
 #include <functional>
@@ -10,7 +11,7 @@ namespace celltrace::cell_emu {
 /// A coroutine. Thread safety: one thread runs a coroutine and everything it takes turns with.
 class Coroutine {
 public:
-  /// Bytes of stack: code of an SPE needs little, but may be a test with its assertions.
+  /// Bytes of stack. SPE code needs little, but a test with its assertions may need much.
   static constexpr std::size_t kStackBytes = 1024 * 1024;
 
   /// `body` starts with the first resume() and may not let an exception out.
@@ -31,7 +32,7 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// Returns a pointer that every thread and every coroutine has for itself; null at first.
+/// Returns a pointer of which every thread and every coroutine has its own; null at first.
 void*& stack_local();
 
 } // namespace celltrace::cell_emu

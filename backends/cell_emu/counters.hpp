@@ -24,7 +24,7 @@ private:
   std::atomic<std::uint64_t> value_{0};
 };
 
-/// SpuCycles, as counters.
+/// The members of SpuCycles, as counters.
 class CycleCounters {
 public:
   void publish(const SpuCycles& cycles) {

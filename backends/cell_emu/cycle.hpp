@@ -7,7 +7,7 @@ namespace celltrace::cell_emu {
 
 /// SPU cycles since the machine was made.
 using Cycle = std::uint64_t;
-/// Time of an event that does not happen by itself.
+/// Time of an event that no passing of time brings about.
 constexpr Cycle kNever = ~Cycle{0};
 
 } // namespace celltrace::cell_emu

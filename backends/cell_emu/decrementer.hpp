@@ -1,4 +1,4 @@
-// The decrementer, which counts down with the SPE's virtual cycles, never with host time.
+// The decrementer of an emulated SPE, which counts down with the SPE's virtual cycles.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@ namespace celltrace::cell_emu {
 
 class Decrementer {
 public:
-  /// Makes a decrementer of which one tick takes this many cycles.
+  /// Makes a decrementer that counts down by 1 every `cycles_per_tick` cycles.
   explicit Decrementer(std::uint32_t cycles_per_tick) : cycles_per_tick_(cycles_per_tick) {}
 
-  /// Starts the decrementer from `value` at virtual time `cycles`, up to which it has been advanced. Returns
-  /// true if the top bit goes from 0 to 1, which raises the decrementer event as when counting.
+  /// Starts the decrementer from `value` at virtual time `cycles`; call advance(cycles) before. Returns true
+  /// if the top bit goes from 0 to 1, which raises the decrementer event, as it does in counting.
   bool write(std::uint32_t value, std::uint64_t cycles) {
     const bool rises = (~value_ & value) >> 31 != 0;
     value_ = value;
@@ -19,7 +19,7 @@ public:
     running_ = true;
     return rises;
   }
-  /// Keeps the present value until the next write.
+  /// Stops the decrementer at virtual time `cycles` until the next write.
   void freeze(std::uint64_t cycles) {
     advance(cycles);
     running_ = false;

@@ -9,7 +9,8 @@ std::string to_text(const CallSite& site) {
   const std::string_view file = site.file;
   const std::size_t slash = file.find_last_of('/');
   std::string text(slash == std::string_view::npos ? file : file.substr(slash + 1));
-  // Appended piece by piece: GCC 12 takes the sum of a literal and a temporary for an overlapping copy.
+  // Appended piece by piece, because GCC 12 warns of an overlapping copy in the sum of a literal and a
+  // temporary.
   text += ':';
   text += std::to_string(site.line);
   if (*site.function != 0) text.append(" in ").append(site.function);

@@ -1,4 +1,4 @@
-// Collects diagnostics, and applies the configured actions.
+// Collects the diagnostics of a machine, and applies the configured actions.
 #pragma once
 
 #include "celltrace/error.hpp"
@@ -13,7 +13,7 @@
 
 namespace celltrace::cell_emu {
 
-/// The exception that ends the program of the SPE that broke a rule.
+/// The exception that ends an SPE's program because the program broke a rule.
 class RuleViolation : public SpeError {
 public:
   explicit RuleViolation(const Diagnostic& diagnostic) : SpeError(diagnostic.text) {}
@@ -30,10 +30,10 @@ public:
   Action action(Rule rule) const { return actions_[static_cast<unsigned>(rule)]; }
   bool checks(Rule rule) const { return action(rule) != Action::ignore; }
 
-  /// Adds `what`, which describes the event, to the diagnostic's text, and keeps it. Throws RuleViolation if
-  /// the rule's action is to stop.
+  /// Keeps a diagnostic whose text describes the event by `what`. Throws RuleViolation if the rule's action
+  /// is Action::stop. Does nothing if the rule is ignored.
   void report(Diagnostic diagnostic, const std::string& what);
-  /// As report(), without throwing. Returns false if the rule is ignored.
+  /// As report(), but never throws, and completes `diagnostic`. Returns false if the rule is ignored.
   bool note(Diagnostic& diagnostic, const std::string& what);
 
   std::vector<Diagnostic> all() const;

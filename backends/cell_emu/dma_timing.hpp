@@ -1,5 +1,5 @@
-// The duration of DMA: the ports of the SPEs, the memory controller and the bus, each busy with one line at a
-// time. Commands are served in the order of their requests.
+// The timing model of DMA: the SPEs' ports, the memory controller and the bus each transfer one line at a
+// time, in the order of requests.
 #pragma once
 
 #include "celltrace/spe/timing.hpp"
@@ -20,7 +20,7 @@ public:
   DmaTiming(const TimingParameters& timing, unsigned spes) : timing_(timing), port_free_(spes, 0) {}
 
   /// Returns the cycle in which a transfer that starts at `start` is complete. `other` is the SPE on the
-  /// other side, unless that is memory. A partial line costs as much as a whole one.
+  /// other side, unless the other side is memory. A partial line takes as long as a whole line.
   std::uint64_t complete(unsigned spe, std::uint64_t start, DmaTarget target, unsigned other, ea_t ea,
                          std::uint32_t bytes) {
     const std::uint64_t lines = ((ea % kLineBytes) + bytes + kLineBytes - 1) / kLineBytes;

@@ -28,7 +28,7 @@ void wait_for(Machine& machine, unsigned spe, EmulatedRun& run) {
   }
 }
 
-/// Returns the error without the deadlock that `text` already has.
+/// Returns the error without its description of a deadlock, if `text` already contains the description.
 std::string without_told(const std::string& error, const std::string& text) {
   const std::size_t deadlock = error.find("deadlock: ");
   if (deadlock == std::string::npos || text.find(error.substr(deadlock)) == std::string::npos) return error;

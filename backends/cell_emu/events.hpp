@@ -1,9 +1,9 @@
 // The SPU event facility: channels 0, 1, 2 and 11. Not synchronised; see problem_state.hpp.
 //
-// Pending bits accumulate whatever the mask. The count of channel 0 is 0 or 1; it becomes 1 when an enabled
-// event occurs (even one that is already pending), or when a write of the mask or an acknowledge leaves
-// enabled events pending. Only a read of the status clears it: if an event was masked or acknowledged in
-// between, the read is a phantom event with status 0.
+// Events become pending even if the mask disables them. The count of channel 0 is 0 or 1. It becomes 1 when
+// an enabled event occurs (even if this event is already pending), or when an enabled event is still pending
+// after a write of the mask or an acknowledge. Only a read of the status makes the count 0. If the event was
+// masked or acknowledged before the read, the status is 0: a phantom event.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -30,12 +30,12 @@ public:
     pending_ &= ~bits;
     count_enabled();
   }
-  /// Returns the value of channel 0; clears the count, but no pending bit.
+  /// Returns the value of channel 0, the pending enabled events. Clears the count, but no pending bit.
   std::uint32_t read_status() {
     count_ = 0;
     return pending_ & mask_;
   }
-  /// Resets the facility, except that the given bits are pending.
+  /// Resets the facility; the events `pending` are pending afterwards.
   void reset(std::uint32_t pending) {
     pending_ = pending;
     mask_ = 0;

@@ -1,11 +1,10 @@
 // Detects, in lockstep, stores of one SPE's program into the local store of another.
 //
-// Between two turns of a program, only DMA and the PPE may change its local store. The part that the program
-// uses is copied when a turn ends, and compared when its next turn or the PPE's begins. Nothing is compared
-// if DMA has written in between.
-//
-// A copy of the whole part would take longer than the turn. Once 256 KB have been compared, each turn
-// therefore copies one kilobyte, the next one each time, unless the program uses no more than that.
+// Between a program's turns, only DMA and the PPE may change its local store. When its turn ends, the used
+// part of its local store is copied; when its next turn or the PPE's turn begins, the copy is compared with
+// local store. The copy is the whole used part until kAllowance bytes have been compared, or if it has at
+// most kWindow bytes; after that it is another kilobyte in each turn, because copying everything would take
+// longer than the turn. If DMA has written into the local store meanwhile, nothing is compared.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -21,7 +20,7 @@ class ForeignStoreWatch {
 public:
   explicit ForeignStoreWatch(unsigned spes) : seen_(spes) {}
 
-  /// The part of an SPE's local store that is in use.
+  /// The part of an SPE's local store that its program uses.
   struct Used {
     const std::uint8_t* begin;
     std::uint32_t bytes;
@@ -29,7 +28,7 @@ public:
   };
   struct Change {
     std::uint32_t offset;           ///< offset of the first changed word in the part in use
-    std::vector<unsigned> suspects; ///< SPEs that have had turns since; at least one
+    std::vector<unsigned> suspects; ///< SPEs that have had turns since the copy was made; at least one
   };
 
   /// Begins a program of `spe`.
@@ -38,13 +37,13 @@ public:
   /// Ends the last turn of a program.
   void end(unsigned spe);
 
-  /// Returns what others have stored since end_turn(). Each change is returned once.
+  /// Returns a store of another SPE since end_turn(), if there is one. Each change is returned once.
   std::optional<Change> take_change(unsigned spe, const Used& used);
-  /// Accepts all changes as not made by other SPEs.
+  /// Updates the copy, so that changes so far do not count as stores of other SPEs.
   void accept_changes(unsigned spe, const Used& used);
 
 private:
-  /// Number of bytes of a program that are compared as parts larger than a window.
+  /// Number of bytes that are compared, for each program, in copies of more than kWindow bytes.
   static constexpr std::uint32_t kAllowance = 256 * 1024;
   static constexpr std::uint32_t kWindow = 1024;
 
@@ -52,9 +51,9 @@ private:
     std::vector<std::uint8_t> copy; ///< empty: nothing was copied
     std::uint32_t offset = 0;
     std::uint64_t dma_writes = 0;
-    std::uint64_t turn = 0; ///< the last turn that ended
+    std::uint64_t turn = 0; ///< number of the last turn that ended
     std::uint32_t allowance = kAllowance;
-    std::uint32_t next = 0; ///< offset of the next window
+    std::uint32_t next = 0; ///< offset of the kilobyte to be copied in the next turn
   };
 
   static bool has_changed(Seen& seen, const Used& used);

@@ -6,7 +6,7 @@ namespace celltrace::cell_emu {
 
 bool FreeScheduler::all_stalled() const {
   if (active_ != 0) return stalled_ == active_;
-  // An SPE that was interrupted while it paused is about to go on.
+  // A paused SPE that was interrupted counts as running: it is about to go on.
   return std::none_of(spes_.begin(), spes_.end(),
                       [](const auto& spe) { return spe->running && !spe->paused(); });
 }
@@ -18,15 +18,15 @@ void FreeScheduler::stalled(unsigned) {
 }
 
 void FreeScheduler::unstalled(unsigned) {
-  // The count of stalled SPEs may lag, but cannot have shown a deadlock by mistake: an SPE that ends the
-  // stall of another one is not stalled itself.
+  // The SPE that ended this stall does not stall itself, so stalled_ never wrongly reached the number of all
+  // programs.
   const std::lock_guard lock(mutex_);
   --stalled_;
   idle_timeouts_ = 0;
 }
 
 Cycle FreeScheduler::stall(Spe& spe, const ProblemState::Stall& stall, Cycle now, Cycle deadline) {
-  // The SPE would wait as long as its MFC needs: execute all events that happen by themselves.
+  // Virtual time passes until the MFC has nothing more to do: execute all its events.
   while (spe.mfc.next_event() != kNever) {
     now = std::max(now, spe.mfc.run_next());
     if (spe.state.count(stall.channel) != 0) return now;
@@ -56,7 +56,7 @@ Cycle FreeScheduler::pause(Spe& spe, std::uint32_t code, Cycle now) {
 }
 
 Cycle FreeScheduler::enter() {
-  // A PPE that polls for an answer of programs that have failed would do so for ever.
+  // A PPE that polls for an answer of failed programs would poll for ever.
   if (!broken_off_.load(std::memory_order_relaxed) || ++idle_entries_ < kIdleEntries) return 0;
   idle_entries_ = 0;
   const std::lock_guard lock(mutex_);
@@ -118,8 +118,8 @@ bool FreeScheduler::wait(const Ready& ready, std::optional<std::chrono::millisec
     idle_timeouts_ = 0;
     return true;
   }
-  // A PPE may send something between two waits with timeouts. Once two of its waits in a row have ended with
-  // all SPEs stalled, this is no longer likely.
+  // A PPE that waits with timeouts may send something after a timeout, but hardly after two timeouts in a
+  // row.
   idle_timeouts_ = all_stalled() ? idle_timeouts_ + 1 : 0;
   if (timeout && idle_timeouts_ < 2) return false;
   lock.unlock();
@@ -130,7 +130,8 @@ bool FreeScheduler::wait(const Ready& ready, std::optional<std::chrono::millisec
 
 void FreeScheduler::break_off(const std::string& because) {
   {
-    // An SPE keeps the first reason, and an SPE that this wakes breaks the others off as well.
+    // An SPE keeps the first reason that it gets. An SPE that is woken here breaks off the others as well;
+    // the lock makes it wait until all have this reason.
     const std::lock_guard whole(breaking_off_);
     for (const auto& spe : spes_)
       spe->state.interrupt(because);

@@ -1,8 +1,8 @@
-// The free schedule: one host thread per SPE, all of which run as the host decides.
+// The free schedule: one host thread for each SPE; the host decides when they run.
 //
-// Every SPE's virtual clock is its own, and its MFC makes progress when the SPE accesses a channel. Stalls
-// and waits of the SPEs and the PPE are counted, so that a deadlock is detected when the last of them begins
-// to wait.
+// The SPEs' virtual clocks are independent. An SPE's MFC makes progress when the SPE accesses a channel.
+// Stalls and waits of the SPEs and the PPE are counted, so that a deadlock is detected when the last running
+// thread begins to wait.
 #pragma once
 
 #include "backends/cell_emu/scheduler.hpp"
@@ -39,21 +39,21 @@ public:
   void collect(Spe& spe) override;
 
 private:
-  /// Returns true if all running programs stall, so that none can end another's stall.
+  /// Returns true if all running programs stall: no program can end the stall of another.
   bool all_stalled() const;
 
   Spes& spes_;
   DiagnosticLog& log_;
   std::vector<std::thread> threads_;
   std::mutex mutex_;
-  std::mutex breaking_off_;         ///< held while all SPEs receive a reason to stop; taken before mutex_
-  std::condition_variable ppe_;     ///< signals what the PPE may wait for
+  std::mutex breaking_off_;         ///< held while break_off() interrupts all SPEs; taken before mutex_
+  std::condition_variable ppe_;     ///< signals changes that the PPE may wait for
   std::condition_variable resumed_; ///< signals that an SPE was resumed or interrupted
-  unsigned active_ = 0;             ///< programs that neither ended nor paused
-  unsigned stalled_ = 0;            ///< number of these that stall
-  unsigned idle_timeouts_ = 0;      ///< consecutive timeouts of the PPE while all stalled
+  unsigned active_ = 0;             ///< number of programs that have neither ended nor paused
+  unsigned stalled_ = 0;            ///< number of active programs that stall
+  unsigned idle_timeouts_ = 0;      ///< consecutive timeouts of the PPE while all programs stalled
   std::atomic<bool> broken_off_{false};
-  std::uint64_t idle_entries_ = 0; ///< entries of the PPE since programs were broken off
+  std::uint64_t idle_entries_ = 0; ///< number of calls of enter() since programs were broken off
 };
 
 } // namespace celltrace::cell_emu

@@ -53,7 +53,7 @@ Maps read_maps() {
   return maps;
 }
 
-/// The ranges that were last read.
+/// The ranges of the last read of /proc/self/maps, for all threads.
 struct Shared {
   std::shared_mutex mutex;
   Maps maps;

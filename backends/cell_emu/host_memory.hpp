@@ -1,11 +1,10 @@
-// Finds out which part of the host's address space can be read and written: main memory, as far as the host
-// tells.
+// Finds out which addresses of the host can be read and written. These addresses are the main memory of the
+// emulated Cell.
 //
-// On Linux this is /proc/self/maps, which each program reads when it meets an address that is not known
-// to be accessible. The answers are kept while the program runs, since asking for every command would take
-// longer than the command: memory that the process gives back meanwhile still counts as accessible, and a
-// command that touches it crashes as an access by the host would. On other hosts everything counts as
-// accessible.
+// On Linux, /proc/self/maps is read when a program uses an address that is not yet known to be accessible.
+// The answers are kept while the program runs, because asking for every command would take longer than the
+// command. Memory that the process gives back meanwhile still counts as accessible; a command on it crashes,
+// as an access by the host would. On other hosts all memory counts as accessible.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -22,14 +21,14 @@ struct MemoryRange {
   bool has(ea_t ea, std::uint32_t size) const { return ea >= begin && ea <= end && size <= end - ea; }
 };
 
-/// Returns the largest known range around [ea, ea + size) that the process can read, or write; nothing if a
-/// part is not accessible. Thread-safe.
+/// Returns the largest known range around [ea, ea + size) that the process can read, or with `write` can
+/// write; nothing if a part of [ea, ea + size) is not accessible. Thread-safe.
 std::optional<MemoryRange> accessible_memory(ea_t ea, std::uint32_t size, bool write);
 
 /// Forgets all known ranges. Thread-safe.
 void forget_memory();
 
-/// A cache of the ranges of the last answers. Thread safety: none.
+/// A cache of the last ranges that accessible_memory() returned. Thread safety: none.
 class HostMemory {
 public:
   bool is_accessible(ea_t ea, std::uint32_t size, bool write) {

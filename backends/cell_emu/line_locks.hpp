@@ -1,5 +1,5 @@
-// Locks that make the lines of the main storage domain atomic to DMA: striped by address, so that SPEs that
-// use different data rarely compete.
+// Locks that make DMA on a line of the main storage domain atomic. Many lines share a lock, chosen by
+// address, so that SPEs that use different data rarely compete.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -22,7 +22,7 @@ public:
 
 private:
   void wait(unsigned& tries) {
-    // With more SPEs than processors the thread that holds the lock may be asleep.
+    // If there are more SPEs than processors, the thread that holds the lock may be asleep.
     while (locked_.load(std::memory_order_relaxed))
       if (++tries % 64 == 0) std::this_thread::yield();
   }
@@ -30,7 +30,7 @@ private:
   std::atomic<bool> locked_{false};
 };
 
-/// One stripe: the lock of all lines that map to it, and the number of SPEs' reservations on these lines.
+/// The lock of all lines that map to this stripe, and the number of SPEs' reservations of these lines.
 struct alignas(64) Stripe {
   SpinLock lock;
   std::uint32_t reservations = 0; ///< guarded by lock

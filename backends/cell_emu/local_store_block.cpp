@@ -27,7 +27,7 @@ LocalStoreBlock::LocalStoreBlock(unsigned spes) : bytes_(kLocalStoreBytes + spes
   if (memory_ == MAP_FAILED) throw std::bad_alloc();
   const auto address = reinterpret_cast<std::uintptr_t>(memory_);
   begin_ = static_cast<std::uint8_t*>(memory_) + (kAlignment - address % kAlignment) % kAlignment;
-  // The former owner of these addresses, such as a stack, may have left them forbidden.
+  // The former user of these addresses, such as a stack, may have left them forbidden to access checkers.
   permit_access(begin_, bytes_);
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   const std::size_t edge = (kEdgeBytes + page - 1) / page * page;
@@ -41,7 +41,7 @@ LocalStoreBlock::LocalStoreBlock(unsigned spes) : bytes_(kLocalStoreBytes + spes
 }
 
 LocalStoreBlock::~LocalStoreBlock() {
-  // The next owner of these addresses may use them.
+  // Memory that is mapped here next must not be forbidden.
   permit_access(begin_, bytes_);
   munmap(memory_, memory_bytes_);
 }

@@ -1,10 +1,10 @@
-// The memory of all local stores of a machine, with guards that detect stores just outside of them.
+// The memory of all local stores of a machine, with guards that detect stores just outside of a local store.
 //
 //   gap | edge | local store 0 | edge | gap | edge | local store 1 | edge | gap | ...
 //
-// Each local store is aligned to its 256 KB and has gaps of 256 KB around it. The first 4 KB of a gap on
-// either side are an edge: a pattern that is checked. The rest of a gap is inaccessible if the host has such
-// memory: a store that misses a local store by more crashes at once.
+// Each local store is aligned to its 256 KB and has gaps of 256 KB around it. The 4 KB in front of and behind
+// a local store are its edges, filled with a pattern that is checked. The rest of a gap is inaccessible if
+// the host supports this, so that a store farther away crashes at once.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -15,7 +15,7 @@
 
 namespace celltrace::cell_emu {
 
-/// The block. Thread safety: the edges of a local store belong to the thread that runs its SPE.
+/// The memory block. Thread safety: the edges of a local store belong to the thread that runs its SPE.
 class LocalStoreBlock {
 public:
   /// Bytes from one local store to the next.
@@ -38,8 +38,8 @@ public:
     const std::uint8_t* const at = local_store(spe);
     return is_intact(at - kLineBytes, kLineBytes) && is_intact(at + kLocalStoreBytes, kLineBytes);
   }
-  /// Returns the first changed byte of the edges, as an address in the local store: negative in front of it.
-  /// Restores the edges.
+  /// Returns the offset from the local store's beginning of the first changed byte of its edges, negative in
+  /// front of the local store; nothing if no byte has changed. Restores the edges.
   std::optional<std::int64_t> take_overrun(unsigned spe) const;
 
 private:

@@ -7,7 +7,7 @@
 namespace celltrace::cell_emu {
 namespace {
 
-// Pairs of words in the byte order of this machine's programs.
+// Fill patterns: pairs of words, in the byte order of host code.
 constexpr std::uint64_t kPoison = 0x7FB0DEAD'7FB0DEADu;
 constexpr std::uint32_t kInFlightWord = 0x7FB5DEADu;
 constexpr std::uint32_t kQuiet = 0x00400000u;
@@ -36,7 +36,7 @@ bool is_filled(const std::uint8_t* at, std::uint32_t bytes, std::uint64_t patter
 } // namespace
 
 std::uint64_t checksum(const std::uint8_t* at, std::uint32_t bytes) {
-  // Four independent sums, since each step has to wait for the one before.
+  // Four independent sums, because each step of a sum waits for the step before.
   std::uint64_t sums[4] = {bytes, 1, 2, 3};
   const auto take = [](std::uint64_t& sum, const std::uint8_t* from) {
     std::uint64_t word;

@@ -14,7 +14,7 @@ LockstepScheduler::LockstepScheduler(Spes& spes, unsigned count, DiagnosticLog& 
                                      const EmulationConfig& config)
     : spes_(spes), log_(log), config_(config), random_(config.seed, kSchedulerStream), agents_(count),
       watch_(count), watches_(count > 1 && log.checks(Rule::foreign_store)) {
-  // Some seeds switch SPEs all the time, others let an SPE run far ahead.
+  // With some seeds SPEs switch all the time, with others an SPE runs far ahead.
   constexpr std::uint32_t kPatience[] = {2, 4, 16, 128};
   patience_ = kPatience[random_.below(4)];
 }
@@ -30,7 +30,7 @@ void LockstepScheduler::suspend(Agent& agent) {
 }
 
 void LockstepScheduler::reach(Spe& spe, Cycle now) {
-  // An SPE that is always behind all others keeps its turn for ever.
+  // An SPE whose time is always the least keeps its turn for ever, so it has to look for interrupts itself.
   obey_interrupt();
   Agent& agent = agents_[spe.id];
   agent.now = now;
@@ -128,19 +128,19 @@ void LockstepScheduler::check_foreign_stores(unsigned spe) {
       what += " SPE " + std::to_string(suspect);
   }
   if (!log_.note(diagnostic, what) || diagnostic.action != Action::stop) return;
-  // If the writer has ended, or is not known, the SPE whose data are spoilt cannot go on.
+  // The writer's program fails. If it has ended, or is not known, the program whose data are spoilt fails.
   const bool writer_runs = certain && agents_[writer].state != State::idle;
   fail(writer_runs ? writer : spe, std::make_exception_ptr(RuleViolation(diagnostic)));
 }
 
-/// Begins the PPE's turn: changes found now are not its own.
+/// Begins the PPE's turn. Looks first for stores of other SPEs, which could later be taken for the PPE's.
 void LockstepScheduler::begin_ppe_turn() {
   if (!watches_ || std::exchange(ppe_turn_, true)) return;
   for (const auto& spe : spes_)
     check_foreign_stores(spe->id);
 }
 
-/// Ends the PPE's turn, in which it may store into any mapped local store.
+/// Ends the PPE's turn. Accepts its changes, because the PPE may store into any mapped local store.
 void LockstepScheduler::end_ppe_turn() {
   if (!watches_ || !std::exchange(ppe_turn_, false)) return;
   for (const auto& spe : spes_)
@@ -175,7 +175,7 @@ LockstepScheduler::Turn LockstepScheduler::drawn_turn() {
     consider({spes_[spe]->mfc.next_event(), spe, true});
     if (agent.state == State::ready) consider({agent.now, spe, false});
   }
-  // A stall ends by the passing of time only when nothing else can happen.
+  // If no agent can act, time passes until a stall ends.
   return candidates != 0 ? drawn : next_turn();
 }
 
@@ -187,7 +187,7 @@ void LockstepScheduler::run_mfc(unsigned spe) {
   }
 }
 
-/// Notes a failure, which the program gets in its next turn.
+/// Notes a failure that is thrown in the program's next turn.
 void LockstepScheduler::fail(unsigned spe, std::exception_ptr failure) {
   agents_[spe].failure = std::move(failure);
   spes_[spe]->mfc.abandon();

@@ -1,10 +1,10 @@
 // The lockstep schedule: one SPE at a time, as coroutines on the PPE's thread, so that a run is the same on
 // every machine.
 //
-// By virtual time, the next to act is the one that is furthest behind: an SPE's program, its MFC, or the PPE;
-// ties go to the MFC and to the lower number. When exploring, the next one is drawn from the seed, and
-// virtual time only adds up. SPEs run while the PPE is inside a call; the PPE's own work between its calls
-// takes no time.
+// The agents are the SPEs' programs, their MFCs and the PPE. By virtual time, the agent with the least time
+// acts next; of agents with equal times, MFCs and lower-numbered SPEs go first. When exploring, the next
+// agent is drawn from the seed, and virtual time does not decide. SPEs run while the PPE is inside a call;
+// the PPE's own work between its calls takes no time.
 #pragma once
 
 #include "backends/cell_emu/coroutine.hpp"
@@ -48,10 +48,10 @@ private:
   enum class State : unsigned char { idle, ready, stalled, paused };
   struct Agent {
     State state = State::idle;
-    Cycle now = 0;           ///< time of its next action
+    Cycle now = 0;           ///< time of the program's next action
     Cycle deadline = kNever; ///< end of a stall
     std::unique_ptr<Coroutine> program;
-    std::exception_ptr failure; ///< found while its program was not running
+    std::exception_ptr failure; ///< thrown in the program's next turn
   };
   struct Turn {
     Cycle at = kNever;
@@ -59,11 +59,10 @@ private:
     bool mfc = false;
   };
 
-  /// Returns the next turn by virtual time, leaving out the SPE `apart`.
+  /// Returns the next turn by virtual time, without the SPE `apart`.
   Turn next_turn(unsigned apart = kNobody) const;
   Turn drawn_turn();
-  /// Gives one turn to the agent that is furthest behind, unless that is after `limit`. Returns false if
-  /// there is none.
+  /// Gives one turn to the next agent. Returns false if no agent can act until `limit`.
   bool step(Cycle limit);
   void run_mfc(unsigned spe);
   void fail(unsigned spe, std::exception_ptr failure);
@@ -79,7 +78,7 @@ private:
   DiagnosticLog& log_;
   const EmulationConfig& config_;
   SeededRandom random_;
-  /// Average number of actions of an SPE between two interruptions, when exploring.
+  /// Average number of an SPE's actions between two switches to other agents, when exploring.
   std::uint32_t patience_;
   std::vector<Agent> agents_;
   ForeignStoreWatch watch_;
@@ -87,7 +86,7 @@ private:
   bool ppe_turn_ = true;
   Cycle ppe_now_ = 0;
   Cycle current_ = 0;      ///< time of the present action
-  Cycle horizon_ = kNever; ///< time from which the running program has to let others go first
+  Cycle horizon_ = kNever; ///< time from which the running program has to let other agents act first
   Cycle latest_ = 0;       ///< latest time of any action
   unsigned idle_timeouts_ = 0;
   std::uint64_t idle_entries_ = 0;

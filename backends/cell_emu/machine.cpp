@@ -35,7 +35,8 @@ MachineConfig checked(MachineConfig config) {
   return config;
 }
 
-/// Returns the arena of a program: the local store between its code and stack; empty if nothing is left.
+/// Returns the arena of a program, which is the local store between its code and its stack; empty if nothing
+/// is left.
 ArenaRange arena_of(LocalStoreUse use) {
   const std::uint64_t begin = (std::uint64_t{use.code_bytes} + kLineBytes - 1) / kLineBytes * kLineBytes;
   const std::uint64_t taken = begin + use.stack_bytes + 2 * kLineBytes;
@@ -120,14 +121,15 @@ private:
   DiagnosticLog log_;
   Flights flights_;
   Bounds bounds_;
-  std::vector<DmaTiming> timing_; ///< one, or on the free schedule one for every SPE
+  std::vector<DmaTiming> timing_; ///< one for all SPEs, but on the free schedule one for each SPE
   std::vector<ProblemState*> registers_;
   Bus bus_;
   const MfcContext mfc_context_;
   Spes spes_;
   std::unique_ptr<Scheduler> scheduler_;
   std::unique_ptr<SimulatedPrograms> programs_; ///< only for SPUs that execute machine code
-  std::vector<bool> started_;                   ///< started and not yet collected
+  /// By SPE: true if its program was started and its end not yet waited for.
+  std::vector<bool> started_;
   unsigned stops_seen_ = 0; ///< programs that had stopped when the PPE last waited for mail
   bool failed_ = false;     ///< true if an SPE has failed and interrupted the others; PPE thread only
   std::atomic<bool> interrupted_{false};
@@ -281,7 +283,7 @@ void EmulatedCell::wait_until_stopped(const Spe& spe) {
   try {
     scheduler_->wait(stopped, std::nullopt, what);
   } catch (const SpeError&) {
-    // The deadlock has been reported to the SPEs, which end with it.
+    // The exception reports a deadlock, which also ends the programs of the SPEs.
     scheduler_->wait(stopped, std::nullopt, what);
   }
 }
@@ -320,13 +322,13 @@ void EmulatedCell::collect(Spe& spe) {
   resume_when_idle();
 }
 
-/// Allows stalls again once no program is left that a failure could leave waiting.
+/// Withdraws interrupts after a failure, once all programs have been waited for.
 void EmulatedCell::resume_when_idle() {
   if (!failed_ || std::find(started_.begin(), started_.end(), true) != started_.end()) return;
   failed_ = false;
   for (const auto& spe : spes_)
     spe->state.resume();
-  // An interrupt() from another thread may have come in between; it is permanent.
+  // interrupt(), which is permanent, may have been called by another thread meanwhile.
   if (interrupted_) scheduler_->interrupt();
 }
 
@@ -353,7 +355,8 @@ void EmulatedCell::write_in_mailbox(unsigned spe, std::uint32_t value) {
                    "room in the mailbox of SPE " + std::to_string(spe));
   if (full())
     throw SpeError("SPE " + std::to_string(spe) + ": is not running, and its inbound mailbox is full");
-  // Nothing has happened since, on the lockstep schedule; with threads another SPE may have been faster.
+  // On the lockstep schedule nothing has happened since the wait; on the free schedule an SPE may have filled
+  // the mailbox meanwhile.
   if (!to.state.write_in_mailbox(value, {Diagnostic::kPpe, scheduler_->post_at_once()}))
     report_ppe(Rule::mailbox_overwritten, spe, "inbound mailbox");
 }

@@ -1,9 +1,9 @@
 // The emulated Cell: a 256 KB local store per SPE, and strict checks of every MFC command.
 //
-// If an SPE breaks a rule, it ends with an SpeError that names the SPE, the command, the addresses, the tag
-// and the rule. When all SPEs have been waited for after such an error, the machine can be used again; after
-// interrupt() it cannot. A kernel that runs for ever without accessing a channel that may stall cannot be
-// interrupted.
+// If a program breaks a rule, it ends with an SpeError that names the SPE, the command, the addresses, the
+// tag and the rule. The machine can be used again after such an error, once all SPEs have been waited for; it
+// cannot be used after interrupt(). A kernel that runs for ever without accessing a channel that may stall
+// cannot be interrupted.
 #pragma once
 
 #include "celltrace/spe/machine.hpp"

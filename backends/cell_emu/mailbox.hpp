@@ -8,7 +8,8 @@
 
 namespace celltrace::cell_emu {
 
-/// A word under way: its value, and the number of its arrow in the trace (0: none).
+/// A word that is sent: its value, the number of its arrow in the trace (0: none), and the virtual time of
+/// arrival.
 struct Word {
   std::uint32_t value = 0;
   std::uint64_t arrow = 0;

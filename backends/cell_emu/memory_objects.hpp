@@ -1,4 +1,5 @@
-// The objects in main memory that the host has registered: commands that touch one have to stay in it.
+// The objects in main memory that the application has registered. A command that touches an object has to
+// stay within it.
 #pragma once
 
 #include "celltrace/spe/emulation.hpp"
@@ -17,12 +18,13 @@ public:
   /// Throws InputError for objects that overlap or have no bytes.
   explicit MemoryObjects(const std::vector<MemoryObject>& objects);
 
-  /// Adds an object. Throws InputError if it has no bytes or overlaps another.
+  /// Adds an object. Throws InputError if it has no bytes or overlaps another object.
   void add(const MemoryObject& object);
-  /// Removes the object at `begin`. Throws InputError if there is none.
+  /// Removes the object that begins at `begin`. Throws InputError if no object begins there.
   void remove(ea_t begin);
 
-  /// Returns the object that [ea, ea + size) touches and leaves. Fast if there are no objects.
+  /// Returns the object that [ea, ea + size) touches but is not within; nothing if there is no such object.
+  /// Fast if no objects are registered.
   std::optional<MemoryObject> left_by(ea_t ea, std::uint32_t size) const {
     if (count_.load(std::memory_order_relaxed) == 0) return std::nullopt;
     return find_left_by(ea, size);
@@ -34,7 +36,7 @@ private:
   std::map<ea_t, MemoryObject>::const_iterator first_behind(ea_t ea) const;
 
   mutable std::shared_mutex mutex_;
-  std::map<ea_t, MemoryObject> objects_; ///< key: begin; none overlaps another
+  std::map<ea_t, MemoryObject> objects_; ///< by address; no two overlap
   std::atomic<std::size_t> count_{0};
 };
 

@@ -117,7 +117,7 @@ void Mfc::issue(const MfcCommand& given, CallSite site, Cycle now) {
   if (!check(given, commands_, site, now, false)) return;
   MfcCommand command = given;
   if (kind_of(command.opcode) == CommandKind::lock_line) {
-    // If an unaligned command is let pass, its addresses are truncated as on the hardware.
+    // If the rule's action permits an unaligned command, its addresses are truncated as on the hardware.
     command.lsa &= ~(kLineBytes - 1);
     command.ea &= ~ea_t{kLineBytes - 1};
   }
@@ -191,7 +191,7 @@ void Mfc::check_conditional(const MfcCommand& command, CallSite site, Cycle now)
     rule = Rule::reservation_lost_to_own_put;
     break;
   case Bus::Reservation::held:
-    // Another SPE may have taken the line in the meantime, which is no mistake.
+    // The SPE may have lost its reservation to another SPE, which is no mistake.
     if (bus_.reserves_other_than(spe_, command.ea)) rule = Rule::conditional_without_reservation;
     break;
   case Bus::Reservation::lost_to_others:
@@ -268,8 +268,8 @@ void Mfc::start_ready(Cycle now) {
 
 void Mfc::start(Entry& entry, Cycle now) {
   const EmulationConfig& config = context_.config;
-  // All commands that it is ordered behind are complete, so their data have to be moved, however late that
-  // is.
+  // All commands that this command is ordered behind are complete, so their data have to be moved now, even
+  // with TransferTime::at_wait.
   std::vector<Flight>::size_type count = context_.flights.of(spe_).size();
   for (std::size_t i = 0; i < count; ++i) {
     Flight& flight = context_.flights.at(spe_, i);
@@ -283,7 +283,7 @@ void Mfc::start(Entry& entry, Cycle now) {
     context_.flights.for_each(spe_, [&](Flight& flight) {
       if (flight.command == entry.number || !is_ordered_before(flight, entry)) return;
       flight.released = true;
-      // A wait for the other tag may tell the program of it.
+      // By a wait for the tag of `entry` the program may learn that this flight is complete.
       if (flight.transfer.tag != entry.command.tag) permit(flight);
     });
   entry.due = time_of(entry, now) + random_.below(config.faults.dma_delay);
@@ -291,7 +291,7 @@ void Mfc::start(Entry& entry, Cycle now) {
   entry.move_at = kNever;
   const bool random = config.transfers == TransferTime::random;
   if (random) entry.due += random_.below(entry.due - now + 1);
-  // Half of the gets move their data when they are waited for.
+  // One half of the gets, chosen at random, move their data when the program waits for them.
   if (random && !(kind_of(entry.command.opcode) == CommandKind::get && random_.once_in(2)))
     entry.move_at = now + random_.below(entry.due - now + 1);
   for (std::size_t i = 0; i < count; ++i) {
@@ -306,7 +306,8 @@ void Mfc::start(Entry& entry, Cycle now) {
       check_source(flight, entry, now);
       continue;
     }
-    // All data that this get is ordered behind have moved: its target belongs to nobody.
+    // All transfers that this get is ordered behind have moved their data, so that nothing else uses the
+    // get's target.
     if (config.transfers != TransferTime::at_issue) {
       flight.hashed = !flight.shared;
       bus_.count_local_store_write(spe_);
@@ -365,7 +366,7 @@ void Mfc::move_data(Entry& entry, Cycle now) {
 void Mfc::complete(std::size_t index, Cycle now) {
   Entry& entry = queue_[index];
   const TransferTime when = context_.config.transfers;
-  // A get whose data have not been waited for moves them at the wait.
+  // A get that the program has not waited for moves its data when the program waits.
   const bool deferred = kind_of(entry.command.opcode) == CommandKind::get && entry.move_at == kNever &&
                         when != TransferTime::at_issue;
   if (!entry.moved && !deferred) move_data(entry, now);

@@ -1,4 +1,5 @@
-// The end of a kernel: its MFC completes all commands and reports what the program has left undone.
+// Mfc::finish(): at the end of a kernel the MFC completes all commands, and reports what the program has left
+// undone, such as transfers without a wait.
 #include "backends/cell_emu/mfc.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
 
@@ -42,7 +43,8 @@ void Mfc::finish(Cycle now) {
     else if (note_drained(FlightInfo(flight), diagnostic, now) && diagnostic.action == Action::stop && !first)
       first = diagnostic;
   }
-  // A stopped list whose transferred part the program has seen has no flight, but is not done.
+  // A stopped list is not done, even if it has no flight because the program has observed the transferred
+  // part.
   const std::vector<Flight>& flights = context_.flights.of(spe_);
   for (const Entry& entry : queue_)
     if (entry.stalled && !entry.proxy &&

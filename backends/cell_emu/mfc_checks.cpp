@@ -1,5 +1,5 @@
-// Checks of the MFC that the rules of single commands leave out: the bounds of allocations, of objects in
-// main memory, of the arena and of local store.
+// The MFC's checks of bounds: of allocations, of objects in main memory, of the arena and of local store.
+// mfc_rules.hpp has the other rules.
 #include "backends/cell_emu/mfc.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
 #include "celltrace/spe/spu.hpp"
@@ -18,7 +18,7 @@ std::string describe(const Allocations::Allocation& allocation) {
   return text;
 }
 
-/// Returns the bytes of local store that a command uses; for a list command those of the list.
+/// Returns the number of bytes of local store that a command uses; for a list command, the bytes of the list.
 std::uint32_t storage_bytes(const MfcCommand& command) {
   switch (kind_of(command.opcode)) {
   case CommandKind::get:
@@ -96,8 +96,9 @@ void Mfc::check_stores(CallSite site, Cycle now) {
     throw RuleViolation(overrun);
 }
 
-/// Returns the range of local store in which a command leaves an allocation: of the issuing program, or of
-/// another SPE's. A proxy command is not checked against its own SPE's allocations.
+/// Returns the range of local store in which a command crosses the bounds of an allocation of the issuing
+/// program or of another SPE's program; nothing if it crosses no bounds. A proxy command is not checked
+/// against its own SPE's allocations.
 std::optional<Mfc::LocalRange> Mfc::unallocated(const MfcCommand& command, bool proxy) const {
   const std::uint32_t size = storage_bytes(command);
   if (size == 0) return std::nullopt;
@@ -111,7 +112,8 @@ std::optional<Mfc::LocalRange> Mfc::unallocated(const MfcCommand& command, bool 
   return LocalRange{place.spe, there};
 }
 
-/// Returns the object that the command leaves. Lock-line commands move whole lines, whatever lies in them.
+/// Returns the object that the command touches and leaves. Lock-line commands are not checked, because they
+/// move whole lines.
 std::optional<MemoryObject> Mfc::left_object(const MfcCommand& command) const {
   const CommandKind kind = kind_of(command.opcode);
   if ((kind != CommandKind::get && kind != CommandKind::put) || is_list(command.opcode) || command.size == 0)
@@ -151,7 +153,7 @@ EaKind Mfc::target_of(const MfcCommand& command, std::uint32_t size, bool proxy)
   const EaKind kind = bus_.map().locate(command.ea, size).kind;
   if (kind != EaKind::main_memory) return kind;
   const bool write = writes_storage(command.opcode);
-  // The PPE checks its commands on a thread of its own.
+  // host_memory_ belongs to the SPE's thread, but proxy commands are checked on the PPE's.
   const bool accessible = proxy ? accessible_memory(command.ea, size, write).has_value()
                                 : host_memory_.is_accessible(command.ea, size, write);
   return accessible ? kind : EaKind::unmapped;

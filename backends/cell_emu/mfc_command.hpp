@@ -7,13 +7,15 @@
 
 namespace celltrace::cell_emu {
 
-/// Entries of the queue for commands of the PPE, or of any other writer of an SPE's problem state.
+/// Entries of the proxy queue, for commands that the PPE, or another writer of an SPE's problem state,
+/// issues.
 constexpr unsigned kProxyQueueEntries = 8;
 /// Number of tags that libspe2 leaves to programs; the others are the system's.
 constexpr std::uint32_t kProxyTags = 16;
 
-/// The parameters of channels 16..21. For a list command `size` is the length of the list in bytes, the high
-/// half of `ea` is that of all its elements, and the low half is the local-store address of the list.
+/// The parameters of channels 16..21. For a list command, `size` is the length of the list in bytes, the high
+/// half of `ea` is the high half of all elements' addresses, and the low half of `ea` is the local-store
+/// address of the list.
 struct MfcCommand {
   MfcOpcode opcode;
   std::uint32_t tag;
@@ -69,13 +71,13 @@ constexpr CommandKind kind_of(MfcOpcode opcode) {
   return CommandKind::unknown;
 }
 
-/// Returns whether the opcode has a suffix bit, which has a meaning only for transfers and signals.
+/// Returns true if the opcode has the suffix `bit`. Only opcodes of transfers and signals have suffixes.
 constexpr bool has_suffix(MfcOpcode opcode, std::uint32_t bit) {
   const CommandKind kind = kind_of(opcode);
   return (kind == CommandKind::get || kind == CommandKind::put || kind == CommandKind::send_signal) &&
          (static_cast<std::uint32_t>(opcode) & bit) != 0;
 }
-/// Returns true if the command is ordered after all earlier commands of its tag, and before all later ones.
+/// Returns true if the command is ordered after all earlier and before all later commands of its tag.
 constexpr bool has_barrier(MfcOpcode opcode) {
   return has_suffix(opcode, 1);
 }
@@ -103,7 +105,8 @@ constexpr bool writes_storage(MfcOpcode opcode) {
          (kind == CommandKind::lock_line && opcode != MfcOpcode::getllar);
 }
 
-/// Returns whether `earlier` must be complete before `later` of the same queue may move, by these two alone.
+/// Returns true if `earlier` must be complete before `later` of the same queue may start, without regard to
+/// commands between them.
 constexpr bool is_ordered(const MfcCommand& earlier, const MfcCommand& later) {
   if (kind_of(earlier.opcode) == CommandKind::barrier || kind_of(later.opcode) == CommandKind::barrier)
     return true;

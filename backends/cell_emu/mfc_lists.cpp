@@ -49,12 +49,13 @@ void Mfc::check_list_unchanged(const Entry& entry, Cycle now) {
 
 bool Mfc::complete_part(Entry& entry, Cycle now) {
   check_list_unchanged(entry, now);
-  // A notify bit in the last element has no effect: there is nothing left to stop.
+  // A notify bit in the last element has no effect, because no element is left.
   if (entry.next_element == entry.elements.size()) return true;
   entry.stalled = true;
   entry.due = kNever;
   entry.moved = true;
-  // The event is the rise of the channel's count; a stop that joins an unread status only adds its bit.
+  // The event occurs when the channel's count rises to 1. If a status is still unread, a further stop only
+  // adds its bit to the status.
   const bool rises = stalled_tags_ == 0;
   stalled_tags_ |= 1u << entry.command.tag;
   if (rises) problem_state_.raise_own(event::list_stall);
@@ -78,8 +79,7 @@ void Mfc::acknowledge_list_stall(std::uint32_t tag, CallSite site, Cycle now) {
   for (Entry& entry : queue_) {
     if (!entry.stalled || entry.command.tag != tag) continue;
     entry.stalled = false;
-    // Read the rest of the list again: the program may have written it during the stop, which is the purpose
-    // of stops.
+    // Read the rest of the list again, because programs may write it during the stop.
     const std::uint32_t done = entry.next_element;
     read_list(entry);
     entry.next_element = done;

@@ -1,8 +1,9 @@
-// The architecture's rules for MFC commands, as pure functions: which rule does a command break?
+// The architecture's rules for MFC commands, as pure functions. The functions broken_..._rule() return the
+// rule that a command breaks, or Rule::none.
 //
 // Sources: Cell Broadband Engine Programming Handbook, chapter "DMA transfers and inter-processor
-// communication"; spu_mfcio.h of GCC 9.3; Linux spufs_check_valid_dma(). If the hardware wraps or ignores
-// bits silently, these rules are stricter on purpose.
+// communication"; spu_mfcio.h of GCC 9.3; Linux spufs_check_valid_dma(). Where the hardware silently wraps
+// addresses or ignores bits, these rules are stricter on purpose.
 #pragma once
 
 #include "backends/cell_emu/mfc_command.hpp"
@@ -20,7 +21,7 @@ enum class EaKind {
   signal_2,
   in_mailbox,
   no_register, ///< problem state without a register that the emulator implements
-  unmapped,    ///< no storage, or the range leaves the storage that it starts in
+  unmapped,    ///< no storage, or the range crosses the end of the storage that it starts in
 };
 constexpr bool is_register(EaKind kind) {
   return kind == EaKind::signal_1 || kind == EaKind::signal_2 || kind == EaKind::in_mailbox;
@@ -32,8 +33,8 @@ Rule broken_transfer_rule(const MfcCommand& command, EaKind target);
 /// Checks a list command without its elements.
 Rule broken_list_rule(const MfcCommand& command);
 
-/// Returns the transfer of one element of a list; `quadword` is the local-store address of the element's
-/// first quadword, in which the low 4 bits of its effective address choose the byte.
+/// Returns the transfer of one element of a list. `quadword` is the local-store address of the element's
+/// first quadword; the low 4 bits of the element's effective address choose the byte in this quadword.
 MfcCommand element_command(const MfcCommand& list, const ListElement& element, std::uint32_t quadword);
 
 /// Checks the result of element_command().
@@ -42,7 +43,7 @@ Rule broken_element_rule(const MfcCommand& part, EaKind target);
 /// Checks getllar, putllc, putlluc or putqlluc.
 Rule broken_lock_line_rule(const MfcCommand& command, EaKind target);
 
-/// Checks sdcrz and the cache hints. The hints may name any mapped address.
+/// Checks sdcrz and the hints for the PPE's cache. A hint may have any mapped address.
 Rule broken_cache_control_rule(const MfcCommand& command, EaKind target);
 
 /// Checks the further rules of a command of the proxy queue.
@@ -51,7 +52,8 @@ Rule broken_proxy_rule(const MfcCommand& command);
 /// Checks the rules of all commands: the opcode exists, the tag is 0..31.
 Rule broken_common_rule(const MfcCommand& command);
 
-/// Returns whether a command that broke a rule, whose action is not to stop, can still be carried out.
+/// Returns true if a command that broke `rule` can still be executed, provided that the rule's action is not
+/// Action::stop.
 constexpr bool can_be_carried_out(Rule rule) {
   return rule == Rule::none || rule == Rule::zero_size || rule == Rule::line_alignment ||
          rule == Rule::program_overwritten || rule == Rule::allocation_bounds || rule == Rule::object_bounds;

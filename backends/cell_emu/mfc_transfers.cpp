@@ -1,5 +1,5 @@
-// The MFC's transfers in flight: their conflicts, the moves of their data, and accesses of the program to
-// them.
+// The MFC's transfers in flight: conflicts between them, the moves of their data, and accesses of the program
+// to their local store.
 #include "backends/cell_emu/access_checkers.hpp"
 #include "backends/cell_emu/isa/state.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
@@ -37,8 +37,8 @@ bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
          flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
 }
 
-/// Returns, for a list that goes on after a stop, whether the flight belongs to a command that waits for all
-/// of the list.
+/// Returns true if the flight belongs to a command that waits until all of `entry`, a list that goes on after
+/// a stop, is complete.
 bool Mfc::is_ordered_behind(const Flight& flight, const Entry& entry) const {
   if (flight.proxy != entry.proxy || flight.command <= entry.number) return false;
   std::vector<const MfcCommand*> chain{&entry.command};
@@ -54,7 +54,7 @@ bool Mfc::is_ordered_behind(const Flight& flight, const Entry& entry) const {
 }
 
 void Mfc::forbid(Flight& flight) {
-  // Machine code may load what is forbidden to host code; its use of the loaded data is judged.
+  // Machine code may load data early, as long as it does not use them (early_loads.hpp).
   if (!has_checker_ || watch_ != nullptr) return;
   flight.forbidden = true;
   forbid_access(local_store(flight.transfer), flight.bytes());
@@ -93,7 +93,7 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
   const bool lock_line = kind_of(transfer.opcode) == CommandKind::lock_line;
   if (is_immediate(transfer.opcode))
     flight.transfer.opcode = transfer.opcode == MfcOpcode::getllar ? MfcOpcode::get : MfcOpcode::put;
-  // Whole lines of lock-line commands are no race; nor are registers.
+  // Lines of lock-line commands and registers cannot be part of a race.
   flight.has_storage = !lock_line && !is_register(bus_.map().locate(transfer.ea, transfer.size).kind);
   for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
     Flight& other = context_.flights.at(spe_, i);
@@ -120,8 +120,8 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
 
 // --- loads and stores of machine code ---
 
-/// Marks the quadwords of a flight, so that stores into them are checked, and loads too if the flight writes
-/// them. Leaves out proxy commands, of which the SPU cannot know.
+/// Marks the quadwords of a flight's local store, so that the SPU's loads and stores there are checked. Skips
+/// proxy commands, which the SPU cannot know.
 void Mfc::watch(const Flight& flight) {
   if (watch_ == nullptr || flight.proxy) return;
   const std::uint32_t lsa = flight.transfer.lsa;
@@ -183,7 +183,7 @@ void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite sit
     const bool get = flight.writes_local_store();
     if (!get && std::memcmp(bus_.map().local_store(spe_) + begin, bytes + (begin - lsa), end - begin) == 0)
       continue;
-    flight.shared = true; // reported once
+    flight.shared = true; // prevents a second report
     if (flight.drained)
       report_drained(FlightInfo(flight), now);
     else
@@ -212,7 +212,7 @@ void Mfc::report_touched(const Flight& flight, Cycle now) {
 }
 
 void Mfc::check_source(const Flight& flight, const Entry& entry, Cycle now) {
-  // Machine code is judged by its loads, and may have uninitialised variables.
+  // Loads of machine code are checked instead; besides, machine code may put uninitialised variables.
   if (watch_ != nullptr || flight.proxy) return;
   const auto found = find_in_flight_word(local_store(flight.transfer), flight.bytes());
   if (!found) return;
@@ -259,7 +259,7 @@ void Mfc::move(Flight& flight, Cycle now, bool observed) {
   flight.moved = true;
   const auto [opcode, tag, lsa, size, ea] = flight.transfer;
   std::uint8_t* const local = local_store(flight.transfer);
-  // Transfers of the PPE may be accessed once they have been made.
+  // The program may access the local store of a proxy command as soon as its data have moved.
   if (flight.proxy) permit(flight);
   const OpenedLocalStore opened(*this, flight.transfer);
   const AddressMap::Place place = bus_.map().locate(ea, size);
@@ -334,7 +334,7 @@ void Mfc::observe_empty_queue(CallSite site, Cycle now) {
 }
 
 bool Mfc::note_drained(const FlightInfo& flight, Diagnostic& diagnostic, Cycle now) {
-  // A program that does this once does it everywhere.
+  // Reported once: a program that relies on the queue's count does so everywhere.
   if (drain_reported_) return false;
   drain_reported_ = true;
   diagnostic = about({flight.transfer, flight.command, drain_site_, false, 0}, Rule::drained_queue, now);

@@ -1,11 +1,11 @@
-// Opens a part of local store for the emulator itself while the program's accesses are forbidden.
+// OpenedLocalStore permits the emulator's own accesses to local store that is forbidden to the program.
 #pragma once
 
 #include "backends/cell_emu/mfc.hpp"
 
 namespace celltrace::cell_emu {
 
-/// Opens the target of a transfer until this is destroyed.
+/// Permits accesses to a transfer's part of local store until this object is destroyed.
 class Mfc::OpenedLocalStore {
 public:
   OpenedLocalStore(const Mfc& mfc, const MfcCommand& transfer);

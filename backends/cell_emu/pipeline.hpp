@@ -1,7 +1,7 @@
 // Converts counted operations to cycles of the SPU: in-order issue to two pipes, as a statistical model.
 //
-// The counts say how many instructions of each unit there were and which were issued four times, but not in
-// which order. The model (latencies and shares in TimingParameters):
+// The counts are numbers of instructions by unit, with packets, which are issued four times, apart from
+// chains; the order of instructions is unknown. The model (latencies and shares are in TimingParameters):
 //
 //   issue       The even pipe gets FX2, FX3, FXB, FP6 and FP7, the odd one LS, SHUF, BR and hints. At most
 //               the smaller of the two sums can issue together with one of the other pipe; `paired_issue` of
@@ -39,8 +39,8 @@ inline std::uint64_t part_of(std::uint64_t n, double part) {
   return (n * multiple + one / 2) / one;
 }
 
-/// Returns the cycles for which the instructions delay those that need their results, if each issues
-/// `width` times in a row.
+/// Returns the sum of the instructions' latencies beyond their issue, if each instruction issues `width`
+/// times in a row.
 inline std::uint64_t latency_beyond_issue(const UnitCounts& n, std::uint32_t width,
                                           const TimingParameters& timing) {
   const auto beyond = [&](std::uint32_t latency) -> std::uint64_t {

@@ -1,8 +1,8 @@
-// The part of an SPE that others can access: mailboxes, signal notification registers, and the events that
-// they raise.
+// The part of an SPE that the PPE and other SPEs can access: mailboxes, signal notification registers, and
+// the events that these raise.
 //
-// Thread safety: all members from any thread, except those that are marked as the SPU's own.
-// Counts are read from one atomic word, so that kernels may poll them at little cost.
+// Thread safety: all members from any thread, except members that are marked as the SPU's own. Counts are
+// parts of one atomic word, so that kernels can poll channels at little cost.
 #pragma once
 
 #include "backends/cell_emu/cycle.hpp"
@@ -21,13 +21,13 @@
 
 namespace celltrace::cell_emu {
 
-/// The writer of a word, and the time.
+/// The sender of a word, and the virtual time of the word's arrival.
 struct Sender {
   unsigned spe; ///< number of the SPE, or Diagnostic::kPpe
   Cycle at;
 };
 
-/// Receives the beginnings and ends of stalls. Called with the SPE's problem state locked.
+/// An observer of the beginnings and ends of stalls. Called with the SPE's problem state locked.
 class StallObserver {
 public:
   virtual ~StallObserver() = default;
@@ -62,13 +62,13 @@ public:
   unsigned out_interrupt_mailbox_space() const { return status() & kOutInterruptMailboxFull ? 0 : 1; }
   bool has_outbound_mail() const { return (status() & (kOutMailboxFull | kOutInterruptMailboxFull)) != 0; }
   bool interrupted() const { return (status() & kInterrupted) != 0; }
-  /// Returns the count of a channel whose count depends on others.
+  /// Returns the count of a channel that depends on other processors.
   unsigned count(Channel channel) const;
 
   // --- channels, for the SPU's own thread; only while the count is not 0 ---
 
-  // Reads happen at time `now`, which is raised to the arrival time of the word if that is later: when
-  // exploring, an SPE may read a word before its own time has reached the sender's.
+  // A read happens at time `now`, which is raised to the word's time of arrival if that is later: when
+  // exploring, an SPE may read a word before its own virtual time has reached the sender's.
   std::uint32_t read_in_mailbox(Cycle& now);
   std::uint32_t read_signal(Signal which, Cycle& now);
   void write_out_mailbox(std::uint32_t value, Cycle now);
@@ -77,15 +77,15 @@ public:
   std::uint32_t event_mask() const { return mask_.load(std::memory_order_relaxed); }
   void write_event_mask(std::uint32_t mask);
   void acknowledge_events(std::uint32_t events);
-  /// As raise(); fast if the event is pending and masked already.
+  /// As raise(); fast if the events are already pending and disabled.
   void raise_own(std::uint32_t events) {
     if ((masked_pending_.load(std::memory_order_relaxed) & events) != events) raise(events);
   }
-  /// Throws the SpeError of an SPE that was interrupted at a channel.
+  /// Throws SpeError for an SPE that was interrupted at a channel.
   [[noreturn]] void stop_at(Channel channel) const;
-  /// Throws the SpeError of an SPE that was interrupted while it ran, at `place`.
+  /// Throws SpeError for an SPE that was interrupted while it ran, at `place`.
   [[noreturn]] void stop_running(const std::string& place) const;
-  /// Throws the SpeError of an SPE that was interrupted while it was stopped with a signal.
+  /// Throws SpeError for an SPE that was interrupted while it was stopped with a signal.
   [[noreturn]] void stop_while_stopped(std::uint32_t code) const;
 
   // --- stalls ---
@@ -95,10 +95,10 @@ public:
     CallSite site;
     bool after_phantom; ///< true if the last event status that the program read was 0
   };
-  /// Begins to wait for `stall.channel` to have a count. Returns false if it has one already, or if the SPE
-  /// was interrupted.
+  /// Begins to wait until the count of `stall.channel` is not 0. Returns false if the count is not 0 already,
+  /// or if the SPE was interrupted.
   bool begin_stall(const Stall& stall);
-  /// Blocks until a change has ended the stall; for a thread of the SPE's own.
+  /// Blocks until a change has ended the stall. Used if the SPE has a thread of its own.
   void sleep_until_unstalled();
   void end_stall();
   std::optional<Stall> stall() const;
@@ -108,10 +108,10 @@ public:
   /// Starts the SPE: the event facility is as after a reset, except that events of full mailboxes and signals
   /// are pending.
   void start();
-  /// Makes the SPU stop where it stalls or polls; its error ends with `because`, which may be empty. Only the
-  /// first call counts.
+  /// Makes the SPU stop where it stalls or polls. The SPU's error ends with `because`, which may be empty.
+  /// Calls after the first are ignored.
   void interrupt(std::string because) noexcept;
-  /// Takes an interrupt back. Only while the SPE is not running.
+  /// Withdraws an interrupt. The SPE must not be running.
   void resume();
 
 private:
@@ -140,7 +140,7 @@ private:
   Word sent(const char* what, std::uint32_t value, Sender sender) const;
   std::uint32_t received(const char* what, Word word, unsigned by, Cycle now) const;
   std::optional<std::uint32_t> take(Mailbox<1>& mailbox, const char* what, std::uint32_t event, Cycle now);
-  /// Makes a change visible: to polls through the status word, to a waiting SPU by ending its stall.
+  /// Makes a change visible to polls, by the status word, and to a stalled SPU, whose stall ends.
   void publish();
 
   const unsigned spe_;

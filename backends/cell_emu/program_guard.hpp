@@ -1,5 +1,5 @@
-// Guards the local store that holds a program's code and stack on a real SPE: the emulator leaves it
-// unused, so any change to it is a stray store.
+// Guards the local store in which a program's code and stack would lie on a real SPE. A program of host code
+// does not use this local store, so that any change of it is a stray store.
 #pragma once
 
 #include "backends/cell_emu/diagnostic_log.hpp"
@@ -12,14 +12,14 @@ class ProgramGuard {
 public:
   ProgramGuard(std::uint8_t* local_store, ArenaRange arena) : local_store_(local_store), arena_(arena) {}
 
-  // DMA of others may write the local store meanwhile: call these while the bus holds it.
+  // DMA of other SPEs may write the local store meanwhile: call these functions in Bus::hold_local_store().
 
   void fill() const {
     fill_with_poison(local_store_, arena_.begin);
     fill_with_poison(local_store_ + arena_.end, kLocalStoreBytes - arena_.end);
   }
 
-  /// Reports the first changed bytes. The arena may have grown to `arena_end`.
+  /// Reports the first change. `arena_end` is the end of the arena, which may have grown.
   void check(unsigned spe, std::uint32_t arena_end, DiagnosticLog& log) const {
     const bool code = is_poison(local_store_, arena_.begin);
     const bool stack = is_poison(local_store_ + arena_end, kLocalStoreBytes - arena_end);

@@ -12,7 +12,7 @@ std::string where(const ProblemState::Stall& stall) {
   return text;
 }
 
-/// Returns what an SPE waits for; "" if it does not wait.
+/// Returns a description of what an SPE waits for; "" if it does not wait.
 std::string describe(const Spe& spe) {
   const std::string name = "SPE " + std::to_string(spe.id);
   if (const auto stall = spe.state.stall()) return name + " waits at " + where(*stall) + "; ";
@@ -36,7 +36,7 @@ std::string report_deadlock(Spes& spes, DiagnosticLog& log, const std::string& p
     diagnostic.spe = spe->id;
     diagnostic.site = stall->site;
     diagnostic.cycle = spe->now;
-    // One deadlock is reported in full once, however many SPEs wait in it.
+    // The full text of a deadlock is reported for its first SPE only.
     const std::string what = told ? "waits at " + where(*stall) : text;
     told = true;
     log.note(diagnostic,

@@ -1,7 +1,8 @@
 // Schedulers decide in which order SPEs and the PPE run.
 //
-// SPEs announce the virtual time of every action that others can notice, and where they wait;
-// the PPE calls enter() with every access to the machine. The schedule decides about everything in between.
+// An SPE calls a scheduler before every action that other processors can notice, with the action's virtual
+// time, and whenever it waits. The PPE calls enter() before every access to the machine. The scheduler
+// decides which SPEs run in between.
 #pragma once
 
 #include "backends/cell_emu/spe.hpp"
@@ -12,7 +13,7 @@
 
 namespace celltrace::cell_emu {
 
-/// Accesses of the PPE to a machine in which nothing can happen before they count as a deadlock.
+/// Number of accesses by the PPE to a machine in which nothing can happen that counts as a deadlock.
 constexpr std::uint64_t kIdleEntries = 1000000;
 
 class Scheduler : public StallObserver {
@@ -23,14 +24,13 @@ public:
 
   // --- SPU side, called by the program of `spe` ---
 
-  /// Returns when it is this SPE's turn to act at `now`; earlier actions of its own MFC have happened then.
-  /// May throw RuleViolation for a command of its MFC.
+  /// Waits until it is this SPE's turn to act at `now`; by then earlier actions of its own MFC have happened.
+  /// May throw RuleViolation because of a command in the MFC.
   virtual void reach(Spe& spe, Cycle now) = 0;
-  /// Returns when the next action of the SPE's MFC, at `at`, or another event for the SPE has
-  /// happened.
+  /// Waits until the next action of the SPE's MFC, at `at`, or another event for the SPE has happened.
   virtual void await_mfc(Spe& spe, Cycle at) = 0;
-  /// Waits until `stall.channel` has a count, until `deadline`, or until an interrupt; at least once. Returns
-  /// the time of the end.
+  /// Waits until the count of `stall.channel` is not 0, until `deadline`, or until an interrupt; may also
+  /// return earlier. Returns the virtual time of the end.
   virtual Cycle stall(Spe& spe, const ProblemState::Stall& stall, Cycle now, Cycle deadline) = 0;
   /// Notifies the PPE of a word in an outbound mailbox.
   virtual void ring() = 0;
@@ -39,18 +39,18 @@ public:
 
   // --- PPE side ---
 
-  /// Lets the program run from now on.
+  /// Starts a program.
   virtual void start(Spe& spe, Program program) = 0;
   /// Resumes a program that waits in pause().
   virtual void resume(Spe& spe) = 0;
   /// Announces that the PPE is about to read or change the machine. Returns the PPE's time.
   virtual Cycle enter() = 0;
-  /// As enter(), for a word that the PPE sends. Returns the time of its arrival.
+  /// As enter(), for a word that the PPE sends. Returns the virtual time at which the word arrives.
   virtual Cycle post() = 0;
-  /// As post(), without giving others a turn first.
+  /// As post(), but gives no SPE a turn before.
   virtual Cycle post_at_once() = 0;
-  /// Blocks the PPE until `ready()`, which may change when an SPE stops or its registers change. Returns
-  /// false if `timeout` passes. Throws SpeError if nothing can ever make it ready.
+  /// Blocks the PPE until `ready()` is true, which is checked when an SPE stops or its registers change.
+  /// Returns false if `timeout` passes. Throws SpeError if `ready()` can never become true.
   virtual bool wait(const Ready& ready, std::optional<std::chrono::milliseconds> timeout,
                     const std::string& what) = 0;
   /// Ends every program that stalls, polls or is stopped, now and from now on; their errors end with
@@ -62,7 +62,7 @@ public:
   virtual void shut_down() = 0;
   /// Releases the host resources of a program that has ended.
   virtual void collect(Spe& spe) = 0;
-  /// Returns how often programs have ended or stopped with a signal. From any thread.
+  /// Returns the number of times that programs have ended or stopped with a signal. From any thread.
   unsigned stops() const { return stops_.load(); }
 
 protected:
@@ -72,7 +72,7 @@ private:
   std::atomic<unsigned> stops_{0};
 };
 
-/// Reports a deadlock for each SPE that stalls. Returns the text of the error.
+/// Reports a deadlock for each SPE that stalls. Returns the error's text.
 std::string report_deadlock(Spes& spes, DiagnosticLog& log, const std::string& ppe_waits_for);
 
 } // namespace celltrace::cell_emu

@@ -1,4 +1,4 @@
-// Random numbers that are the same on every machine (splitmix64, Steele, Lea and Flood 2014).
+// Random numbers that are the same on every host (splitmix64, Steele, Lea and Flood 2014).
 #pragma once
 
 #include <cstdint>

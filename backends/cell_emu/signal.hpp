@@ -22,14 +22,14 @@ public:
     word_.at = word.at;
     count_ = 1;
   }
-  /// Reads as the SPU does: clears value and count.
+  /// Returns the word for the SPU; clears value and count.
   Word read() {
     const Word word = word_;
     word_ = {};
     count_ = 0;
     return word;
   }
-  /// Reads as through the main storage domain: changes nothing.
+  /// Returns the value for a read by its effective address, which changes nothing.
   std::uint32_t peek() const { return word_.value; }
 
 private:

@@ -21,15 +21,16 @@ struct Spe {
   ProblemState state;
   Counters counters;
   Mfc mfc;
-  Cycle now = 0; ///< the SPU's virtual time while its program does not run
+  Cycle now = 0; ///< the SPU's virtual time; valid while its program does not run
 
-  // The schedule maintains the members below.
+  // The scheduler writes `running` and `signal`.
   static constexpr std::uint32_t kNoSignal = ~0u;
   std::atomic<bool> running{false};
-  /// Code of the signal that it stopped with and waits to be resumed from.
+  /// Stop code of a program that stopped with a signal and waits to be resumed; else kNoSignal.
   std::atomic<std::uint32_t> signal{kNoSignal};
 
-  /// Returns true if it can be resumed; an SPE that was interrupted in its stop is about to end.
+  /// Returns true if the program can be resumed. A program that was interrupted in its stop cannot: it is
+  /// about to end.
   bool paused() const { return signal != kNoSignal && !state.interrupted(); }
 
   // Written by the program, read when it does not run.

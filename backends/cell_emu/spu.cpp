@@ -52,7 +52,8 @@ SpeAddresses HostCodeSpu::addresses(std::uint32_t spe) const {
   return context_.mfc.bus.map().addresses(spe);
 }
 
-/// Returns the arena. Every change of the fill is preceded by a call of arena(), so the peak is updated here.
+/// Returns the arena, and updates the peak of its use: each change of ArenaState::next is preceded by a call
+/// of arena().
 ArenaState& HostCodeSpu::arena() {
   counters_.local_store_peak.raise_to(static_cast<std::uint64_t>(arena_.next - arena_.begin) -
                                       mfc_.red_zone_bytes());
@@ -142,7 +143,7 @@ void* HostCodeSpu::local_static(const void* key, std::uint32_t bytes, std::uint3
 }
 
 void HostCodeSpu::issue(MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size, std::uint32_t tag) {
-  // A command takes six channel writes: the parameters and the command.
+  // A command takes six channel writes: five parameters and the opcode.
   charge(0, 6);
   issue_command({op, tag, lsa, size, ea});
 }

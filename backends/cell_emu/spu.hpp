@@ -1,5 +1,5 @@
-// The SPU that runs a kernel compiled for the host. Translates the runtime's operations to
-// channels and MFC commands, and charges the SPE's virtual clock for the counted operations.
+// HostCodeSpu: the SPU that runs a kernel compiled for the host. It executes the runtime's operations on
+// channels and the MFC, and advances the SPE's virtual clock by the cycles of counted operations.
 #pragma once
 
 #include "backends/cell_emu/spu_core.hpp"
@@ -10,7 +10,7 @@
 
 namespace celltrace::cell_emu {
 
-/// One run of a kernel on one SPE. Thread safety: belongs to the thread that runs the SPE.
+/// The SPU during one run of a kernel on one SPE. Thread safety: belongs to the thread that runs the SPE.
 class HostCodeSpu final : public SpuCore, public Spu {
 public:
   /// Makes the SPU; the kernel allocates from `arena`, a part of the SPE's local store.
@@ -37,9 +37,9 @@ public:
   }
 
   /// Completes queued commands after the kernel has returned, or stopped with an exit code, and reports what
-  /// it left undone.
+  /// the kernel left undone.
   void finish();
-  /// Ends the run of a kernel that was broken off.
+  /// Ends the run of a kernel that ended with an exception.
   void abandon();
 
 private:
@@ -51,7 +51,7 @@ private:
   [[noreturn]] void report_absent_module(const CodeModule& module, CallSite site) override;
   void stop(std::uint32_t code) override;
 
-  /// Charges the operations since the last access to a channel.
+  /// Advances virtual time by the operations that were counted since the last call.
   void settle();
   void charge(std::uint32_t channel_reads, std::uint32_t channel_writes);
   void run_interrupts();

@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint64_t kSpuStream = 0x535055;
 
 constexpr unsigned kAllParameters = 0x1F << 16;
-/// Parameters that may stay unwritten: EAH keeps 0 in programs that use the 32-bit forms of the intrinsics.
+/// Parameters that need not be written: programs that use the 32-bit intrinsics rely on an EAH of 0.
 constexpr unsigned kOptionalParameters = 1u << static_cast<unsigned>(Channel::mfc_eah);
 
 const char* wait_for(Channel channel) {
@@ -129,7 +129,7 @@ void SpuCore::report_limit(const std::string& passed) {
   diagnostic.site = site_;
   diagnostic.cycle = now_;
   context_.mfc.log.report(diagnostic, "after " + passed + ": " + std::string(text_of(Rule::time_limit)));
-  // One report is enough for a program that may go on.
+  // A program that may go on gets one report only.
   cycle_end_ = kNever;
   host_end_.reset();
 }
@@ -279,7 +279,8 @@ void SpuCore::start_decrementer(std::uint32_t value) {
 }
 
 void SpuCore::event_mask_channel(std::uint32_t mask) {
-  // An event that has expired by now counts under the old mask: the new one may leave a phantom of it.
+  // If the decrementer has expired by now, its event counts under the old mask; the new mask may make it a
+  // phantom event.
   update_decrementer();
   state_.write_event_mask(mask);
 }
@@ -287,7 +288,7 @@ void SpuCore::event_mask_channel(std::uint32_t mask) {
 void SpuCore::event_ack_channel(std::uint32_t events) {
   update_decrementer();
   state_.acknowledge_events(events);
-  // Masking the event and acknowledging it stops the decrementer.
+  // The decrementer stops if its event is acknowledged while it is masked.
   if ((events & ~state_.event_mask() & event::decrementer) != 0) decrementer_.freeze(now_);
 }
 

@@ -1,8 +1,8 @@
-// The common parts of every SPU of the machine, whatever executes its program: the channels, the parameters
-// of the next MFC command, the decrementer, and the SPE's virtual clock.
+// The common parts of the SPUs that run host code and machine code: channels, parameters of the next MFC
+// command, decrementer, and the SPE's virtual clock.
 //
-// The derived SPU charges the cycles of computing and of the accesses themselves before it calls a member;
-// everything here happens at now().
+// Before a derived SPU calls a member, it advances the clock by the cycles of computing and of the channel
+// access; members act at now().
 #pragma once
 
 #include "backends/cell_emu/decrementer.hpp"
@@ -22,10 +22,10 @@ struct SpuContext {
   Scheduler& scheduler;
 };
 
-/// One run of a program on one SPE. Thread safety: belongs to the thread that runs the SPE.
+/// The SPU during one run of a program on one SPE. Thread safety: belongs to the thread that runs the SPE.
 ///
-/// A stall, or a poll that finds a count of 0, throws SpeError if the SPE has been interrupted; a broken
-/// rule whose action is to stop throws RuleViolation.
+/// A stall, or a poll of a channel whose count is 0, throws SpeError if the SPE has been interrupted. A
+/// broken rule with Action::stop throws RuleViolation.
 class SpuCore {
 public:
   SpuCore(Spe& spe, const SpuContext& context);
@@ -41,7 +41,7 @@ protected:
 
   template <Channel c> std::uint32_t channel_read();
   template <Channel c> void channel_write(std::uint32_t value);
-  /// Returns the count of a channel; 0 if it does not exist.
+  /// Returns the count of a channel; 0 if the channel does not exist.
   template <Channel c> std::uint32_t channel_count_of();
   // Channel access by number; a channel that does not exist in this direction ends the program.
   std::uint32_t channel_read(unsigned channel);
@@ -52,39 +52,38 @@ protected:
 
   // --- run control ---
 
-  /// Stops with a code and returns when the PPE has resumed the program; throws SpeExit for a code that ends
-  /// it.
+  /// Stops with a code and returns when the PPE has resumed the program; throws SpeExit if the code ends the
+  /// program.
   void stop_with(std::uint32_t code);
   [[noreturn]] void fail(Rule rule, const std::string& what);
-  /// Completes queued commands at the end of the program, and reports what it left undone.
+  /// Completes queued commands at the end of the program, and reports what the program left undone.
   void finish();
-  /// Stores the program's time in the SPE, after its end or a break-off.
+  /// Stores the program's virtual time in the SPE, when the program has ended or was broken off.
   void leave();
 
   // --- virtual time ---
 
   Cycle now() const { return now_; }
-  /// Adds cycles in which the SPU was busy, or was delayed by its own pipelines, scaled by configured
-  /// faults.
+  /// Adds cycles in which the SPU was busy, or waited for its own pipelines. Configured faults lengthen them.
   void spend(SpuCycles cycles);
-  /// Breaks Rule::time_limit if the program takes longer than the configuration allows. Cheap enough for
-  /// every access to a channel; a program without accesses has to call it now and then.
+  /// Reports Rule::time_limit if the program takes longer than the configuration allows. Cheap enough for
+  /// every channel access. SPUs whose program makes no accesses have to call this regularly.
   void check_limits() {
     if (now_ >= cycle_end_ || --checks_left_ == 0) [[unlikely]]
       check_clocks();
   }
-  /// Adds cycles of accesses to channels.
+  /// Adds cycles of channel accesses.
   void spend_on_channels(const SpuCycles& cycles) {
     now_ += cycles.total_cycle;
     cycles_ += cycles;
   }
-  /// Adds the pauses that the configuration asks for at accesses to channels.
+  /// Adds the random pauses at channel accesses that the configuration asks for.
   void inject_faults();
-  /// Accounts for a stall that lasted until `until`.
+  /// Advances the clock to the end `until` of a stall; `what` names the stall in the trace.
   void waited(Cycle until, const char* what);
-  /// Makes the cycles so far visible to the PPE's statistics.
+  /// Makes the cycles so far visible to Machine::statistics().
   void publish_cycles() { counters_.cycles.publish(cycles_); }
-  /// Waits for the SPE's turn, before an access to a channel that others can notice.
+  /// Waits for the SPE's turn. Call it before a channel access that other processors can notice.
   void reach() { context_.scheduler.reach(spe_, now_); }
   void update_decrementer();
 
@@ -111,14 +110,14 @@ private:
   void event_ack_channel(std::uint32_t events);
   Cycle decrementer_deadline() const;
 
-  /// Waits until channel `c` has a count.
+  /// Waits until the count of channel `c` is not 0.
   template <Channel c> void await();
   void await_other(Channel channel);
   void await_mfc(Channel channel);
   template <Channel c> std::uint32_t present_count();
 
   static constexpr std::uint64_t kUnit = 65536;
-  /// The address bits of an instruction.
+  /// Mask of the address bits of an instruction.
   static constexpr std::uint32_t kInstructionAddress = kLocalStoreBytes - 4;
 
   SeededRandom random_;
@@ -179,7 +178,8 @@ template <Channel c> void SpuCore::channel_write(std::uint32_t value) {
   if constexpr (c == Channel::wr_event_mask) event_mask_channel(value);
   if constexpr (c == Channel::wr_event_ack) event_ack_channel(value);
   if constexpr (c == Channel::wr_dec) start_decrementer(value);
-  // Commands that other SPEs have queued have not started, so nothing is on its way to this SPE.
+  // Transfers of other SPEs to this SPE are either complete or have not started, so there is nothing to wait
+  // for.
   if constexpr (c == Channel::wr_ms_sync_req) state_.raise_own(event::multi_source_sync);
   if constexpr (c == Channel::wr_srr0) srr0_ = value & kInstructionAddress;
   if constexpr (c == Channel::mfc_lsa) parameters_.lsa = value;

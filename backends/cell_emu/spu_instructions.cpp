@@ -1,4 +1,4 @@
-// Executes single instructions on the host with the interpreter, each on registers of its own.
+// Implements sdk::execute(): the interpreter executes single instructions on a thread's own registers.
 #include "celltrace/spe/spu_instructions.hpp"
 
 #include "backends/cell_emu/isa/instruction.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using isa::Unit;
 
-/// An environment for instructions, of which only halts use it.
+/// An environment in which only halt instructions work.
 class HostEnvironment final : public isa::Environment {
 public:
   void halt() override {
@@ -48,11 +48,11 @@ bool computes(const isa::OpcodeInfo& info) {
   }
 }
 
-/// Counts an instruction. On the virtual clock each needs the result of the one before, as in most chains of
+/// Counts an instruction. It counts as dependent on the instruction before, as in most sequences of
 /// intrinsics.
 void count(Unit unit) {
-  // A double precision operation blocks issue for this many cycles; the rest of its latency is that of a
-  // conversion.
+  // Cycles for which a double precision operation blocks issue; the rest of its latency is counted as a
+  // conversion's.
   constexpr std::uint64_t kDoubleBlocks = 6;
   switch (unit) {
   case Unit::fx2:
@@ -77,7 +77,7 @@ void count(Unit unit) {
   }
 }
 
-/// Returns the immediate as decoding gives it: some are unsigned.
+/// Returns the immediate as decode() would return it, unsigned for some syntaxes.
 std::int32_t decoded(std::int32_t immediate, isa::Syntax syntax) {
   if (syntax == isa::Syntax::rt_u16) return immediate & 0xFFFF;
   if (syntax == isa::Syntax::rt_u18) return immediate & 0x3FFFF;
@@ -91,8 +91,8 @@ Quadword execute(Opcode opcode, const Quadword& a, const Quadword& b, const Quad
   const isa::OpcodeInfo& info = isa::opcodes()[static_cast<std::size_t>(opcode)];
   if (!computes(info)) throw InputError(std::string(info.mnemonic) + " is no instruction that computes");
   static HostEnvironment environment;
-  // On the heap: two kilobytes are more than a library that is loaded at run time gets of a thread's static
-  // memory.
+  // On the heap, because a library that is loaded at run time gets less than these two kilobytes of a
+  // thread's static memory.
   static thread_local const auto registers = std::make_unique<isa::State>();
   static thread_local Quadword thread_status{};
   constexpr std::uint8_t kRt = 0, kRa = 1, kRb = 2, kRc = 3;

@@ -1,5 +1,5 @@
-// A stack, and the switch to it and back: by Boost.Context, or by the system's <ucontext.h> in builds
-// without Boost. The latter saves the signal mask with every switch.
+// SwitchedStack: a stack, with switches to it and back, by Boost.Context, or in builds without Boost by the
+// system's <ucontext.h>, which is slower because it saves the signal mask at every switch.
 #pragma once
 
 #include <functional>
@@ -55,7 +55,8 @@ public:
   bool ended() const { return ended_; }
 
 private:
-  /// Restores the pointer from two halves: makecontext() passes nothing wider than an int.
+  /// Runs the body. The address of the SwitchedStack comes in two halves, because makecontext() only passes
+  /// ints.
   static void run(unsigned high, unsigned low) {
     auto* const self = reinterpret_cast<SwitchedStack*>(static_cast<std::uintptr_t>(high) << 32 | low);
     self->body_();

@@ -1,8 +1,8 @@
-// Tag-group status: channels 12 and 22 to 24.
+// The status of tag groups: channels 12 and 22 to 24.
 //
-// A request (channel 23) is answered at once if its condition holds; else it waits, and is judged again when
-// a command completes or the mask changes. An answer stays until it is read; a later request replaces it only
-// when that request's condition holds.
+// A request (channel 23) is answered at once if its condition holds. Otherwise the request waits, and its
+// condition is checked again when a command completes or the mask changes. An answer stays until it is read;
+// the answer to a later request replaces it.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -18,9 +18,9 @@ public:
   void write_mask(std::uint32_t mask) { mask_ = mask; }
   void request(TagUpdate update) { request_ = update; }
 
-  /// Judges the waiting request. `outstanding` has the tags with commands in the queue. `last_command` is the
-  /// number of the newest command that the answer covers. Returns true if the count of channel 24 rose from 0
-  /// to 1: the tag status event is then raised, whatever was requested.
+  /// Answers the waiting request if its condition holds. `outstanding`: the tags with commands in the queue.
+  /// `last_command`: number of the newest command, up to which the answer is valid. Returns true if the count
+  /// of channel 24 rose from 0 to 1, which raises the tag status event for every kind of request.
   bool judge(std::uint32_t outstanding, std::uint64_t last_command) {
     if (!request_) return false;
     const std::uint32_t completed = mask_ & ~outstanding;
@@ -37,7 +37,7 @@ public:
   bool waiting() const { return request_.has_value(); }
   /// Returns whether the count of channel 24 is 1.
   bool available() const { return status_.has_value(); }
-  /// Returns the newest command that the answer covers.
+  /// Returns the number of the newest command for which the answer is valid.
   std::uint64_t answered_up_to() const { return answered_up_to_; }
   /// Removes and returns the answer. There must be one.
   std::uint32_t take() {

@@ -10,7 +10,7 @@ namespace celltrace::cell_emu {
 namespace {
 
 constexpr std::uint64_t kNanosecondsPerSecond = 1'000'000'000;
-/// Length of a message's slice, which an arrow needs at either end.
+/// Length of the slice of a message: an arrow has to begin and end at a slice.
 constexpr std::uint64_t kMessageNanoseconds = 20;
 
 constexpr unsigned kCellProcess = 1;
@@ -18,7 +18,7 @@ constexpr unsigned kFirstMfcProcess = 2;
 constexpr unsigned kPpeThread = 1;
 constexpr unsigned kFirstSpeThread = 2;
 
-/// Category and name of all arrows, which together with the number join the two ends.
+/// Category and name of all arrows; the two ends of an arrow have the same category, name and number.
 constexpr std::string_view kArrow = "message";
 
 std::string numbered(std::string_view name, unsigned number) {
@@ -51,7 +51,7 @@ Trace::~Trace() {
     draw_messages(Diagnostic::kPpe);
     events_.close();
   } catch (const std::exception&) {
-    // A stream that throws keeps its error state for its owner.
+    // The stream's owner finds the error in the stream's state.
   }
 }
 
@@ -127,8 +127,8 @@ Trace::Track Trace::messages_of(unsigned spe) {
 }
 
 Trace::Track Trace::mfc_of(unsigned spe) const {
-  // All threads have different numbers, because Perfetto tells them apart by number, whatever their
-  // processes.
+  // All threads have different numbers, also in different processes, because Perfetto tells threads apart by
+  // number alone.
   return {kFirstMfcProcess + spe, kFirstSpeThread + 2 * spes_ + spe};
 }
 
@@ -163,8 +163,8 @@ void Trace::slice(Track track, std::string_view name, Interval cycles) {
   const std::uint64_t begin = nanoseconds(cycles.begin);
   events_.begin('X', track.process, track.thread);
   events_.time("ts", begin);
-  // Not the difference of cycles: rounding must not make neighbours overlap, because Perfetto drops one of
-  // them.
+  // Not computed from the difference of cycles: rounding could make neighbouring slices overlap, and Perfetto
+  // would drop one of the two.
   events_.time("dur", nanoseconds(cycles.end) - begin);
   events_.text("name", name);
   events_.end();
@@ -181,7 +181,7 @@ void Trace::draw_messages(unsigned spe) {
   std::stable_sort(messages.begin(), messages.end(),
                    [](const Message& a, const Message& b) { return a.at < b.at; });
   for (auto message = messages.begin(); message != messages.end(); ++message) {
-    // Slices end where the next one begins, or are nested if they begin together.
+    // A slice ends where the next slice begins, or is nested in it if both begin together.
     const auto next =
         std::find_if(message, messages.end(), [&](const Message& m) { return m.at != message->at; });
     const std::uint64_t longest = message->at + kMessageNanoseconds;
@@ -202,7 +202,7 @@ void Trace::draw(const Message& message, Track track, std::uint64_t end) {
   events_.text("cat", kArrow);
   events_.text("name", kArrow);
   events_.identifier(message.arrow);
-  // Binds the arrow to the enclosing slice, not to the next one.
+  // Binds the arrow to the enclosing slice, not to the next slice.
   if (message.phase == 'f') events_.text("bp", "e");
   events_.end();
 }
@@ -228,7 +228,7 @@ void Trace::begin_instant(unsigned spe, std::string_view category, std::string_v
 
 void Trace::site_argument(const CallSite& site) {
   if (site.line == 0) return;
-  // The folder is left out, which differs from build to build.
+  // The folder, which differs from build to build, is left out.
   const std::string_view file(site.file);
   events_.argument("at",
                    std::string(file.substr(file.find_last_of('/') + 1)) + ":" + std::to_string(site.line));

@@ -8,8 +8,8 @@
 
 namespace celltrace::cell_emu {
 
-/// Writes one event after the other, through a buffer: begin(), then its fields, then its arguments, then
-/// end(). Independent of the locale. Errors: the stream's own state.
+/// Writes events through a buffer. For each event call begin(), then functions that add fields, then
+/// functions that add arguments, then end(). Independent of the locale. Errors: the stream's own state.
 class TraceEvents {
 public:
   /// Opens the file. `out` must outlive this object.

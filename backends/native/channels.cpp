@@ -140,7 +140,7 @@ void Channels::write_event_mask(std::uint32_t mask) {
 
 void Channels::acknowledge_events(std::uint32_t mask) {
   collect_expiry();
-  // Masking the event and acknowledging it is the architecture's way to stop the decrementer.
+  // In the architecture, the decrementer stops if its event is acknowledged while it is masked.
   if ((mask & ~mask_ & event::decrementer) != 0) decrementer_.stop();
   const Lock lock(mutex_);
   pending_.store(pending_.load(std::memory_order_relaxed) & ~mask, std::memory_order_relaxed);
@@ -224,7 +224,7 @@ bool Channels::resume() {
 void Channels::interrupt() noexcept {
   const Lock lock(mutex_);
   interrupted_ = true;
-  // The PPE must find the kernel's end, not the stop before it.
+  // The interrupted kernel is about to end: the PPE must wait for the end, and not find the stop.
   if (stopped_with_signal()) state_.store(State::running, std::memory_order_release);
   spu_wakes_.notify_all();
   space_made_.notify_all();

@@ -1,5 +1,5 @@
-// Mailboxes, signal notification, events, decrementer and run control of one SPE: everything that other
-// processors can access.
+// Channels: mailboxes, signal notification, events, decrementer and run control of one SPE of the native
+// machine.
 #pragma once
 
 #include "backends/native/decrementer.hpp"
@@ -16,21 +16,21 @@
 
 namespace celltrace::native {
 
-/// The exception that unwinds a kernel whose stalled channel was interrupted.
+/// The exception that ends a kernel that was interrupted in a stall.
 struct Interrupted {};
 
-/// The two outbound mailboxes of an SPE.
+/// The two outbound mailboxes of an SPE; writes into the second interrupt the PPE.
 enum class OutMailbox : std::uint32_t { plain, interrupting };
 
-/// Channels of one SPE with the semantics of the Cell Broadband Engine Architecture (event facility: the
-/// count of the status channel is 0 or 1, rises when an enabled event occurs and when a write of the mask or
-/// of the acknowledge leaves enabled events pending, and falls only when the status is read).
+/// Channels of one SPE with the semantics of the Cell Broadband Engine Architecture. The count of the event
+/// status is 0 or 1. It rises when an enabled event occurs, and when an enabled event is still pending after
+/// a write of the mask or an acknowledge; it falls only when the status is read.
 ///
-/// Thread safety: the first group of members belongs to the SPE's thread, the second to any thread. Counts
-/// are one atomic load, so that kernels can poll them in their loops.
+/// Thread safety: the first group of members belongs to the SPE's thread, the second to any thread. Reading a
+/// count is one atomic load, so that kernels can poll in loops.
 class Channels {
 public:
-  /// Makes the channels; `ppe` is rung when an outbound mailbox fills.
+  /// Makes the channels. They ring `ppe` when the SPE writes into an outbound mailbox or stops.
   Channels(const SignalMode (&modes)[2], Doorbell& ppe);
   Channels(const Channels&) = delete;
   Channels& operator=(const Channels&) = delete;
@@ -52,13 +52,13 @@ public:
   std::uint32_t read_event_mask() const noexcept { return mask_; }
   std::uint32_t read_event_status();
   std::uint32_t event_count() {
-    // An event that is not enabled does not count. Programs that use the decrementer as a clock call this
-    // often.
+    // If its event is not enabled, the decrementer cannot change the count, and need not be read: programs
+    // that use it as a clock call this often.
     if ((mask_ & event::decrementer) != 0 && decrementer_.counts()) collect_expiry();
     return event_count_.load(std::memory_order_acquire);
   }
   void acknowledge_events(std::uint32_t mask);
-  /// Raises an event that the SPE's own commands cause. Fast while it is pending and not enabled.
+  /// Raises an event that the SPE's own commands cause. Fast if the event is already pending and disabled.
   void raise_own(std::uint32_t event) {
     if ((pending_.load(std::memory_order_relaxed) & ~mask_ & event) != event) raise(event);
   }
@@ -66,16 +66,17 @@ public:
   void write_decrementer(std::uint32_t value);
   std::uint32_t read_decrementer() const { return decrementer_.read(); }
 
-  /// Stalls on a channel that nothing can fill any more: sleeps until interrupted.
+  /// Stalls on a channel whose count can never rise again: sleeps until interrupted.
   [[noreturn]] void stall_for_ever();
-  /// Sleeps, stopped with a signal, until the PPE calls resume().
+  /// Stops with a signal and sleeps until the PPE calls resume().
   void stop_and_signal(std::uint32_t code);
 
   // --- any thread ---
 
-  /// Writes the register without flow control: a full mailbox loses its newest word.
+  /// Writes a word without waiting: in a full mailbox it replaces the newest word.
   void put_in_mailbox(std::uint32_t value);
-  /// Waits for space first; returns false if the mailbox is full and no kernel runs that would empty it.
+  /// Waits for space, then writes a word. Returns false if the mailbox is full and no kernel runs that could
+  /// empty it.
   bool write_in_mailbox(std::uint32_t value);
   void write_signal(Signal which, std::uint32_t value);
   bool has_mail(OutMailbox which) const noexcept {
@@ -93,12 +94,13 @@ public:
   bool stopped_with_signal() const noexcept {
     return state_.load(std::memory_order_acquire) == State::stopped;
   }
-  /// Returns how the last kernel ended, or where the present one has stopped. {exit, 0} if there was none.
+  /// Waits while the kernel runs. Returns how the last kernel ended, or the signal that the present kernel
+  /// has stopped with; {exit, 0} if there was no kernel.
   SpeStop wait_while_running();
-  /// Resumes a kernel that stopped with a signal; returns false if it did not.
+  /// Resumes a kernel that stopped with a signal; returns false if no kernel has stopped so.
   bool resume();
   /// Makes present and later stalls throw Interrupted, until withdraw_interrupt(). A stop with a signal
-  /// counts as a stall, and ends at once.
+  /// counts as a stall: it ends at once.
   void interrupt() noexcept;
   void withdraw_interrupt();
 

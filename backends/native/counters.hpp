@@ -1,4 +1,4 @@
-// The statistics of one SPE while it runs.
+// The statistics counters of one SPE.
 #pragma once
 
 #include "celltrace/spe/machine.hpp"
@@ -8,7 +8,7 @@
 
 namespace celltrace::native {
 
-/// A counter that one thread raises and others may read at any time; costs no more than a plain integer.
+/// A counter that one thread raises and other threads may read at any time; as fast as a plain integer.
 class Counter {
 public:
   void add(std::uint64_t amount) noexcept { set(get() + amount); }

@@ -1,4 +1,4 @@
-// The CPUs that threads of this process run on. On systems other than Linux threads are not bound to CPUs.
+// Finds usable CPUs, and binds threads to CPUs. On systems other than Linux threads are not bound.
 #pragma once
 
 #include <vector>

@@ -4,7 +4,7 @@ namespace celltrace::native {
 
 namespace {
 
-// Ticks and nanoseconds of the timebase: 79.8 MHz is 399 ticks in 5000 ns.
+// The timebase of 79.8 MHz as a fraction: 399 ticks in 5000 nanoseconds.
 constexpr std::uint64_t kTicks = 399;
 constexpr std::uint64_t kNanoseconds = 5000;
 

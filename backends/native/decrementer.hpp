@@ -1,4 +1,4 @@
-// The decrementer of one SPE, on the host's steady clock.
+// The decrementer of one SPE, driven by the host's steady clock.
 #pragma once
 
 #include <chrono>
@@ -15,13 +15,13 @@ public:
   /// Loads a value and starts to count.
   void write(std::uint32_t value);
   std::uint32_t read() const;
-  /// Freezes the value until the next write.
+  /// Stops the decrementer until the next write.
   void stop();
 
   bool counts() const noexcept { return counts_; }
   /// Returns true if the value fell below zero since the last call (the decrementer event).
   bool take_expiry();
-  /// Returns when the value will next fall below zero after the expiries that were taken.
+  /// Returns the time of the first fall below zero that take_expiry() has not yet returned.
   Clock::time_point next_expiry() const;
 
 private:

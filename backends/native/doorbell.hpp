@@ -1,4 +1,4 @@
-// The condition that the PPE sleeps on while its SPEs work.
+// Doorbell: the PPE sleeps on it while its SPEs work.
 #pragma once
 
 #include <atomic>
@@ -12,10 +12,10 @@ namespace celltrace::native {
 /// any thread.
 class Doorbell {
 public:
-  /// Wakes the sleeper so that it checks its predicate again.
+  /// Wakes the sleeping thread, which checks its predicate again.
   void ring() noexcept {
-    // Taking the lock orders the change before the sleeper's next check, or the ring after the start of its
-    // sleep.
+    // The lock makes sure that the sleeping thread either sees the change in its next check, or already
+    // sleeps and gets this ring.
     { const std::lock_guard lock(mutex_); }
     changed_.notify_all();
   }
@@ -24,7 +24,7 @@ public:
     stopped_.store(true, std::memory_order_release);
     ring();
   }
-  /// Returns whether an SPE has stopped since the last call.
+  /// Returns true if an SPE has stopped since the last call.
   bool take_stop() noexcept { return stopped_.exchange(false); }
   /// Sleeps until `ready()` or the timeout; returns the last value of ready().
   template <class Ready> bool wait(std::chrono::milliseconds timeout, Ready ready) {

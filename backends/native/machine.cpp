@@ -27,9 +27,9 @@ unsigned spe_count_of(const MachineConfig& config) {
   return std::min(static_cast<unsigned>(usable_cpus().size()), kMaxSpes);
 }
 
-/// Returns a CPU for each SPE if there are enough: otherwise the system may let two threads that wake up at
-/// once share one CPU for milliseconds, which is a frame. Returns none if there are fewer: the system then
-/// balances better.
+/// Returns a CPU for each SPE if there are as many usable CPUs as SPEs. Without binding, two threads that
+/// wake up at once may share one CPU for milliseconds, which is as long as a frame. Returns no CPUs
+/// otherwise, because then the system balances better.
 std::vector<unsigned> cpus_for(unsigned spes) {
   std::vector<unsigned> cpus = usable_cpus();
   if (spes == 1 || cpus.size() != spes) cpus.clear();
@@ -92,7 +92,7 @@ private:
 
   const std::vector<const SpuType*> types_; ///< the widest first; not empty
   const SpuType* current_type_;
-  const std::vector<unsigned> cpus_; ///< CPU of each SPE; empty: any
+  const std::vector<unsigned> cpus_; ///< CPU of each SPE; empty: threads are not bound
   Doorbell doorbell_;
   std::vector<std::unique_ptr<Worker>> workers_;
   std::unique_ptr<RegisterMap> registers_;
@@ -100,8 +100,8 @@ private:
   std::vector<SpeAddresses> addresses_;
 
   mutable std::mutex failure_mutex_;
-  std::string failure_;    ///< error of the first SPE that failed since all were last idle
-  bool shut_down_ = false; ///< interrupt() was called
+  std::string failure_;    ///< error of the first SPE that failed since all SPEs were last idle
+  bool shut_down_ = false; ///< true: interrupt() was called
 };
 
 NativeMachine::NativeMachine(const MachineConfig& config)
@@ -215,7 +215,7 @@ void NativeMachine::resume(unsigned spe) {
   if (!worker(spe).spe.channels.resume()) throw SpeError(name_of(spe) + " has not stopped with a signal");
 }
 
-/// Joins a thread. Allows stalls again once no kernel is left that a failure could leave waiting.
+/// Joins a worker's thread. Withdraws the interrupts of a failure once all kernels have been waited for.
 void NativeMachine::join(Worker& worker) {
   if (!worker.thread.joinable()) return;
   worker.thread.join();
@@ -282,7 +282,7 @@ void NativeMachine::proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa,
 }
 
 std::uint32_t NativeMachine::proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate /*request*/) {
-  worker(spe); // throws if there is no such SPE
+  worker(spe); // throws if the SPE does not exist
   return mask;
 }
 

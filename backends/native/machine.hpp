@@ -8,7 +8,7 @@
 namespace celltrace::native {
 
 /// Makes the machine from `spes`, `simd` and `signal_mode` of the configuration. Throws InputError for a SIMD
-/// that is unknown or that the CPU lacks, and for more than 256 SPEs.
+/// level that the build or the CPU lacks, and for more than 256 SPEs.
 std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 
 } // namespace celltrace::native

@@ -15,7 +15,7 @@ bool is_queue_barrier(MfcOpcode opcode) {
   return opcode == MfcOpcode::barrier || opcode == MfcOpcode::mfceieio || opcode == MfcOpcode::mfcsync;
 }
 
-/// Returns true for put, get and sndsig, whose ordering is in the low two bits of the opcode.
+/// Returns true for put, get and sndsig, whose opcodes have fence and barrier in the low two bits.
 bool has_ordering_bits(MfcOpcode opcode) {
   return static_cast<std::uint32_t>(opcode) < static_cast<std::uint32_t>(MfcOpcode::putlluc);
 }
@@ -81,7 +81,8 @@ void Mfc::issue(const Command& command) {
   advance();
 }
 
-/// Returns whether a waiting command has to stay behind those before it. A stalled list always stays.
+/// Returns true if the waiting command at `position` cannot run yet: it is a stalled list, or ordered behind
+/// an earlier waiting command.
 bool Mfc::must_wait(std::size_t position) const {
   const Command& command = waiting_[position];
   if (command.stalled) return true;
@@ -94,7 +95,7 @@ bool Mfc::must_wait(std::size_t position) const {
   return false;
 }
 
-/// Runs all waiting commands that need not wait.
+/// Runs all waiting commands that can run.
 void Mfc::advance() {
   const bool was_full = queue_space() == 0;
   for (std::size_t i = 0; i < waiting_.size();) {
@@ -107,7 +108,7 @@ void Mfc::advance() {
   if (tag_requested_) update_tag_status();
 }
 
-/// Runs a command. Returns false if its list stopped.
+/// Runs a command. Returns false if it is a list that stopped.
 bool Mfc::run(Command& command) {
   if (command.list != nullptr) return walk(command);
   if (is_queue_barrier(command.opcode)) return true;
@@ -162,7 +163,7 @@ void Mfc::write_register(const std::uint8_t* ls, ea_t ea, std::uint32_t size) {
 
 // --- lock lines ---
 
-/// Runs a command that bypasses the queue. Returns false if the command is none of these.
+/// Runs a lock-line command that bypasses the queue. Returns false for all other commands.
 bool Mfc::run_atomic(const Command& command) {
   switch (command.opcode) {
   case MfcOpcode::getllar:

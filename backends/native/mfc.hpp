@@ -1,4 +1,4 @@
-// The memory flow controller of one SPE: commands run when they are issued.
+// Mfc: the memory flow controller of one SPE, which executes commands when they are issued.
 #pragma once
 
 #include "backends/native/channels.hpp"
@@ -12,10 +12,10 @@
 
 namespace celltrace::native {
 
-/// Transfers data at once, so that tags are complete when the call returns. The exceptions are lists that
-/// stopped at a notify element (other than their last): they, and commands that fences and barriers order
-/// behind them, wait in the queue for the acknowledge. Sizes, alignments and addresses are not checked.
-/// Element sizes are 15 bits, as on the hardware.
+/// Executes commands at once, so that tag groups are complete when a call returns. Only lists that stopped at
+/// a notify element (other than their last element), and commands that are ordered behind such lists, wait in
+/// the queue until the stop is acknowledged. Sizes, alignments and addresses are not checked. Sizes of list
+/// elements have 15 bits, as on the hardware.
 ///
 /// Thread safety: belongs to the SPE's thread.
 class Mfc {
@@ -44,7 +44,7 @@ public:
   std::uint32_t read_atomic_status();
   std::uint32_t atomic_status_count() const noexcept { return atomic_status_ready_ ? 1 : 0; }
 
-  /// Forgets all state, when a kernel begins or has ended.
+  /// Resets the MFC, when a kernel begins or has ended.
   void reset();
 
 private:

@@ -1,12 +1,11 @@
-// The interface of an SPU that the kernel needs to traverse the scene, for ray queries on a thread of the
-// application without an SPE.
+// QuerySpu: an Spu for ray queries, with which the kernel traverses the scene on a thread of the application.
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
 
 namespace celltrace::native {
 
-/// A Spu that has no other SPEs, no channels, and no local store to allocate from. `Simd` is a HostSimd.
+/// An Spu without other SPEs, without channels and without an arena. `Simd` is a HostSimd.
 template <class Simd> class QuerySpu : public SpuBase<QuerySpu<Simd>> {
 public:
   static constexpr bool direct_memory = true;

@@ -1,4 +1,5 @@
-// The problem-state registers of all SPEs as places in main storage, so that DMA reaches them by address.
+// RegisterMap: effective addresses of the problem-state registers of all SPEs, by which DMA commands write
+// them.
 #pragma once
 
 #include "backends/native/channels.hpp"
@@ -11,8 +12,8 @@
 
 namespace celltrace::native {
 
-/// Reserves an address range and returns which register of which SPE lies where in it. Nothing is ever stored
-/// there: a write goes to the channels of the SPE, a DMA read of a register gives zeros.
+/// Reserves an address range for the registers of all SPEs. Nothing is ever stored in the range: writes go to
+/// the channels of the SPE, and a DMA read of a register gives zeros.
 ///
 /// Thread safety: const members may be called from any thread.
 class RegisterMap {
@@ -24,10 +25,10 @@ public:
 
   /// Returns the address of a register of an existing SPE; its low four bits are 0xC.
   ea_t address(unsigned spe, Register which) const;
-  /// Returns true if a transfer to `ea` would write registers. Takes one compare.
+  /// Returns true if a transfer to `ea` writes registers. Fast: one compare.
   bool contains(ea_t ea) const noexcept { return ea - begin_ < bytes_; }
-  /// Delivers the word at `ls` and returns the register's kind. Throws SpeError if no register lies at `ea`,
-  /// or if `size` is not that of a word.
+  /// Writes the word at `ls` to the register at `ea`, and returns which register it is. Throws SpeError if
+  /// there is no register at `ea`, or if `size` is not 4.
   Register write(ea_t ea, const void* ls, std::uint32_t size) const;
 
 private:

@@ -76,7 +76,7 @@ void Reservations::put(unsigned spe, const void* ls, ea_t ea, std::size_t size) 
     {
       const std::lock_guard lock(lock_of(line));
       std::memmove(to_memory(ea), from, part);
-      // An SPE's own plain put raises the event for itself, too, unlike its own putlluc.
+      // Unlike a putlluc, a plain put of the SPE itself also raises the event.
       if (take(spe, line)) spes_[spe]->raise(event::reservation_lost);
       take_from_others(spe, line);
     }

@@ -13,13 +13,13 @@
 
 namespace celltrace::native {
 
-/// Implements getllar, putllc and putlluc for threads: every line maps to one of a few locks, and every SPE
-/// has at most one reservation, which any other write of that line by an SPE of the machine takes away (event
-/// 0x400).
+/// Implements getllar, putllc and putlluc for threads. Every line maps to one of a few locks. An SPE has at
+/// most one reservation, which any other write of the line by an SPE of the machine takes away (event 0x400).
 ///
-/// Deviation from the architecture: a plain put is one memmove as long as no SPE holds a reservation, so a
-/// put that runs at the same time as a getllar of its line (rather than being ordered after it by a signal, a
-/// mailbox or another lock line) may go unnoticed by it. Stores by the PPE are not noticed either.
+/// Deviations from the architecture: while no SPE has a reservation, a plain put is one memmove. If such a
+/// put runs at the same time as a getllar of the same line, the reservation may survive the put; puts that
+/// are ordered after the getllar by a signal, a mailbox or another lock line take the reservation. Stores by
+/// the PPE never take reservations.
 ///
 /// Thread safety: all members may be called from any thread.
 class Reservations {
@@ -27,13 +27,14 @@ public:
   /// Makes reservations; `spes[i]` are the channels of SPE i, which outlive this object.
   explicit Reservations(std::vector<Channels*> spes);
 
-  // For all members below `ea` names a 128-byte line; its low seven bits are ignored, as by the hardware.
+  // In get_and_reserve(), put_conditional() and put_unconditional() the low seven bits of `ea` are ignored,
+  // as by the hardware.
 
   void get_and_reserve(unsigned spe, void* ls, ea_t ea);
-  /// Writes if the reservation still holds; returns whether it did.
+  /// Writes the line if the SPE still has its reservation; returns whether it did.
   bool put_conditional(unsigned spe, const void* ls, ea_t ea);
   void put_unconditional(unsigned spe, const void* ls, ea_t ea);
-  /// Writes bytes of any number and place.
+  /// Writes `size` bytes at any address, for plain puts.
   void put(unsigned spe, const void* ls, ea_t ea, std::size_t size);
   /// Gives up the SPE's reservation, if any.
   void release(unsigned spe) noexcept;
@@ -52,8 +53,9 @@ private:
 
   std::vector<Channels*> spes_;
   std::array<Lock, kLocks> locks_;
-  std::vector<std::atomic<ea_t>> reserved_; ///< per SPE: its line, or kNone; set under the lock of the line
-  std::atomic<unsigned> held_{0};           ///< number of SPEs that hold a reservation
+  /// By SPE: the reserved line, or kNone; set under the lock of the line.
+  std::vector<std::atomic<ea_t>> reserved_;
+  std::atomic<unsigned> held_{0}; ///< number of SPEs that hold a reservation
 };
 
 } // namespace celltrace::native

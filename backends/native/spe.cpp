@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::align_val_t kArenaAlignment{kLineBytes};
 
-// Stop codes that libspe2 takes for the end of the program.
+// First and number of the stop codes that end a program, as in libspe2.
 constexpr std::uint32_t kExitStop = 0x2000;
 constexpr std::uint32_t kExitCodes = 0x100;
 

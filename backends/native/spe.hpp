@@ -1,4 +1,4 @@
-// One SPE of the native machine: the state that its Spu object operates on, whatever the SIMD.
+// One SPE of the native machine: the state that its Spu object works on, independent of the SIMD level.
 #pragma once
 
 #include "backends/native/channels.hpp"
@@ -12,13 +12,13 @@
 
 namespace celltrace::native {
 
-/// The exception that unwinds a kernel that ended by a stop with one of the exit codes.
+/// The exception that ends a kernel that stopped with one of the exit codes.
 struct Exited {
   std::uint32_t code;
 };
 
-/// Bytes of an SPE's arena, which is all of its local store. Far more than a Cell's; code and stack, which
-/// a Cell keeps in local store, do not lie in it.
+/// Bytes of an SPE's arena, its only local store: far more than on a Cell, although code and stack lie
+/// elsewhere.
 constexpr std::uint32_t kArenaBytes = 1024 * 1024;
 
 struct Spe {
@@ -29,16 +29,17 @@ struct Spe {
 
   /// Empties the arena and resets the MFC and the SPU's own channels.
   void begin();
-  /// Ends the kernel: resets the MFC, and tells the PPE the exit code.
+  /// Tells the PPE that the kernel has ended.
   void end(std::uint32_t exit_code);
 
-  /// Returns the arena, for the SPE's thread. Every change of its fill is preceded by a call, which updates
-  /// the peak.
+  /// Returns the arena, for the SPE's thread, and updates the peak of its use: each change of
+  /// ArenaState::next is preceded by a call.
   ArenaState& tracked_arena() {
     counters.local_store_peak.raise_to(static_cast<std::uint64_t>(arena.next - arena.begin));
     return arena;
   }
-  /// Stops with a 14-bit code: ends the kernel, or waits for the PPE.
+  /// Stops with a 14-bit code. Ends the kernel if this is an exit code, else waits until the PPE resumes the
+  /// kernel.
   void stop(std::uint32_t code);
   /// Ends the kernel with an SpeError.
   [[noreturn]] void halt(HaltCode code) const;

@@ -1,8 +1,9 @@
 // The SPU of the native backend: the interface of celltrace/spe/spu.hpp on a host thread.
 //
-// Kernels are compiled once per instruction set, with `Arch` as part of every name. Code that does not
-// depend on it is compiled once (spe.hpp, channels.hpp, mfc.hpp), and this header includes no code that
-// another translation unit would pick up although it was compiled for a wider CPU.
+// Kernels are compiled once for each instruction set, and `Arch` is part of all their names. Code that does
+// not depend on the instruction set is compiled once, elsewhere (spe.hpp, channels.hpp, mfc.hpp): an inline
+// function here without `Arch` in its name could be compiled for a wide CPU and then be linked into code for
+// all CPUs.
 #pragma once
 
 #include "backends/native/spe.hpp"
@@ -13,7 +14,7 @@
 
 namespace celltrace::native {
 
-/// Names of the SPU types: "native." and the name of the MachineConfig::simd level.
+/// Names of the SPU types: "native." followed by the name of the SIMD level.
 template <class Arch> constexpr const char* kSpuKey = nullptr;
 #ifdef CELLTRACE_HAS_XSIMD
 template <> inline constexpr const char* kSpuKey<xsimd::sse2> = "native.sse2";
@@ -23,8 +24,8 @@ template <> inline constexpr const char* kSpuKey<xsimd::neon64> = "native.neon64
 #endif
 template <> inline constexpr const char* kSpuKey<GenericArch> = "native.generic";
 
-/// A native SPU. Transfers are memmoves that are complete when the call returns; nothing is checked; stalled
-/// channels sleep. Deviations from the Cell: see Mfc and Reservations.
+/// A native SPU. A transfer is a memmove that is complete when the call returns; nothing is checked; stalls
+/// sleep. See Mfc and Reservations for deviations from the Cell.
 template <class Arch> class Spu : public SpuBase<Spu<Arch>> {
 public:
   static constexpr bool direct_memory = true;

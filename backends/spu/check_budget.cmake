@@ -3,10 +3,10 @@
 #   cmake -DELF=... -DSTACK=... -DMAP=... -DARENA=bytes [-DSAID_CODE=bytes -DSAID_STACK=bytes] [-DMODULES=modules.hpp]
 #     [-DFREE=bytes] -DSIZE_TOOL=spu-elf-size -DOBJDUMP_TOOL=spu-elf-objdump -P check_budget.cmake
 #
-# SAID_... are the sizes that the emulator assumes for the program's code with its data, and for its stack: upper limits, as
-# are the sizes of the code modules in MODULES. FREE is the number of bytes that the program has to leave.
-# MAP is the linker's map. STACK is the linker's output with --stack-analysis: the worst call chain from the entry, crt0
-# included.
+# SAID_... are upper limits of the size of the program's code and data, and of its stack, which the emulator
+# assumes; MODULES has upper limits of the sizes of code modules. FREE is the number of bytes that the program
+# has to leave free. MAP is the linker's map. STACK is the linker's output with --stack-analysis: the worst
+# call chain from the entry, crt0 included.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -19,7 +19,7 @@ endif()
 set(code ${CMAKE_MATCH_1})
 math(EXPR data "${CMAKE_MATCH_2} + ${CMAKE_MATCH_3} - ${ARENA}")
 
-# Code modules lie in the file, and in turn in one of some regions.
+# Code modules are in the file; in local store the modules of a region share its place.
 execute_process(COMMAND ${SIZE_TOOL} -A ${ELF} OUTPUT_VARIABLE sections)
 string(REGEX MATCHALL "\\.module\\.[a-z]+ +[0-9]+ +[0-9]+" modules "${sections}")
 set(regions "")
@@ -42,7 +42,8 @@ foreach(at ${regions})
 endforeach()
 math(EXPR code "${code} + ${region}")
 
-# What the emulator charges for modules is what they really take, and it knows them apart.
+# Check that the sizes that the emulator assumes for modules are not exceeded, and that modules have different
+# numbers.
 if(MODULES)
   file(READ ${MODULES} said_modules)
   set(numbers "")
@@ -63,7 +64,8 @@ if(MODULES)
   endforeach()
 endif()
 
-# A module that is called while another one of its region is under way takes its place, and there is no way back.
+# Check that no module calls another module of its region: the callee would replace the caller, which could
+# not go on.
 if(modules)
   execute_process(COMMAND ${OBJDUMP_TOOL} -t ${ELF} OUTPUT_FILE ${STACK}.symbols)
   execute_process(COMMAND ${SIZE_TOOL} -A ${ELF} OUTPUT_FILE ${STACK}.sections)

@@ -1,5 +1,5 @@
-# Finds calls from which a code module could not return: calls of a module that replaces a running one in its region, also
-# through resident functions and other modules.
+# Finds calls that a code module could not return from: calls, direct or through other functions, of another
+# module of the same region, which replaces the caller.
 #
 #   awk -f module_calls.awk SECTIONS SYMBOLS MAP
 #
@@ -12,7 +12,7 @@ FILENAME == ARGV[2] { if (NF > 3 && $(NF - 2) ~ /^\.module\./) module[$NF] = $(N
 listed && /^[^ ].*: 0x[0-9a-f]+ 0x[0-9a-f]+$/ { caller = $1; sub(/:$/, "", caller); callers[caller] = 1; next }
 listed && /^   / { calls[caller] = calls[caller] " " $NF }
 
-# What `name` calls, directly or not, while `home` is under way.
+# Visits all functions that `name` calls, directly or not, on behalf of the module `home`.
 function visit(name, home, path,    list, count, i, callee) {
   count = split(calls[name], list, " ")
   for (i = 1; i <= count; ++i) {

@@ -1,12 +1,12 @@
 # Fetches code modules: the linker's stubs for calls into overlays branch to this code.
 #
-# The linker makes _ovly_table (for each overlay, from 1 on: address, bytes, offset in the program's file, number of
-# its region from 1 on) and _ovly_buf_table (for each region: the present overlay). A stub puts the overlay's
-# number into $78 and the function's address into $79. The registers $75 to $79 are free here; the caller's
-# return address stays valid, because only resident code calls modules.
+# The linker makes _ovly_table (for each overlay, from number 1 on: address, bytes, offset in the program's
+# file, number of its region from 1 on) and _ovly_buf_table (for each region: number of the present overlay).
+# A stub puts the overlay's number into $78 and the function's address into $79. The registers $75 to $79 are
+# free here; the caller's return address stays valid, because only resident code calls modules.
 #
-# A fetch is DMA commands of 16 KB at most, with a tag of their own, and a wait. A program's file does not cross a
-# boundary of 4 GB.
+# A fetch consists of DMA commands of at most 16 KB with the tag TAG, and a wait. The program's file must not
+# cross a boundary of 4 GB.
 
   .set TAG, 31
 
@@ -27,7 +27,7 @@ __ovly_load:
   rotqby  $76, $76, $75
   ceq     $76, $76, $78
   brnz    $76, .Lthere
-  # From now on the region holds the module.
+  # Note that the region now holds the module.
   lqd     $77, 0($75)
   cwd     $76, 0($75)
   shufb   $77, $78, $77, $76
@@ -35,8 +35,8 @@ __ovly_load:
   shli    $77, $78, 4
   ila     $76, _ovly_table - 16
   lqx     $77, $77, $76
-  # From the program's file in main memory, 64-bit address and offset: $79 high word, $78 low word, $77 local store,
-  # $75 bytes.
+  # Compute the module's effective address, that of the program's file plus the offset: $79 is its high word,
+  # $78 its low word. $77 is the local-store address, $75 the number of bytes.
   stqr    $79, .Ltarget
   rotqbyi $75, $77, 8
   lqr     $76, celltrace_program_image
@@ -83,7 +83,8 @@ __ovly_load:
   bi      $79
   .size __ovly_load, . - __ovly_load
 
-# The linker needs this symbol if functions of modules call other modules; here they return to resident code.
+# The linker needs this symbol if functions of modules call other modules. It just returns, because only
+# resident code calls modules here.
   .global __ovly_return
   .type __ovly_return, @function
 __ovly_return:

@@ -1,5 +1,5 @@
-// The SIMD facade with the four lanes of one quadword, for code that runs rarely: its code takes a quarter of
-// the local store of the same code with 16 lanes.
+// QuadSimd: the SIMD facade with the four lanes of one quadword. Code with it takes a quarter of the local
+// store of the same code with 16 lanes, so rarely run code uses it.
 #pragma once
 
 #include "backends/spu/simd.hpp"
@@ -67,8 +67,8 @@ struct QuadSimd {
     numbers.quad[first / kLanes] = part.quad;
   }
 
-  /// Sums rows without a loop over the rows of a lane: an SPU executes in order, and waits for each number
-  /// that it looks up unless it has others to look up meanwhile.
+  /// Sums rows, with the loop over a lane's rows unrolled: an SPU executes in order, and would wait for each
+  /// look-up in the table if no others were under way.
   template <uint32_t kRows, uint32_t kChannels, class StartsOf, class FactorsOf>
   static void sum_rows(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                        F (&sums)[kChannels]) {
@@ -88,7 +88,7 @@ struct QuadSimd {
         total[channel] = spu_splats(0.0f);
 #pragma GCC unroll 8
       for (uint32_t row = 0; row < kRows; ++row) {
-        // A row lies across one quadword more than it has channels.
+        // An unaligned row spans one quadword more than it has channels.
         const float* const numbers = table + starts[row];
         const qword address = si_from_ptr(numbers);
         const vec_uchar16 bytes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};

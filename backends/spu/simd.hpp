@@ -13,24 +13,24 @@ struct Simd {
   static constexpr uint32_t kLanes = kSimdLanes;
   static constexpr int kQuads = 4;
 
-  /// Returns bits by lane: lane l of a quad holds 1 << (4 * quad + l).
+  /// Returns the bit of each lane: lane l of the result is 1 << (4 * quad + l).
   static vec_uint4 lane_bits(int quad) {
     const vec_uint4 first = {1, 2, 4, 8};
     return spu_sl(first, static_cast<unsigned>(4 * quad));
   }
-  /// Returns 1/x to within one unit in the last place: the estimate and one Newton-Raphson step.
+  /// Returns 1/x to within one unit in the last place, by the estimate and one Newton-Raphson step.
   static vec_float4 reciprocal(vec_float4 x) {
     const vec_float4 estimate = spu_re(x);
     return spu_madd(estimate, spu_nmsub(x, estimate, spu_splats(1.0f)), estimate);
   }
-  /// Divides. The quotient is corrected by its remainder, because SPU arithmetic truncates.
+  /// Returns a / b. The quotient is corrected by the remainder, because SPU arithmetic truncates.
   static vec_float4 divide(vec_float4 a, vec_float4 b) {
     const vec_float4 inverse = reciprocal(b);
     const vec_float4 quotient = spu_mul(a, inverse);
     return spu_madd(spu_nmsub(quotient, b, a), inverse, quotient);
   }
-  /// Returns the root by Goldschmidt's iteration from the estimate of 1/sqrt(x), then a correction by the
-  /// remainder. 0 gives 0, because the estimate of 1/sqrt(0) is finite.
+  /// Returns the square root, by Goldschmidt's iteration from the estimate of 1/sqrt(x), and a correction by
+  /// the remainder. The root of 0 is 0, because the estimate of 1/sqrt(0) is finite.
   static vec_float4 square_root(vec_float4 x) {
     const vec_float4 half = spu_splats(0.5f);
     const vec_float4 estimate = spu_rsqrte(x);
@@ -42,7 +42,8 @@ struct Simd {
     return spu_madd(spu_nmsub(root, root, x), half_inverse, root);
   }
 
-  /// Loads four floats from any address of a float: shuffled from the quadwords of the first and the last.
+  /// Loads four floats, which need not be aligned to a quadword, by a shuffle of the quadwords of the first
+  /// and the last.
   static vec_float4 load_floats(const float* words) {
     const auto quad_at = [](const void* place) {
       return *reinterpret_cast<const vec_uchar16*>(reinterpret_cast<uintptr_t>(place) & ~uintptr_t{15});
@@ -164,7 +165,7 @@ struct Simd {
         const vec_int4 at = spu_and(four, 124);
         return join_words([&](int lane) {
           const int offset = spu_extract(at, lane);
-          // Loads take the quadword that an address lies in.
+          // A load ignores the low four bits of the address.
           const qword quad = si_lqx(si_from_ptr(line), si_from_int(offset));
           return (vec_int4)si_rotqby(quad, si_from_int(offset));
         });
@@ -215,7 +216,7 @@ struct Simd {
     }
   };
 
-  /// Joins the first words of four quadwords, `quad_of(lane)`.
+  /// Returns the first words of the four quadwords `quad_of(lane)`.
   template <class QuadOf> static vec_int4 join_words(QuadOf quad_of) {
     const vec_uchar16 first_two = {0, 1, 2, 3, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0};
     const vec_uchar16 halves = {0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23};
@@ -294,7 +295,7 @@ struct Simd {
   static void transpose(vec_float4& a, vec_float4& b, vec_float4& c, vec_float4& d) {
     const vec_uchar16 low = {0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23};
     const vec_uchar16 high = {8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31};
-    // Interleave the numbers of every other row, twice.
+    // Interleaves rows a and c, and b and d, then the results.
     const vec_float4 ac_low = spu_shuffle(a, c, low), ac_high = spu_shuffle(a, c, high);
     const vec_float4 bd_low = spu_shuffle(b, d, low), bd_high = spu_shuffle(b, d, high);
     a = spu_shuffle(ac_low, bd_low, low);

@@ -1,5 +1,5 @@
-// The SPU of the spu backend: the interface of celltrace/spe/spu.hpp on a real SPE, as inline wrappers
-// over the channel intrinsics of spu-elf-g++.
+// The SPU of a real SPE: the interface of celltrace/spe/spu.hpp as inline wrappers over the channel
+// intrinsics of spu-elf-g++.
 #pragma once
 
 #include "backends/spu/quad_simd.hpp"
@@ -12,8 +12,8 @@
 
 namespace celltrace::spu {
 
-/// A real SPU. The MFC detects rules that a command breaks, and then stops the SPE. halt() stops it with the
-/// signal kHaltStop + code, which libspe2 reports as SPE_STOP_AND_SIGNAL.
+/// A real SPU. If a command breaks a rule that the MFC checks, the MFC stops the SPE. halt() stops the SPE
+/// with the signal kHaltStop + code, which libspe2 reports as SPE_STOP_AND_SIGNAL.
 class Spu : public SpuBase<Spu> {
 public:
   static constexpr bool direct_memory = false;
@@ -21,7 +21,7 @@ public:
   using simd = Simd;
   using rare_simd = QuadSimd;
 
-  /// Makes the SPU; `arena` is `bytes` of local store, `control_block` the effective address of the
+  /// Makes the SPU. `arena` is `bytes` bytes of local store, `control_block` the effective address of the
   /// ControlBlock.
   Spu(ea_t control_block, uint8_t* arena, uint32_t bytes) : arena_{arena, arena + bytes, arena} {
     initialise_base();
@@ -67,7 +67,7 @@ public:
     __asm__ volatile("" ::: "memory");
   }
   [[noreturn]] void halt(HaltCode code) {
-    // The code is part of the instruction, so each needs its own.
+    // The code is part of the stop instruction, so each code needs an instruction of its own.
     switch (code) {
     case HaltCode::local_store_exhausted:
       stop_for_good<HaltCode::local_store_exhausted>();
@@ -83,9 +83,9 @@ public:
   ArenaState& arena() { return arena_; }
 
 private:
-  /// Keeps memory accesses on their side of a channel. The compiler does so for channels 21 to 27
-  /// (-msafe-dma), but moves them across mailboxes, signals and events, by which other processors announce
-  /// that memory has changed.
+  /// Keeps the compiler from moving memory accesses across a channel access. With -msafe-dma the compiler
+  /// moves no accesses across channels 21 to 27, but it still moves them across mailboxes, signals and
+  /// events, by which other processors announce that memory has changed.
   template <Channel c> static void order_memory() {
     constexpr bool ordered_by_compiler = c >= Channel::mfc_cmd && c <= Channel::rd_atomic_stat;
     if constexpr (!ordered_by_compiler) __asm__ volatile("" ::: "memory");

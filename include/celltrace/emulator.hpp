@@ -25,7 +25,7 @@
 
 namespace celltrace {
 
-/// The SPE as a program sees it: SpuBase, and functions that only the emulator has.
+/// The SPE as its program sees it: the functions of SpuBase, and functions that only the emulator has.
 using EmulatedSpu = cell_emu::Spu;
 
 /// The outcome of a run of programs.
@@ -33,7 +33,7 @@ struct CELLTRACE_EXPORT EmulatedRun {
   std::vector<Diagnostic> diagnostics; ///< diagnostics in the order of their discovery
   /// The errors that ended the SPEs' programs, by SPE; "" for a program that ended well.
   std::vector<std::string> errors;
-  /// The message of the SpeError that one of the PPE's calls ended with, a deadlock for instance; or "".
+  /// The message of an SpeError that a call of the PPE threw, because of a deadlock for instance; or "".
   std::string ppe_error;
   std::vector<std::uint32_t> exit_codes; ///< index: SPE
   std::vector<SpeStatistics> spes;       ///< index: SPE
@@ -64,18 +64,18 @@ using EmulatedProgram = std::function<void(EmulatedSpu&, ea_t)>;
 using EmulatedPpe = std::function<void(Machine&)>;
 
 /// Runs `program` on every SPE of a new machine while `ppe` plays the PPE, and waits for all SPEs. If a
-/// program stops with a signal, `ppe` has to resume it. Programs may use everything that the host has,
-/// including what they capture; on the free schedule they run at the same time. Throws InputError if the
+/// program stops with a signal, `ppe` has to resume it. Programs may use everything on the host, including
+/// variables that they capture; on the free schedule programs run at the same time. Throws InputError if the
 /// configuration is out of range, and passes on exceptions of `ppe` other than SpeError.
 CELLTRACE_EXPORT EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& program,
                                              ea_t argument, const EmulatedPpe& ppe);
 
-/// As emulate_program(), on an existing machine and with a program in the form that machines take. The
-/// machine must have nothing left to wait for from earlier runs.
+/// As emulate_program(), on an existing machine and with a program in the form that machines take. All
+/// earlier runs on the machine must have been waited for.
 CELLTRACE_EXPORT EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument = 0,
                                         const EmulatedPpe& ppe = {});
 
-/// emulate_program() with a program that takes (spu, argument) or only (spu).
+/// Calls emulate_program() with a program that takes (spu, argument) or only (spu).
 template <class Program>
 EmulatedRun emulate(const MachineConfig& config, Program program, ea_t argument = 0,
                     const EmulatedPpe& ppe = {}) {

@@ -32,16 +32,17 @@ struct Finding {
     error    ///< a fault for which the scene is refused
   };
   Severity severity = Severity::error;
-  std::string file;                    ///< file name as in messages
-  std::uint32_t line = 1, column = 1;  ///< both from 1; both 0 for the file as a whole, if it cannot be read
-  std::string text;                    ///< the message
-  std::vector<std::string> reached_by; ///< the includes and macros on the way there, from the inside out
-  bool is_unsupported = false;         ///< true for a feature that ParseOptions::lenient leaves out
+  std::string file;                   ///< name of the file in messages
+  std::uint32_t line = 1, column = 1; ///< both from 1; both 0 if the file cannot be read
+  std::string text;                   ///< the message
+  /// The includes and macro calls that led to the place, innermost first.
+  std::vector<std::string> reached_by;
+  bool is_unsupported = false; ///< true for a feature that ParseOptions::lenient leaves out
 };
 
-/// The text of a scene is wrong or uses what is not supported. what() starts with "file:line:column: error:"
-/// ("file: error:" if it cannot be read) and may go on with the include stack and further errors, a line
-/// each.
+/// The text of a scene is wrong or uses an unsupported feature. what() starts with "file:line:column: error:"
+/// ("file: error:" if the file cannot be read) and may go on with the include stack and further errors, a
+/// line each.
 class CELLTRACE_EXPORT SceneError : public InputError {
 public:
   /// At least one of `findings` is an error.

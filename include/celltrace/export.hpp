@@ -1,4 +1,4 @@
-// Marks what the shared libraries export: everything without CELLTRACE_EXPORT is hidden.
+// CELLTRACE_EXPORT marks symbols that the shared libraries export; all other symbols are hidden.
 #pragma once
 
 #if defined(__GNUC__) && !defined(__SPU__)

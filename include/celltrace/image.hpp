@@ -1,5 +1,5 @@
 // Pictures in memory. Pictures with 8 bits a channel can be read from files, written to files and compared;
-// those with 16 bits a channel, and colours as floats, can be written to files.
+// pictures with 16 bits a channel, and colours as floats, can be written to files.
 //
 // Every function is safe to call from several threads at once on different pictures and files.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace celltrace {
 
-/// Limits of pictures that are loaded and saved: pixels a side, and pixels in all (512 MB of RGBA).
+/// Limits of pictures that are loaded and saved: pixels a side, and pixels in all (512 MB of 8-bit RGBA).
 inline constexpr int kMaxImageSide = 65535;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
 
@@ -43,16 +43,16 @@ private:
   }
 };
 
-/// Pictures with values as files have them: encoded (sRGB by convention), alpha not premultiplied, the
-/// largest value is opaque.
+/// Pictures with the values that files contain: encoded (sRGB by convention), with alpha not premultiplied.
+/// The largest alpha is opaque.
 using Image = BasicImage<std::uint8_t>;
 using DeepImage = BasicImage<std::uint16_t>;
 
-/// Colours as floats, as rays brought them: not clipped, alpha 0 to 1, premultiplied. To put them in front of
-/// a background, add the background times 1 - alpha.
+/// Colours as floats, as computed along rays: not clipped, premultiplied with alpha, which is 0 to 1. To put
+/// a picture in front of a background, add the background times 1 - alpha.
 struct ColourImage : BasicImage<float> {
   using BasicImage::BasicImage;
-  /// The exponent that makes the colours linear. None: the colours are for display as they are.
+  /// The exponent that makes the colours linear. None: the colours are already encoded for display.
   std::optional<double> gamma = 1.0;
 };
 
@@ -70,10 +70,9 @@ struct FirstHits {
   /// Distance from the ray's origin, in the scene's unit; infinity if nothing is hit.
   std::vector<float> depth;
   std::vector<float> normal; ///< x, y, z a pixel, of length 1, on the side that is seen; 0 if nothing is hit
-  /// A number that tells objects apart, 0 if nothing is hit: 1 + the index in Scene::interiors of the
-  /// object's interior, so that the parts of a union that share an interior count as one object; for an
-  /// object without an interior 1 + the number of interiors + its index in Scene::objects, which is
-  /// RayHit::object.
+  /// A number that tells objects apart, 0 if nothing is hit: for an object with an interior, 1 +
+  /// Object::interior, so that parts of a union that share an interior count as one object; for an object
+  /// without an interior, 1 + the number of interiors + its index in Scene::objects (RayHit::object).
   std::vector<std::uint32_t> object;
 };
 
@@ -89,11 +88,11 @@ struct BlockImage {
   int columns() const { return (width + 3) / 4; }
   int rows() const { return (height + 3) / 4; }
 };
-/// Returns the pixels, opaque. Throws InputError if the picture is empty, too large, or has another number of
-/// blocks than its size asks for.
+/// Returns the decoded pixels, opaque. Throws InputError if the picture is empty or too large, or if the
+/// number of blocks does not fit its size.
 CELLTRACE_EXPORT Image to_image(const BlockImage& blocks);
 
-/// The formats that pictures are written in, with the pictures that each takes.
+/// The formats of picture files, with the types of pictures that each format can store.
 enum class ImageFormat {
   png, ///< Image and DeepImage: 8 or 16 bits a channel, without alpha if every pixel is opaque
   ppm, ///< Image and DeepImage: binary, always without alpha; grey pictures are PGM
@@ -105,36 +104,38 @@ enum class ImageFormat {
   jpeg ///< Image: JPEG (baseline), without alpha; if the build has libjpeg
 };
 
-/// The encoding of files of 8 and 16 bits a channel: sRGB's, or a power.
+/// The encoding of values in files of 8 and 16 bits a channel: sRGB, or a power.
 struct FileGamma {
   std::optional<double> power; ///< exponent that makes values linear; none: sRGB
 
   bool operator==(const FileGamma&) const = default;
 };
-/// Returns the format of the extension of `path`, in upper or lower case. Throws InputError if the extension
-/// is none of these, or if the build cannot write the format.
+/// Returns the format that the extension of `path`, in upper or lower case, stands for. Throws InputError if
+/// the extension is unknown, or if the build cannot write the format.
 CELLTRACE_EXPORT ImageFormat image_format_of(const std::filesystem::path& path);
 /// Returns true if the format is written from a ColourImage.
 constexpr bool holds_numbers(ImageFormat format) {
   return format == ImageFormat::exr || format == ImageFormat::hdr;
 }
 
-/// Content of an OpenEXR file besides colours, which have 16 bits a channel by default.
+/// Options for OpenEXR files. By default the file has only colours, of 16 bits a channel.
 struct ExrOptions {
-  bool full_floats = false; ///< colours and normals have 32 bits a channel
+  bool full_floats = false; ///< true: colours and normals have 32 bits a channel
   /// First hits of the picture's size, written as channels Z (32 bits), N.X, N.Y, N.Z and id (whole numbers).
   /// Null: none.
   const FirstHits* first_hits = nullptr;
 };
 
-/// Options of a picture file, for formats that leave a choice.
+/// Options of a picture file; a format ignores options that do not concern it.
 struct FileOptions {
-  std::optional<ImageFormat> format; ///< none: by the path's extension; only save_image() uses it
-  /// True: the file has alpha, if its format can. None: the file has alpha unless every pixel is opaque.
+  /// None: the format of the path's extension; only save_image() uses this member.
+  std::optional<ImageFormat> format;
+  /// True: the file has alpha if its format has. None: the file has alpha if its format has and a pixel is
+  /// not opaque.
   std::optional<bool> alpha;
   /// True: the file has only the luminance of the colours. For PNG, PPM (which becomes a PGM), TGA and JPEG.
   bool grey = false;
-  /// The encoding of the values of Image and DeepImage, and the encoding that a ColourImage is given.
+  /// The encoding that Image and DeepImage have, and to which a ColourImage is converted.
   FileGamma gamma;
   int bits = 8;             ///< bits a channel, 8 or 16, of a ColourImage in a PNG or PPM
   int jpeg_quality = 85;    ///< 0 to 100; POV-Ray's default
@@ -151,15 +152,16 @@ CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const Image&
                                  const FileOptions& options = {});
 CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const DeepImage& image,
                                  const FileOptions& options = {});
-/// As above, for colours as floats. OpenEXR and Radiance get linear colours; OpenEXR's 16 bits end at 65504,
-/// RGBE has nothing below 0. Other formats get encoded colours, as from to_image() and to_deep_image(), but
-/// in front of black if the format has no alpha.
+/// As above, for colours as floats. OpenEXR and Radiance files get linear colours: up to 65504 in OpenEXR's
+/// 16 bits, and not below 0 in RGBE. Other formats get encoded colours, as from to_image() and
+/// to_deep_image(), but in front of black if the format has no alpha.
 CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const ColourImage& colours,
                                  const ExrOptions& exr = {}, const FileOptions& options = {});
 CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const BlockImage& blocks,
                                  const FileOptions& options = {});
 
-/// As save_image(), to the end of an open stream, which is flushed. Throws InputError without a file name.
+/// Writes a picture as save_image() does, to the end of an open stream, and flushes the stream. Throws
+/// InputError, with a message that names no file.
 CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const Image& image,
                                   const FileOptions& options = {});
 CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const DeepImage& image,
@@ -169,7 +171,7 @@ CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const Col
 CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks,
                                   const FileOptions& options = {});
 
-/// As save_image(), into memory.
+/// Return the bytes of the file that save_image() would write.
 CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format,
                                                         const FileOptions& options = {});
 CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format,
@@ -178,34 +180,36 @@ CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const ColourImage& colou
                                                         const ExrOptions& exr = {},
                                                         const FileOptions& options = {});
 CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const BlockImage& blocks, ImageFormat format);
-/// Decodes the bytes of a picture file in any format that load_image() reads. Throws InputError as that does.
+/// Decodes the bytes of a picture file in any format that load_image() reads. Throws InputError as
+/// load_image() does, without a file name.
 CELLTRACE_EXPORT Image decode_image(const std::uint8_t* bytes, std::size_t count);
 
-/// Throws the InputError that save_image() would end with for this path's extension, folder or file, so that
-/// a program can fail before it computes the picture. `format` is as in FileOptions.
+/// Throws the InputError that save_image() would throw because of the path's extension, folder or file, so
+/// that a program can fail before it computes the picture. `format`: as in FileOptions.
 CELLTRACE_EXPORT void check_image_path(const std::filesystem::path& path,
                                        std::optional<ImageFormat> format = {});
 
 /// Reads a PNG (any bit depth, grey, palette, alpha, interlaced; 16 bits are rounded to 8; gamma chunks are
 /// not applied), a binary PPM (P6, any maximum), a BMP (24 or 32 bits a pixel, not compressed), a JPEG (if
-/// the build has libjpeg) or a TGA of version 2 (8 bits a channel, no palette). The content decides the
-/// format, not the name. Throws InputError, naming the file, if it is unreadable, of another format, damaged,
-/// truncated, over the limits above, or too short for the size it declares.
+/// the build has libjpeg) or a TGA of version 2 (8 bits a channel, no palette). The format is detected from
+/// the content, not from the name. Throws InputError, naming the file, if it is unreadable, of another
+/// format, damaged, truncated, over the limits above, or too short for the size it declares.
 CELLTRACE_EXPORT Image load_image(const std::filesystem::path& path);
 
 /// The differences between two pictures of the same size.
 struct CELLTRACE_EXPORT Comparison {
   int width = 0;
   int height = 0;
-  /// Peak signal-to-noise ratio over red, green and blue in dB, peak 255; infinity if these are equal
-  /// everywhere.
+  /// Peak signal-to-noise ratio over red, green and blue in dB, peak 255; infinity if red, green and blue are
+  /// equal everywhere.
   double psnr = 0;
   /// Least structural similarity (Wang, Bovik, Sheikh and Simoncelli, 2004) of the luma of a block of 8x8
   /// pixels, with equal weights for all pixels of a block; -1..1, 1 for equal blocks. The blocks tile the
-  /// picture from the top left; blocks at the right and bottom edges are moved inwards to be whole, and a
-  /// picture under 8 pixels wide or high has blocks as wide or high as itself.
+  /// picture from the top left; blocks that would cross the right or bottom edge are moved inwards. A picture
+  /// less than 8 pixels wide or high has blocks as wide or high as itself.
   double worst_ssim = 1;
-  /// Left and top pixel of the block with the least similarity; the first of several equal ones.
+  /// Column and row of the first pixel of the block with the least similarity; of several equal blocks, the
+  /// first.
   int worst_x = 0;
   int worst_y = 0;
   /// Number of pixels that differ in any channel, alpha included.

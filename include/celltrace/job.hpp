@@ -1,4 +1,4 @@
-// Rendering in the background: takes a scene's file, its text or a Scene, and returns a picture, while the
+// Rendering in the background: a job makes a picture of a scene's file, its text or a Scene, while the
 // application does something else.
 //
 //   RenderJob job("scene.pov", options);
@@ -52,22 +52,23 @@ struct JobProgress {
 
 class RenderJob;
 
-/// Options of a job. The functions in `parse` and `render` are called by the thread that works; if one of
-/// them cancels, the whole job is cancelled.
+/// Options of a job. The functions in `parse` and `render` are called by the thread that works; if such a
+/// function cancels, the whole job is cancelled.
 struct JobOptions {
   /// Options for a scene that is read; width, height and quality are taken from `render`.
   ParseOptions parse;
   RenderOptions render;
-  /// Runs `work` once in some thread of the host's, such as a thread pool's, now or later. It must not run
-  /// `work` before it returns if the caller is not to wait. If `work` is dropped, the job is cancelled.
-  /// Empty: each job has a thread of its own. The SPEs' threads (RenderOptions::spes) are besides.
+  /// Runs `work` once in a thread of the application, such as a thread of a pool, now or later. If the
+  /// executor runs `work` before it returns, the caller waits for the job. If `work` is dropped, the job is
+  /// cancelled. Empty: each job has a thread of its own. The SPEs have further threads (RenderOptions::spes).
   std::function<void(std::function<void()> work)> executor;
   /// Called every few milliseconds by the thread that works. An exception of this function ends the job, and
   /// take() throws it.
   std::function<void(const JobProgress& progress)> progress;
-  /// Called once, when the job is over and take() would not wait: by the thread that worked, or by the thread
-  /// that cancelled a job which still waited for one. Must not throw. `job` refers to the job even if its
-  /// owner has moved it or has not finished constructing it, and is valid during the call.
+  /// Called once, when the job is over and take() would not wait: by the thread that worked, or, if the job
+  /// was cancelled while it waited for a thread, by the thread that cancelled it. Must not throw. `job`
+  /// refers to the job even if its owner has moved it or has not finished constructing it, and is valid
+  /// during the call.
   std::function<void(RenderJob& job)> finished;
 };
 
@@ -78,8 +79,8 @@ public:
   /// Starts the job. take() throws all errors, including those of options; exceptions of an executor pass
   /// through.
   explicit RenderJob(JobScene scene, JobOptions options = {});
-  /// Cancels the job, and waits until no function of the options is called any more, unless one of these
-  /// functions destroys the job.
+  /// Cancels the job. Waits until no function of the options is called any more, unless such a function
+  /// destroys the job.
   ~RenderJob();
   RenderJob(RenderJob&&) noexcept;
   RenderJob& operator=(RenderJob&&) noexcept;
@@ -94,9 +95,9 @@ public:
   /// As wait(), for no longer than `timeout`. Returns whether the job is over.
   bool wait_for(std::chrono::milliseconds timeout) const;
 
-  /// Waits, and returns the picture, once. If the job was cancelled while it rendered, the picture has what
-  /// was finished (RenderResult::complete is false). Throws Cancelled if the job was cancelled earlier; else
-  /// the exceptions of load_scene() or render(); InputError the second time.
+  /// Waits, and returns the picture, once. If the job was cancelled while it rendered, the picture has the
+  /// finished pixels (RenderResult::complete is false). Throws Cancelled if the job was cancelled before it
+  /// rendered, else the exceptions of load_scene() or render(). Throws InputError when it is called again.
   RenderResult take();
 
   /// Returns the first thousand findings in the scene's text until now.
@@ -110,7 +111,7 @@ private:
   void leave() noexcept;
 
   std::shared_ptr<Impl> impl_;
-  bool is_owner_ = true; ///< false for the job that `finished` gets
+  bool is_owner_ = true; ///< false for the RenderJob that is passed to JobOptions::finished
 };
 
 } // namespace celltrace

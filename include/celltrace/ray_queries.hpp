@@ -8,9 +8,9 @@
 //   const RayHit hit = queries.closest_hit({{0, 1, -5}, {0, 0, 1}});
 //   if (hit) std::cout << "object " << hit.object << " after " << hit.distance << '\n';
 //
-// Queries know shapes only: they hit transparent surfaces like opaque ones, and also objects with `no_image`
-// or `no_shadow`. Objects with Object::is_hidden are not hit. A surface closer than 1e-4 to the origin of a
-// ray is not hit, so that rays can start on surfaces.
+// Queries ignore textures and visibility flags: rays hit transparent surfaces like opaque surfaces, and also
+// objects with `no_image` or `no_shadow`. Objects with Object::is_hidden are not hit. A surface closer than
+// 1e-4 to the origin of a ray is not hit, so that rays can start on surfaces.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -24,8 +24,8 @@
 namespace celltrace {
 
 /// Answers queries about the scene as it was when Renderer::ray_queries() made this object. Copyable; a copy
-/// takes some 200 KB. Thread safety: one thread at a time; give each thread a copy of its own. Copies may be
-/// used while the renderer renders, but not while it changes its scene; from then on, every call throws
+/// takes some 200 KB. Thread safety: one thread at a time; give each thread a copy of its own. Queries may be
+/// used while the renderer renders, but not while it changes its scene; after a change every call throws
 /// InputError.
 class CELLTRACE_EXPORT RayQueries {
 public:
@@ -35,13 +35,13 @@ public:
   RayQueries(RayQueries&&) noexcept;
   RayQueries& operator=(RayQueries&&) noexcept;
 
-  /// Returns the closest hit of a ray. All queries of closest hits give the same answers to the last bit,
-  /// except where objects or triangles meet: there two queries may name different ones of them, at the same
-  /// distance.
+  /// Returns the closest hit of a ray. closest_hit() and closest_hits() give the same answers to the last
+  /// bit, except where objects or triangles meet: there two queries may name different objects or triangles,
+  /// at the same distance.
   RayHit closest_hit(const Ray& ray);
-  /// Finds the closest hits of many rays, one for each. Much faster if each 16 rays in a row, and each 256,
-  /// have similar origins and directions, so give rays in blocks: pixels, for example, as 4x4 blocks of 4x4.
-  /// Throws InputError if `rays` and `hits` differ in number.
+  /// Finds the closest hits of many rays, one for each. Much faster if the rays of each 16 in a row, and of
+  /// each 256, have similar origins and directions. For rays through pixels, order them as 4x4 blocks of 4x4
+  /// pixels. Throws InputError if `rays` and `hits` differ in number.
   void closest_hits(std::span<const Ray> rays, std::span<RayHit> hits);
 
   /// Returns whether the ray hits anything. Faster than closest_hit().

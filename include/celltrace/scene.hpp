@@ -1,4 +1,4 @@
-// Scene: the description of a picture, as people build it or as the POV-Ray parser delivers it.
+// Scene: the description of a picture, which an application builds or the POV-Ray parser returns.
 //
 // Units are the scene's own; angles are in degrees unless said otherwise; the axes are POV-Ray's
 // (left-handed, y up). Colours are linear in the scene's working space (see GammaMode). A Scene is a plain
@@ -18,8 +18,9 @@
 namespace celltrace {
 
 struct Camera {
-  /// POV-Ray's kinds, by the ray through pixel (x, y) of a W x H picture, with u = (x+.5)/W-.5 from -.5 at
-  /// the left to .5 at the right, and v = .5-(y+.5)/H from -.5 at the bottom to .5 at the top.
+  /// POV-Ray's kinds of cameras, each described by its ray through pixel (x, y) of a W x H picture, where u =
+  /// (x+.5)/W-.5 goes from -.5 at the left to .5 at the right, and v = .5-(y+.5)/H from -.5 at the bottom to
+  /// .5 at the top.
   enum class Kind {
     perspective,      ///< from the location along direction + right*u + up*v
     orthographic,     ///< from location + right*u + up*v along direction
@@ -31,18 +32,19 @@ struct Camera {
     cylinder_1,       ///< columns are angles, angle*u; rows are heights, up*v; on a cylinder of radius 1
     cylinder_2,       ///< columns are widths, right*u; rows are angles, angle*v
     cylinder_3,       ///< as cylinder_1, but each row is seen from its height on the cylinder's axis
-    cylinder_4,       ///< as cylinder_2, but each column is seen from its place on the axis
-    fisheye ///< at angle/2 from direction for (2*|right|*u, 2*|up|*v) of length 1; black farther out
+    cylinder_4,       ///< as cylinder_2, but each column is seen from its place on the cylinder's axis
+    fisheye ///< rays at angle/2 from direction where (2*|right|*u, 2*|up|*v) has length 1; black farther out
   };
   Kind kind = Kind::perspective;
-  // Values after sky, look_at and transformations, and for perspective and orthographic cameras also
-  // after the angle. Only these two kinds and panoramic use the length of direction.
+  // Values after sky, look_at and transformations have been applied, and for perspective and orthographic
+  // cameras also the angle. Only perspective, orthographic and panoramic use the length of direction.
   Vec3 location{0, 0, 0};
   Vec3 direction{0, 0, 1};
   Vec3 right{1.33, 0, 0};
   Vec3 up{0, 1, 0};
-  double angle = 90;           ///< width of the picture in degrees, not negative; for kinds that mention it
-  double vertical_angle = 180; ///< height of the picture in degrees, not negative; for kinds that mention it
+  // Width and height of the picture in degrees, not negative, for kinds whose comments name them.
+  double angle = 90;
+  double vertical_angle = 180;
 
   /// Ways in which the camera adapts to the ratio of a picture's width to its height.
   enum class Framing {
@@ -54,10 +56,10 @@ struct Camera {
 
   /// Returns a perspective camera at `from` with `to` in the middle of its picture, which is `angle` degrees
   /// wide, above 0 and below 180. With `aspect`, above 0, the view is for pictures that are `aspect` times as
-  /// wide as high, and squeezed into others; without `aspect`, it fits pictures of any shape
-  /// (Framing::width). The direction `sky` points up in the picture. Throws InputError for numbers out of
-  /// range or not finite, if `from` is `to`, and if `sky` is 0 or parallel to the direction from `from` to
-  /// `to`.
+  /// wide as high, and is squeezed into pictures of other shapes. Without `aspect`, the view fits pictures of
+  /// any shape (Framing::width). The direction `sky` points up in the picture. Throws InputError for numbers
+  /// out of range or not finite, if `from` is `to`, and if `sky` is 0 or parallel to the direction from
+  /// `from` to `to`.
   CELLTRACE_EXPORT static Camera look_at(const Vec3& from, const Vec3& to, double angle = 67.38,
                                          std::optional<double> aspect = {}, const Vec3& sky = {0, 1, 0});
 };
@@ -69,20 +71,21 @@ enum class GammaMode {
   assumed ///< working space has exponent Scene::assumed_gamma: sRGB-encoded on output
 };
 
-/// The inside of an object. Objects that a ray can be inside of at the same time have an interior each; the
-/// children of a union share the union's interior if they have none.
+/// The inside of an object. If a ray can be inside of two objects at once, each of them needs an interior of
+/// its own. Children of a union that have no interior share the union's interior.
 struct Interior {
   double ior = 1;
-  /// Fading: light that travels `fade_distance` in the interior is halfway to `fade_colour`. The share 1/(1 +
-  /// (d/distance)^power) of the rest is left after a distance d, or with a power from 1000 on an exponential
-  /// share. A distance of 0: light does not fade. A power of 0: shadows do not fade, either.
+  /// Fading: light that travels `fade_distance` in the interior is halfway to `fade_colour`. After a distance
+  /// d the share 1/(1 + (d/fade_distance)^fade_power) of the difference from `fade_colour` is left, or an
+  /// exponential share if the power is 1000 or more. A distance of 0: light does not fade. A power of 0:
+  /// shadows do not fade, either.
   double fade_distance = 0;
   double fade_power = 0;
   Vec3 fade_colour{0, 0, 0};
   /// Brightens shadows where light passes straight through; greater values brighten a smaller area.
   double caustics = 0;
   /// Factor for light that passes a surface of the interior, going in or out, or is totally reflected there:
-  /// POV-Ray's `refraction` of a finish. Not for the light of shadow rays. Less than 0 counts as 0.
+  /// POV-Ray's `refraction` of a finish. Shadow rays ignore it. Values below 0 count as 0.
   double refraction = 1;
   bool hollow = false; ///< true: fog fills the interior, too
 };
@@ -91,37 +94,38 @@ struct Interior {
 /// interior is not hollow.
 struct Fog {
   Vec3 colour{0, 0, 0};
-  double filter = 0;   ///< share of the light through the fog that takes the fog's colour
+  double filter = 0;   ///< share of the light through the fog that is tinted by the fog's colour
   double transmit = 0; ///< the share of light that passes the fog at any distance, 0 to 1
   double distance = 0; ///< distance after which 1/e of the light is left; 0: there is no fog
-  /// True: the fog lies on the ground and thins out above `offset`, as 1/(1 + y^2) at y times `altitude`
-  /// above `offset`. Heights are along `up`, of length 1.
+  /// True: the fog lies on the ground and thins out above `offset`. Its density is 1/(1 + y^2) at a height of
+  /// y times `altitude` above `offset`. Heights are measured along `up`, which has length 1.
   bool is_ground = false;
   double offset = 0;
-  double altitude = 0; ///< 0: there is no fog above the offset
+  double altitude = 0; ///< unit of the height above `offset`; 0: there is no fog above `offset`
   Vec3 up{0, 1, 0};
-  Turbulence turbulence;           ///< thins the fog here and there, if an amount is not 0
+  Turbulence turbulence;           ///< thins the fog at random places, if an amount is not 0
   double turbulence_depth = 0.5;   ///< strength of the turbulence
   Vec3 turbulence_origin{0, 0, 0}; ///< origin of the noise in the scene
 };
 
-/// A bow of colours, by POV-Ray's formulas. It lies in front of the surface that a ray meets, and is stronger
-/// the farther away the surface is; it is also seen where rays meet nothing. Rays inside an object whose
-/// interior is not hollow do not see it. Several rainbows count equally. Fog lies in front of all of them.
+/// A bow of colours, by POV-Ray's formulas. The bow lies in front of the surface that a ray hits, and is
+/// stronger the farther away the surface is; it is also seen where rays hit nothing. Rays inside an object
+/// whose interior is not hollow do not see the bow. Several rainbows count equally. Fog lies in front of all
+/// rainbows.
 struct Rainbow {
   struct Colour {
     double position; ///< ascending, 0 at the inner edge of the bow to 1 at the outer one
     Vec3 rgb{0, 0, 0};
-    double filter = 0;   ///< share of the light through the bow that takes the colour
-    double transmit = 0; ///< share of that light that passes in any case
+    double filter = 0;   ///< share of the light through the bow that is tinted by the colour
+    double transmit = 0; ///< share of the light through the bow that passes unchanged
   };
   Vec3 direction{0, 0, 1}; ///< direction of the light, of any length but 0; the bow surrounds it
   double angle = 0;        ///< angle between the direction and the middle of the bow, in degrees
   double width = 0;        ///< width of the bow, in degrees; 0: there is none
-  double distance = 0; ///< distance at which 1/e of a surface's light is left; not above 0: there is no bow
-  double jitter = 0;   ///< random shift of the colours, as a share of the width
-  Vec3 up{0, 1, 0};    ///< direction to the middle of the arc; not along `direction`
-  double arc_angle = 360; ///< length of the arc, in degrees
+  double distance = 0;     ///< distance at which 1/e of a surface's light is left; 0 or less: there is no bow
+  double jitter = 0;       ///< random shift of the colours, as a share of the width
+  Vec3 up{0, 1, 0};        ///< direction to the middle of the arc; not along `direction`
+  double arc_angle = 360;  ///< length of the arc, in degrees
   /// Length of the part of the arc that does not fade toward the ends, in degrees.
   double falloff_angle = 360;
   std::vector<Colour> colours; ///< 1 to 256, blended in between
@@ -132,16 +136,19 @@ using Index = std::uint32_t;
 inline constexpr Index kNoIndex = 0xFFFFFFFFu;
 
 /// The area of a light that casts soft shadows: a grid of points in a parallelogram around the light's
-/// location, each of which casts shadows as a point light does. POV-Ray traces the corners of the grid, and
-/// divides it where they differ.
+/// location, each of which casts shadows as a point light does. As in POV-Ray, shadow rays to the corners of
+/// the grid are traced first, and the grid is divided where the corners differ.
 struct LightArea {
-  Vec3 across{1, 0, 0}, along{0, 1, 0}; ///< from the first column to the last, from the first row to the last
-  int columns = 2, rows = 2;            ///< 1 to 256 each
-  int adaptive = 100; ///< levels, from 0 on, that the grid is divided even if its corners do not differ
-  /// True: points are moved by up to half of the distance to the next, always in the same manner.
+  /// Vectors from the first to the last column, and from the first to the last row.
+  Vec3 across{1, 0, 0}, along{0, 1, 0};
+  int columns = 2, rows = 2; ///< 1 to 256 each
+  /// Number of levels, 0 or more, by which the grid is divided even if its corners do not differ.
+  int adaptive = 100;
+  /// True: points are moved by up to half of the distance between points, in the same way in every frame.
   bool jitter = false;
-  bool circular = false; ///< the grid is pulled into an ellipse
-  /// True: the area turns to face each surface, with both sides as long as `across`, and is circular, too.
+  bool circular = false; ///< true: the grid is deformed into an ellipse
+  /// True: the area turns to face each surface point, both its sides are as long as `across`, and it counts
+  /// as circular.
   bool orient = false;
 };
 
@@ -158,27 +165,29 @@ struct Light {
   Vec3 colour{1, 1, 1};
   bool shadowless = false; ///< true: casts no shadows and makes no highlights
   Kind kind = Kind::point;
-  /// End of the axis from the location, for all kinds except point. If it is the location there is no light.
+  /// End of the axis that begins at the location, for all kinds except point. If `point_at` equals
+  /// `location`, there is no light.
   Vec3 point_at{0, 0, 1};
-  /// Inner and outer edge of the light, for all kinds except point. Spotlights: angles to the axis in
-  /// degrees; cylinders: distances from the axis.
+  /// Inner and outer edge of the light, for all kinds except point: of spotlights the angles to the axis in
+  /// degrees, of cylinders the distances from the axis.
   double radius = 30, falloff = 45;
   double tightness = 0;  ///< exponent by which light decreases off the axis, for all kinds except point
   bool parallel = false; ///< true: all rays are parallel to the axis, also behind the location; a spotlight
                          ///< has no edge then
-  /// Distance with as much light as without fading; 0: light does not fade. As in POV-Ray, the share of
-  /// light is 2 / (1 + (distance / fade_distance)^fade_power), also for negative distances, which are behind
-  /// parallel light.
+  /// Distance at which there is as much light as without fading; 0: light does not fade. As in POV-Ray, the
+  /// light is multiplied by 2 / (1 + (distance / fade_distance)^fade_power), also at negative distances,
+  /// which occur behind parallel lights.
   double fade_distance = 0;
   double fade_power = 0; ///< exponent by which light decreases with distance; 0: light does not fade
-  /// The area that casts the light's shadows; none: a point.
+  /// The area that casts the light's shadows; none: shadows are those of a point.
   std::optional<LightArea> area = std::nullopt;
   /// Object that the light is projected through (`projected_through`): light shines only through it and
   /// beyond, and objects between it and the light cast no shadows. Its materials and interiors have no
-  /// effect. A CSG in it may have no mesh as a part. Null: light goes everywhere.
+  /// effect. If the object is or contains a CSG, no part of the CSG may be a mesh. Null: light goes
+  /// everywhere.
   std::shared_ptr<const Object> projected_through = nullptr;
   bool is_dimmed_by_fog = false; ///< true: fogs weaken the light, unless it is shadowless
-  /// True: shines on all objects except those of light groups that leave out global lights.
+  /// True: shines on all objects, except objects whose light group has no global lights.
   bool is_global = true;
 };
 
@@ -191,13 +200,14 @@ struct LightGroup {
 inline constexpr int kMostLightGroups = 255;
 
 /// Triangles with shared vertices; vertices, normals and surface coordinates are single precision, as in
-/// POV-Ray. For a material that looks different from inside, the outside of a smooth triangle is where its
-/// normals point; of a flat triangle with corners a, b and c, where -(b - a) x (c - a) points. If a face has
-/// several materials, the first one decides what it looks like from each side.
+/// POV-Ray. For a material that looks different from inside, the outside of a smooth triangle is the side
+/// that its normals point to; the outside of a flat triangle with corners a, b and c is the side that -(b -
+/// a) x (c - a) points to. If a face has several materials, its look from inside is that of the first
+/// material.
 struct Mesh {
   struct Triangle {
     Index vertex[3];
-    /// kNoIndex in all three, never in one or two: the triangle is flat.
+    /// Indices into `normals`; kNoIndex, in all three: the triangle is flat.
     Index normal[3] = {kNoIndex, kNoIndex, kNoIndex};
     /// Indices into Scene::materials; kNoIndex: the instance's material. Three different ones are blended
     /// over the face by its barycentric coordinates.
@@ -206,14 +216,15 @@ struct Mesh {
   std::vector<Vec3f> vertices;
   std::vector<Vec3f> normals;
   std::vector<Triangle> triangles;
-  /// Surface coordinates at the corners of a triangle, between which they are interpolated.
+  /// Surface coordinates (u, v) at the corners of a triangle; points of the triangle have interpolated
+  /// coordinates.
   struct Coordinates {
     Vec2f corner[3] = {{0, 0}, {0, 0}, {0, 0}};
   };
-  std::vector<Coordinates> coordinates; ///< index: triangle; empty: all are 0
-  /// Direction of any length, in the mesh's space, that defines the inside for CSG: a point is in the mesh if
-  /// the ray from there along the direction crosses an odd number of triangles. Zero: nothing is in the mesh,
-  /// and nothing in its inverse either.
+  std::vector<Coordinates> coordinates; ///< by triangle; empty: all are 0
+  /// Direction that defines the inside for CSG, in the mesh's space and of any length: a point is in the mesh
+  /// if the ray from the point along this direction crosses an odd number of triangles. Zero: no point is in
+  /// the mesh, nor in its inverse.
   Vec3 inside_vector{0, 0, 0};
 
   bool has_inside() const { return inside_vector != Vec3(0); }
@@ -280,8 +291,8 @@ struct Superellipsoid {
 };
 
 /// A flat polygon: loops of points in one plane, each closed from its last point to its first. A point is in
-/// the polygon if a line from there to one side crosses an odd number of edges: a loop inside another one is
-/// a hole. For CSG nothing is inside of a polygon, and nothing inside of its inverse either.
+/// the polygon if a half-line from the point crosses an odd number of edges, so that a loop inside another
+/// loop is a hole. For CSG no point is inside of a polygon, nor of its inverse.
 struct Polygon {
   std::vector<std::vector<Vec3>> loops;
 };
@@ -294,30 +305,30 @@ struct Object {
                Superellipsoid, std::shared_ptr<const Polygon>, std::shared_ptr<const Csg>>
       shape;
   Transform transform;
-  Index material = 0; ///< no effect for a CSG, whose parts have their own
-  /// No effect for a CSG; kNoIndex: an interior of its own with the defaults of Interior.
+  Index material = 0; ///< index into Scene::materials; no effect for a CSG, whose parts have their own
+  /// Index into Scene::interiors; no effect for a CSG. kNoIndex: the object has an interior of its own with
+  /// the defaults of Interior.
   Index interior = kNoIndex;
-  // Visibility flags. Parts of a CSG pass on to it, as in POV-Ray: in a top-level union all three; in a union
-  // that is clipped or nested in another operation only no_reflection; in a merge all but no_shadow; else
-  // none. A part of a merge that rays of one kind do not see hides nothing of the other parts from these
-  // rays.
+  // Visibility flags. As in POV-Ray, a CSG also has flags of its parts: a top-level union has all three; a
+  // union that is clipped or nested in another operation only no_reflection; a merge no_image and
+  // no_reflection; other CSG none. If rays of one kind do not see a part of a merge, this part hides nothing
+  // of the other parts from these rays.
   bool no_shadow = false;
-  bool no_image = false;      ///< true: seen only in mirrors
+  bool no_image = false;      ///< true: not seen by camera rays, only in mirrors
   bool no_reflection = false; ///< true: seen in no mirror
-  /// True: the object is neither seen nor in the way of light, and nothing is inside of it. Hiding and
-  /// showing an object between frames is cheap. No effect for parts of a CSG, and for objects that clip or
-  /// that lights are projected through.
+  /// True: the object is neither seen nor in the way of light, and no point is inside of it. Hiding and
+  /// showing an object between frames is cheap. Ignored for parts of a CSG, for clipping objects, and for
+  /// objects that lights are projected through.
   bool is_hidden = false;
   bool inverse = false; ///< true: inside and outside are swapped
-  /// True: light that falls on the other side counts as if it fell on this one, POV-Ray's double_illuminate.
-  /// No effect for a CSG.
+  /// True: light that falls on the back of a surface lights its front, too: POV-Ray's double_illuminate. No
+  /// effect for a CSG.
   bool is_lit_through = false;
   /// Index into Scene::light_groups: the lights that shine on the object. kNoIndex: all global lights. No
   /// effect for a CSG.
   Index light_group = kNoIndex;
-  /// Objects that clip this one: only the part inside all of them is there. Clipping
-  /// objects are transformed with this one, and their materials have no effect. Null: the whole object is
-  /// there.
+  /// Objects that clip this object: only the part of this object inside all of them exists. Clipping objects
+  /// are transformed with this object; their materials have no effect. Null: the whole object exists.
   std::shared_ptr<const std::vector<Object>> clipped_by = nullptr;
 };
 
@@ -335,18 +346,18 @@ struct Csg {
 };
 
 struct CELLTRACE_EXPORT Scene {
-  std::string name; ///< file that the scene came from, for messages
+  std::string name; ///< file that the scene was read from, for messages
   Camera camera;
   Vec3 background{0, 0, 0};
   /// Share, 0 to 1, of the light behind the picture that comes through the background; for pictures with
   /// alpha. No effect below version 3.7, where only mirrors see sky and background.
   double background_transparency = 1;
   /// Background that reflected rays see, also inside glass, if the picture has alpha and the scene no sky;
-  /// none: they see `background`. If there is one, `background` is the share of it that is left behind the
-  /// picture.
+  /// none: reflected rays see `background`. If there is a mirrored background, `background` is the share of
+  /// it that is left behind the picture.
   std::optional<Vec3> mirrored_background;
-  /// Layers of the sky over the background, the last one on top, for rays that hit nothing. Their patterns
-  /// are evaluated at the ray's direction, of length 1.
+  /// Layers of the sky over the background, the last layer on top, which rays see if they hit nothing.
+  /// Patterns of the sky are evaluated at the ray's direction, of length 1.
   std::vector<Pigment> sky_sphere;
   Vec3 ambient_light{1, 1, 1};
   std::vector<Fog> fogs;
@@ -354,7 +365,8 @@ struct CELLTRACE_EXPORT Scene {
   std::vector<Light> lights;
   std::vector<LightGroup> light_groups; ///< at most kMostLightGroups
   std::vector<Material> materials;      ///< objects refer to these by index
-  std::vector<Interior> interiors;      ///< one per object (or union); the index matters, not only the values
+  /// Interiors, one per object or union: interiors with equal values but different indices are different.
+  std::vector<Interior> interiors;
   std::vector<Object> objects;
 
   GammaMode gamma_mode = GammaMode::assumed;
@@ -365,8 +377,8 @@ struct CELLTRACE_EXPORT Scene {
   int max_trace_level = 5;
   double adc_bailout = 1.0 / 255;
   Vec3 irid_wavelength{0.7, 0.52, 0.48}; ///< wavelengths of red, green and blue in thin films
-  int noise_generator = 2;  ///< generator of patterns that name none: 1 to 3 as POV-Ray counts them
-  int number_of_waves = 10; ///< number of waves of ripples and waves
+  int noise_generator = 2;  ///< noise generator of patterns that name none: 1 to 3, POV-Ray's numbers
+  int number_of_waves = 10; ///< number of waves in the patterns ripples and waves
 
   /// Append `material` or `interior` and return its index.
   Index add(const Material& material);

@@ -3,10 +3,10 @@
 //   Session session(parse_file("scene.pov"), options);
 //   session.render();
 //   session.set_transform(3, Transform::translate({0, 1, 0}));
-//   RenderResult next = session.render();      // costs what has changed
+//   RenderResult next = session.render();      // takes as long as the changes need
 //
-// Indices are those of the vectors in Scene. Thread safety: one thread at a time, except that any thread may
-// call cancel() and generation() at any time; different sessions are independent.
+// Indices are indices into the vectors of Scene. Thread safety: one thread at a time, except that any thread
+// may call cancel() and generation() at any time; different sessions are independent.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -20,13 +20,13 @@
 
 namespace celltrace {
 
-/// The channels of a pixel in the order of memory.
+/// The channels of a pixel, in their order in memory.
 enum class PixelFormat {
   rgba8, ///< R, G, B, A
-  bgra8, ///< B, G, R, A, as windows often have it
+  bgra8, ///< B, G, R, A, often used by window systems
   rgb8,  ///< R, G, B
-  // The formats below are written all at once, at the end of a frame that was not cancelled, and take the
-  // memory of RenderOptions::colours. Model `shared` only.
+  // Pixels of the formats below are written all at once, at the end of a frame that was not cancelled. These
+  // formats take the memory of RenderOptions::colours, and work with model `shared` only.
   rgba16, ///< as from to_deep_image(): 16 bits a channel, in the host's byte order
   rgba32f ///< floats as in RenderResult::colours
 };
@@ -37,7 +37,7 @@ CELLTRACE_EXPORT std::size_t bytes_of(PixelFormat format);
 /// as the session may render into it.
 struct Framebuffer {
   void* pixels = nullptr; ///< the upper left pixel, aligned for its channels
-  std::size_t pitch = 0;  ///< bytes from one row to the next, at least those of a row of the picture
+  std::size_t pitch = 0;  ///< bytes from one row to the next, at least the bytes of a row of the picture
   PixelFormat format = PixelFormat::rgba8;
 };
 
@@ -63,8 +63,8 @@ public:
   void set_transform(Index object, const Transform& to);
   void set_material_of(Index object, Index material);
   void show(Index object, bool visible);
-  /// Calls `edit` with the scene, for all other changes. Edits that `changes` does not name may not be seen.
-  /// If `edit` throws, everything counts as changed.
+  /// Calls `edit` with the scene, for all other changes. Edits of parts that `changes` does not name may have
+  /// no effect. If `edit` throws, everything counts as changed.
   void edit(const SceneChanges& changes, const std::function<void(Scene& scene)>& edit);
   /// Replaces the scene.
   void replace(Scene scene);
@@ -73,13 +73,13 @@ public:
   /// first hits, blocks, a work map and finished parts are wanted. The scene stays on the machine. Throws
   /// InputError if an option is out of range; then nothing has changed.
   void set_picture(const RenderOptions& options);
-  /// Sets the memory that finished pixels are written to, opaque, besides the result's image; nothing: none.
-  /// Before set_picture() makes pictures larger, set one with room for them. Throws InputError if the pitch
-  /// is too small, or if pictures are wanted in blocks; then nothing has changed.
+  /// Sets the memory that finished pixels are written to, opaque, besides the result's image; nothing: no
+  /// such memory. Before set_picture() makes pictures larger, set a framebuffer with room for them. Throws
+  /// InputError if the pitch is too small, or with RenderOptions::blocks; then nothing has changed.
   void set_framebuffer(const std::optional<Framebuffer>& framebuffer);
 
   /// Renders the scene as it is now, as Renderer::render() does. After an InputError the machine still has
-  /// the scene from before the changes, and the next frame makes them again.
+  /// the scene from before the changes, and the next frame applies the changes again.
   RenderResult render(const Progress& progress = {});
 
   /// Returns queries of the scene as it was rendered last, as Renderer::ray_queries() does.

@@ -25,15 +25,15 @@ struct SimulatedRun : EmulatedRun {
   std::string output, error_output;
 };
 
-/// Throws InputError, with the reason, if `elf` is no executable for the SPU.
+/// Checks a binary. Throws InputError, with the reason, if `elf` is no executable for the SPU.
 CELLTRACE_EXPORT void check_spu_program(std::span<const std::uint8_t> elf);
 
 /// Returns the configuration of a machine whose SPUs execute machine code, in lockstep by virtual time.
 CELLTRACE_EXPORT MachineConfig simulated(unsigned spes);
 
-/// Runs a stand-alone program, main(speid, argp, envp) or one that is linked with -mstdmain, on every SPE of
-/// a new machine while `ppe` plays the PPE, and waits for all SPEs. `argument` is argp. If `stop` is
-/// requested, the programs end with errors. Throws InputError if the configuration is out of range or of a
+/// Runs a stand-alone program on every SPE of a new machine while `ppe` plays the PPE, and waits for all
+/// SPEs. The program has main(speid, argp, envp), or is linked with -mstdmain. `argument` is argp. If `stop`
+/// is requested, the programs end with errors. Throws InputError if the configuration is out of range or of a
 /// backend other than "cell_sim", or if `elf` is no executable for the SPU, and passes on exceptions of `ppe`
 /// other than SpeError. Thread safety: runs are independent of each other.
 CELLTRACE_EXPORT SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf,
@@ -45,8 +45,8 @@ CELLTRACE_EXPORT SimulatedRun simulate(const MachineConfig& config, std::span<co
 CELLTRACE_EXPORT std::string counters_text(const EmulatedRun& run, const TimingParameters& timing);
 
 /// Returns a profile's cycles as text for people: the functions, hottest first, then the hottest
-/// instructions, which make up the share `listed` (0..1) of all cycles together. `elf` is the program that
-/// was profiled; throws InputError if it is no executable for the SPU.
+/// instructions, as many as make up the share `listed` (0..1) of all cycles. `elf` is the program that was
+/// profiled; throws InputError if it is no executable for the SPU.
 CELLTRACE_EXPORT std::string profile_text(const SpuProfile& profile, std::span<const std::uint8_t> elf,
                                           double listed = 0.95);
 /// Returns the profile as JSON, which docs/simulator.md describes, with all instructions that were executed.

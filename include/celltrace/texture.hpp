@@ -1,6 +1,6 @@
 // Textures: the looks of surfaces. A pattern is a number at every point of space; maps turn it into colours,
-// normals and whole textures. All formulas and defaults are POV-Ray's. These types are plain values:
-// copyable, and the data that copies share is never changed.
+// normals and whole textures. All formulas and defaults are POV-Ray's. These types are plain values; data
+// that copies share is immutable.
 #pragma once
 
 #include "celltrace/transform.hpp"
@@ -14,8 +14,8 @@ namespace celltrace {
 struct Object;
 struct Pigment;
 
-/// A displacement of points by noise: `amount` times a sum of `octaves` octaves, each of them `lambda` times
-/// finer and `omega` times weaker than the one before.
+/// A displacement of points by noise: `amount` times a sum of `octaves` octaves, each octave `lambda` times
+/// finer, and with `omega` times the strength, of the octave before.
 struct Turbulence {
   Vec3 amount{0, 0, 0};
   int octaves = 6; ///< 1 to 10
@@ -23,23 +23,23 @@ struct Turbulence {
   double lambda = 2;
 };
 
-/// The kinds of patterns. Each is a number at a point p = (x, y, z) of the pattern's own space, for most
+/// The kinds of patterns. A pattern gives a number at each point p = (x, y, z) of its own space, for most
 /// kinds in 0..1.
 namespace pattern {
 
-// Lists: the number is the index of an entry.
+// Lists: patterns whose number is the index of an entry of the map.
 struct Checker {};    ///< unit cubes in alternation: 2 entries
 struct Square {};     ///< unit squares of the xz plane: 4 entries
 struct Hexagon {};    ///< hexagons with sides of length 1 in the xz plane: 3 entries
 struct Triangular {}; ///< triangles in the xz plane: 6 entries
-struct Cubic {};      ///< by the side of a cube that the point is seen through from the origin: 6 entries
+struct Cubic {};      ///< six pyramids around the origin, one through each side of a cube: 6 entries
 /// Mortar and brick: 2 entries.
 struct Brick {
   Vec3 size{8, 3, 4.5};
   double mortar = 0.5;
 };
 
-// Blends without noise.
+// Patterns of continuous numbers, without noise.
 struct Gradient {
   Vec3 direction{1, 0, 0}; ///< of any length but 0; the pattern repeats after one unit along it
 };
@@ -49,8 +49,8 @@ struct Cylindrical {}; ///< from 1 on the y axis to 0 at the unit cylinder aroun
 struct Planar {};      ///< from 1 at y = 0 to 0 at the planes y = -1 and y = 1
 struct Leopard {};     ///< spots in all directions
 struct Onion {};       ///< shells one unit apart
-struct Radial {};      ///< once around the y axis
-/// Arms around the z axis; if `is_crossed`, crossed by as many in the other direction.
+struct Radial {};      ///< from 0 to 1 once around the y axis
+/// Arms that spiral around the z axis; if `is_crossed`, crossed by equally many arms in the other direction.
 struct Spiral {
   int arms = 1;
   bool is_crossed = false;
@@ -60,18 +60,18 @@ struct Quilted {
   double control[2] = {1, 1};
 };
 
-// Blends of noise.
+// Patterns of continuous numbers, made of noise.
 struct Bozo {};     ///< smooth noise
 struct Bumps {};    ///< smooth noise; as a normal, noise in each coordinate
 struct Dents {};    ///< the cube of smooth noise
 struct Granite {};  ///< six octaves with creases
 struct Wrinkles {}; ///< ten octaves
 struct Agate {
-  double turbulence = 1; ///< strength of the bending of its bands
+  double turbulence = 1; ///< strength of the turbulence that bends the bands
 };
-struct Marble {};  ///< along x, with the pattern's turbulence
+struct Marble {};  ///< bands along x, with the pattern's turbulence
 struct Wood {};    ///< rings around the z axis, with the pattern's turbulence
-struct Ripples {}; ///< waves from points around the origin, which overlap
+struct Ripples {}; ///< overlapping waves from random points around the origin
 struct Waves {};   ///< as ripples, with waves of different lengths
 struct Cells {};   ///< a random number in each unit cube
 /// Distances to the nearest of random points, one in each unit cube.
@@ -79,11 +79,10 @@ struct Crackle {
   double form[3] = {-1, 1, 0}; ///< factors of the three shortest distances
   double metric = 2; ///< exponent of the distance: 1 adds the coordinates' differences, 2 is Euclidean
   double offset = 0;
-  bool is_solid = false; ///< one number in the whole cell of each point
+  bool is_solid = false; ///< true: one number in the whole cell of each point
 };
 /// The number of iterations after which a point of the xy plane escapes: the Mandelbrot set and similar
-/// fractals. `exterior` and `interior` are POV-Ray's numbers of the quantities that are shown outside and
-/// inside of the set.
+/// fractals. `exterior` and `interior` are POV-Ray's types of the numbers outside and inside of the set.
 struct Fractal {
   bool is_julia = false; ///< true: c is the same everywhere; false: each point is its own c
   double c[2] = {0, 0};
@@ -95,11 +94,11 @@ struct Fractal {
   int interior = 0; ///< 0 to 8
   double interior_factor = 1;
 };
-/// The angle between a surface's normal and a direction: 0 if the surface faces away, 1 if it faces toward.
-/// With an altitude, the mean of that and the point's position along the altitude, weighted by the lengths of
-/// both vectors.
+/// The angle between a surface's normal and a direction, as a number from 0 if the surface faces away to 1 if
+/// it faces along the direction. With an altitude, the mean of this number and of the point's position along
+/// the altitude, weighted by the lengths of both vectors.
 struct Slope {
-  /// In the scene's space, however the pattern is transformed; 0 if only the altitude counts.
+  /// Direction in the scene's space, whatever the pattern's transformations; 0 if only the altitude counts.
   Vec3 direction{0, 1, 0};
   double least = 0, most = 1; ///< slopes at which the number is 0 and 1
   Vec3 altitude{0, 0, 0};
@@ -115,7 +114,7 @@ struct Grey {
 struct Inside {
   std::shared_ptr<const Object> of;
 };
-/// One direction in each cell of crackle's points; for normals only.
+/// One direction of the normal in each cell of crackle; for normals only.
 struct Facets {
   double coords = 0; ///< largest deviation from the surface's normal; replaces Normal::amount
   /// Size of facets of a unit sphere, in place of `coords`: facets then depend on the surface's normal alone,
@@ -136,10 +135,10 @@ namespace warp {
 
 /// Repeats the slice of space from 0 to `width` along an axis.
 struct Repeat {
-  int axis = 0;         ///< 0 to 2
-  double width = 1;     ///< not 0
+  int axis = 0;         ///< axis along which slices repeat, 0 to 2
+  double width = 1;     ///< width of a slice, not 0
   Vec3 flip{0, 0, 0};   ///< axes with a value other than 0 are mirrored in every other slice
-  Vec3 offset{0, 0, 0}; ///< shift of each slice against the one before
+  Vec3 offset{0, 0, 0}; ///< shift of each slice against the slice before
 };
 /// Draws the points in a sphere toward its centre.
 struct BlackHole {
@@ -171,39 +170,41 @@ struct Pattern {
   enum class Wave { ramp, triangle, sine, scallop, cubic, poly };
 
   pattern::Kind kind = pattern::Gradient{};
-  /// In the order in which a scene's text has them: the last one is the first to be applied to a point of the
-  /// scene.
+  /// Steps in their order in a scene's text: the last step is applied first to a point of the scene.
   std::vector<SpaceStep> space = {};
   Turbulence turbulence = {}; ///< displaces points in the pattern's own space, after all steps
   Wave wave = Wave::ramp;
   double wave_exponent = 1; ///< exponent of Wave::poly
-  double frequency = 1;     ///< 0: the wave gets the number as it is, without phase
+  /// Factor of the number before the wave; 0: the wave gets the number unchanged, without phase.
+  double frequency = 1;
   double phase = 0;
-  int noise_generator = 0; ///< 1 to 3 as POV-Ray counts them; 0: the scene's
+  int noise_generator = 0; ///< 1 to 3, POV-Ray's numbers; 0: the scene's
   /// True: the pattern's space is (u, v, 0), the surface's coordinates, wherever in the scene the surface is
   /// and whatever maps are around the pattern. The coordinates are 0 to 1 around a sphere and from pole to
-  /// pole; over an unfolded box; around a torus and its tube; a Mesh has its own; for all other shapes they
-  /// are x and y of the point in the scene.
+  /// pole; over an unfolded box; around a torus and its tube; a Mesh has coordinates of its own; for all
+  /// other shapes the coordinates are x and y of the point in the scene.
   bool uv_mapping = false;
-  /// Transformation of normals, not of points, from that space to the scene; with uv_mapping.
+  /// With uv_mapping: transformation of normals, not of points, from the pattern's space to the scene.
   Transform normal_space = {};
 };
 
-/// The values that a pattern's numbers stand for. Between two entries values are blended, before the first
-/// and after the last entry they are its value; lists take the entry whose index is the number. 1 to 256
-/// entries; nested no deeper than kDeepestMap.
+/// The map from a pattern's numbers to values. A number between the positions of two entries stands for a
+/// blend of their values; numbers before the first or after the last entry stand for that entry's value. In
+/// lists, a number stands for the entry with this index. 1 to kMostMapEntries entries; maps are nested no
+/// deeper than kDeepestMap.
 ///
-/// Patterns inside an entry, also of an average, are in the space of the map's pattern: they are evaluated at
-/// the same point, after its steps and its turbulence (but the turbulence of marble and wood moves no
-/// points).
+/// Patterns inside an entry, also of an average, are in the space of the map's pattern. They are evaluated at
+/// the point to which the steps and the turbulence of the map's pattern move a point (but the turbulence of
+/// marble and wood moves no points).
 template <class T> struct PatternMap {
   struct Entry {
-    double position; ///< ascending; of an average, the entry's weight; lists ignore it
+    double position; ///< ascending; in an average, the entry's weight; ignored in lists
     T value;
   };
   Pattern pattern;
   std::vector<Entry> entries;
-  /// The mean of all entries by their weights; of the pattern only steps and turbulence count.
+  /// True: the map is the mean of all entries by their weights; of the pattern only `space` and `turbulence`
+  /// count.
   bool is_average = false;
 };
 inline constexpr int kDeepestMap = 8;
@@ -220,7 +221,7 @@ struct Pigment {
   bool operator==(const Pigment&) const = default;
 };
 
-/// A point of a curve over a pattern's numbers.
+/// A point of a curve that turns a pattern's numbers into heights.
 struct SlopePoint {
   double position; ///< ascending
   double height;
@@ -234,7 +235,7 @@ struct Normal {
   /// Distance between the points that slopes are computed from, in the pattern's space.
   double accuracy = 0.02;
   /// Curve that turns the pattern's numbers into heights, at most 256 points; empty: the numbers are the
-  /// heights. Patterns that do not disturb by their slope ignore it: bumps, dents, wrinkles, quilted,
+  /// heights. Ignored by patterns that disturb normals in ways of their own: bumps, dents, wrinkles, quilted,
   /// ripples, waves, facets.
   std::vector<SlopePoint> slopes = {};
   std::shared_ptr<const PatternMap<Normal>> map = nullptr; ///< replaces the members above
@@ -245,7 +246,7 @@ struct Finish {
   Vec3 ambient{0.1, 0.1, 0.1};
   Vec3 emission{0, 0, 0};
   double diffuse = 0.6;
-  /// Diffuse share of light that falls on the other side, which makes no highlights.
+  /// Like `diffuse`, for light that falls on the back of the surface. Such light makes no highlights.
   double diffuse_behind = 0;
   double brilliance = 1;
   double phong = 0;
@@ -263,7 +264,7 @@ struct Finish {
   double crand = 0;           ///< largest random loss of diffuse light
   double irid = 0;            ///< a thin film makes light stronger or weaker by up to this share
   double irid_thickness = 0;  ///< thickness of the film
-  double irid_turbulence = 0; ///< noise in the thickness
+  double irid_turbulence = 0; ///< strength of the noise in the thickness
 
   bool operator==(const Finish&) const = default;
 };
@@ -272,10 +273,10 @@ struct Finish {
 struct Material {
   Pigment pigment;
   Finish finish;
-  std::shared_ptr<const Normal> normal = nullptr;  ///< null: the surface is smooth
-  std::shared_ptr<const Material> below = nullptr; ///< the layer that shines through this one
-  std::shared_ptr<const PatternMap<Material>> map =
-      nullptr; ///< replaces all members above; no entry may be a layer over others' map
+  std::shared_ptr<const Normal> normal = nullptr; ///< null: the surface is smooth
+  /// Layer that shines through this one, without a `map`.
+  std::shared_ptr<const Material> below = nullptr;
+  std::shared_ptr<const PatternMap<Material>> map = nullptr; ///< replaces all members above
   /// Look of an object's material from inside; has no `inside` itself. Null: the same as from outside.
   std::shared_ptr<const Material> inside = nullptr;
 

@@ -19,7 +19,7 @@ struct CELLTRACE_EXPORT Transform {
   static Transform translate(const Vec3& offset);
   /// Rotates about x, then y, then z, in degrees, left-handed. NaN if an angle is not finite.
   static Transform rotate(const Vec3& degrees);
-  /// Scales; a factor of 0 counts as 1, as in POV-Ray.
+  /// Scales along the axes; a factor of 0 counts as 1, as in POV-Ray.
   static Transform scale(const Vec3& factors);
   static Transform matrix(const double (&values)[12]);
 
@@ -30,7 +30,7 @@ struct CELLTRACE_EXPORT Transform {
   double determinant() const;
   /// Throws InputError if the transformation is singular.
   Transform inverse() const;
-  /// Returns the transformation that applies this one first, then `next`.
+  /// Returns the transformation that first applies this transformation, then `next`.
   Transform then(const Transform& next) const;
   bool is_identity() const;
 };

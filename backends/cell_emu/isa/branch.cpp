@@ -6,10 +6,10 @@ namespace celltrace::isa::execute {
 namespace {
 
 constexpr std::uint32_t kAddressMask = kLocalStoreLimit & ~3u;
-// Feature bits of branches by a register. Setting both at once is reserved; interrupts are disabled first
-// then.
+// Feature bits of branches to a register. To set both bits is reserved; this implementation then first
+// disables and then enables interrupts.
 constexpr std::uint32_t kDisableInterrupts = 1u << 19, kEnableInterrupts = 1u << 18;
-/// The code of stopd, which has no room for one.
+/// The stop code of stopd, whose instruction word has no code.
 constexpr std::uint32_t kStopWithDependenciesCode = 0x3FFF;
 
 std::uint32_t relative(const State& state, const Instruction& i) {
@@ -25,7 +25,7 @@ Quadword link(const State& state) {
   return preferred((state.pc + 4) & kAddressMask);
 }
 
-/// Branches to a register; the feature bits count only if the branch is taken.
+/// Takes a branch to a register, and obeys the feature bits, which have no effect if a branch is not taken.
 void branch(State& state, const Instruction& i, std::uint32_t target) {
   state.next = target;
   if ((i.word & (kDisableInterrupts | kEnableInterrupts)) == 0) [[likely]]
@@ -77,7 +77,7 @@ void iret(State& state, const Instruction& i) {
   branch(state, i, state.environment->srr0() & kAddressMask);
 }
 void bisl(State& state, const Instruction& i) {
-  const std::uint32_t target = in_register(state, i); // may be the link register
+  const std::uint32_t target = in_register(state, i); // read first: it may be the register that gets the link
   state.gpr[i.rt] = link(state);
   branch(state, i, target);
 }

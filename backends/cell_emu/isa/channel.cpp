@@ -1,4 +1,5 @@
-// Execution: channels, special registers, the floating-point status, and instructions that only order others.
+// Execution: channels, special registers, the floating-point status, and instructions that only order other
+// instructions.
 #include "backends/cell_emu/isa/execute.hpp"
 #include "backends/cell_emu/isa/parts.hpp"
 
@@ -14,7 +15,7 @@ void wrch(State& state, const Instruction& i) {
   state.environment->write_channel(i.ra, state.gpr[i.rt].word(0));
 }
 
-// No special-purpose register is defined; undefined ones read as zero.
+// No special-purpose register is defined, and undefined registers read as zero.
 void mfspr(State& state, const Instruction& i) {
   state.gpr[i.rt] = Quadword::zero();
 }
@@ -35,7 +36,8 @@ void fscrwr(State& state, const Instruction& i) {
       map<std::uint32_t>(state.gpr[i.ra], defined, [](std::uint32_t x, std::uint32_t y) { return x & y; });
 }
 
-// Instructions are executed one by one and stores are visible at once, so there is nothing to wait for.
+// The instructions below do nothing, because instructions are executed one by one and stores are visible at
+// once.
 void nop(State&, const Instruction&) {
 }
 void lnop(State&, const Instruction&) {

@@ -1,4 +1,4 @@
-// The table of opcodes, and the decoding of instructions with it.
+// The table of opcodes, and the decoding of instructions.
 #include "backends/cell_emu/isa/execute.hpp"
 
 #include <array>
@@ -42,7 +42,7 @@ constexpr unsigned opcode_bits(Format format) {
   return 0;
 }
 
-// Bits that identify an opcode: none has more than 11.
+// Number of high bits by which find_opcode() looks up opcodes: no opcode has more bits.
 constexpr unsigned kPrimaryBits = 11;
 constexpr std::uint8_t kNone = 0xFF;
 static_assert(std::size(kOpcodes) < kNone);
@@ -71,8 +71,8 @@ constexpr std::uint8_t register_at(std::uint32_t word, unsigned low) {
   return static_cast<std::uint8_t>(field(word, low, 7));
 }
 
-/// Returns the branch's offset of a hint, which is in two pieces: the low seven bits at the place of rt, and
-/// two above.
+/// Returns the offset of a hint's branch, which is in two pieces: its low seven bits are at the place of rt,
+/// its upper two bits at `high_piece`.
 std::int32_t hinted_offset(std::uint32_t word, unsigned high_piece) {
   return signed_field(field(word, high_piece, 2) << 7 | field(word, 0, 7), 0, 9) * 4;
 }

@@ -21,7 +21,8 @@ Text address_text(std::uint32_t address) {
   return Text("0x") + hexadecimal(address);
 }
 
-/// Returns letters for the feature bits of sync, branches by a register and hbr, at the place of rb.
+/// Returns letters for the feature bits of sync, hbr and branches to a register. These bits are at the place
+/// of rb.
 Text features(std::uint32_t word, char first) {
   Text letters;
   if ((word >> 20 & 1) != 0) letters += first;
@@ -42,7 +43,7 @@ Text features(const Instruction& i, Syntax syntax) {
   }
 }
 
-/// Returns the target of a relative branch; an offset of 0 as a number.
+/// Returns the target of a relative branch; "0" for an offset of 0.
 Text relative(std::int32_t offset, std::uint32_t pc) {
   return offset == 0 ? "0" : address_text((pc + static_cast<std::uint32_t>(offset)) & kLocalStoreLimit);
 }
@@ -50,7 +51,7 @@ Text absolute(std::int32_t target) {
   return target == 0 ? "0" : address_text(static_cast<std::uint32_t>(target));
 }
 
-/// Returns the branch that a hint is for, not limited to the local store.
+/// Returns the address of a hint's branch, which may be outside of local store.
 Text hinted(const Instruction& i, std::uint32_t pc) {
   const std::uint32_t branch = hinted_branch(i, 0);
   const bool negative = branch > kLocalStoreLimit / 2;
@@ -114,7 +115,7 @@ Text operands(const Instruction& i, Syntax syntax, std::uint32_t pc) {
   return {};
 }
 
-/// Returns the operand that a remark repeats in hexadecimal if it is above 16.
+/// Returns the number of an instruction that objdump repeats in hexadecimal if it is above 16.
 std::int32_t remarked(const Instruction& i, Syntax syntax, std::uint32_t pc) {
   switch (syntax) {
   case Syntax::rt_ra_i7:

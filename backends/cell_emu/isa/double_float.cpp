@@ -1,7 +1,7 @@
-// Execution: double precision. IEEE 754 with the rounding mode and the flags of the FPSCR for each slot, but
-// denormal operands are zeros of their sign, as are denormal results, and each NaN result is the default NaN.
-// The compares of the Cell with enhanced double precision are here too; the flags that they may set are not
-// modelled.
+// Execution: double precision. It is IEEE 754 with the rounding mode and the flags of the FPSCR for each
+// slot, except that denormal operands and results become zeros of the same sign, and that each NaN result is
+// the default NaN. Compares are those of the Cell with enhanced double precision (PowerXCell 8i); the flags
+// that compares may set are not modelled.
 #include "backends/cell_emu/isa/execute.hpp"
 #include "backends/cell_emu/isa/floating_status.hpp"
 #include "backends/cell_emu/isa/parts.hpp"
@@ -41,7 +41,7 @@ constexpr bool is_denormal(U64 x) {
   return (x & kExponent) == 0 && !is_zero(x);
 }
 
-/// Returns the operand, with denormals as zeros.
+/// Returns the operand; if it is denormal, a zero of the same sign.
 U64 operand(U64 x, U32& exceptions) {
   if (!is_denormal(x)) return x;
   exceptions |= double_exception::denormal;
@@ -49,9 +49,8 @@ U64 operand(U64 x, U32& exceptions) {
 }
 
 #if defined(__SSE2_MATH__)
-/// The host's floating-point environment with a rounding mode and without flags, for the lifetime of this
-/// object. Changes that of SSE alone: <cfenv> changes the x87's as well, which takes several times as long as
-/// the arithmetic.
+/// Sets the host's rounding mode and clears its flags for the lifetime of this object. Changes only SSE's
+/// environment: <cfenv> also changes the x87's, which takes several times as long as the arithmetic.
 class HostEnvironment {
 public:
   explicit HostEnvironment(Rounding rounding) : kept_(_mm_getcsr()) { _mm_setcsr(kMasked | mode(rounding)); }
@@ -77,8 +76,7 @@ private:
   unsigned kept_;
 };
 #else
-/// The host's floating-point environment with a rounding mode and without flags, for the lifetime of this
-/// object.
+/// Sets the host's rounding mode and clears its flags for the lifetime of this object.
 class HostEnvironment {
 public:
   explicit HostEnvironment(Rounding rounding) {
@@ -104,8 +102,8 @@ private:
 };
 #endif
 
-/// Computes f(operands) on the host. Volatile, because compilers move arithmetic across changes of the
-/// environment.
+/// Computes f(operands) on the host. Operands and result are volatile, because compilers move arithmetic
+/// across changes of the environment.
 template <class F, class... Operands>
 [[gnu::noinline]] auto by_host(Rounding rounding, U32& exceptions, F f, Operands... operands) {
   const HostEnvironment environment(rounding);
@@ -116,7 +114,7 @@ template <class F, class... Operands>
   return value;
 }
 
-/// Returns f(operands), and zero for results below the normal numbers, which is decided before rounding.
+/// Returns f(operands), or zero if the result, before rounding, is below the normal numbers.
 template <class F, class... Operands>
 auto rounded(Rounding rounding, U32& exceptions, F f, Operands... operands) {
   U32 raised = 0;
@@ -140,7 +138,7 @@ U64 bits_of(double result) {
   return std::isnan(result) ? kDefaultNan : std::bit_cast<U64>(result);
 }
 
-/// Returns true if the result is a NaN because an operand is one.
+/// Returns true if the result is a NaN because an operand is a NaN. Adds to `exceptions`.
 template <class... Operands> bool has_nan(U32& exceptions, Operands... operands) {
   if (!(is_nan(operands) || ...)) return false;
   exceptions |= double_exception::nan;
@@ -172,7 +170,8 @@ struct Signs {
   bool minus_rt, negative;
 };
 
-/// Computes rt = ra * rb + rt, or - rt, rounded once; the result may be negated, unless it is a NaN.
+/// Computes rt = ra * rb + rt or rt = ra * rb - rt, rounded once. `signs` may negate the result, unless it is
+/// a NaN.
 void multiply_add(State& state, const Instruction& i, Signs signs) {
   Quadword result;
   for (unsigned slot = 0; slot < 2; ++slot) {
@@ -220,7 +219,7 @@ U32 shortened(U64 value, Rounding rounding, U32& exceptions) {
   return std::bit_cast<U32>(rounded(rounding, exceptions, f, number(bits)));
 }
 
-/// Returns an integer that is ordered as the numbers are; not for NaN.
+/// Returns an integer for compares: integers of two numbers are ordered as the numbers. Not for NaN.
 constexpr std::int64_t ordered(U64 x) {
   const auto rest = static_cast<std::int64_t>((x & kExponent) == 0 ? 0 : x & ~kSign);
   return (x & kSign) != 0 ? -rest : rest;
@@ -269,7 +268,8 @@ void dfnma(State& state, const Instruction& i) {
   multiply_add(state, i, {.minus_rt = false, .negative = true});
 }
 
-// The single is the left word of a slot, in IEEE's format: its exponent 255 is infinity and NaN.
+// Converts the left word of each slot, a single in IEEE's format, in which the exponent 255 means infinity or
+// NaN.
 void fesd(State& state, const Instruction& i) {
   Quadword result;
   for (unsigned slot = 0; slot < 2; ++slot) {

@@ -1,6 +1,7 @@
-// The estimates of reciprocals and the interpolation that refines them. An estimate has the layout of a
-// single, but its fraction holds 13 bits of a base and 10 bits of the slope of the line through the interval.
-// Source: results recorded on a PlayStation 3, in tests/isa/estimates.inc.
+// The SPU's estimates of reciprocals (frest, frsqest), and the interpolation (fi) that refines an estimate.
+// An estimate has the layout of a single, but its fraction holds 13 bits of a base and 10 bits of a slope:
+// they define a line that approximates the function in an interval of x. Source: results recorded on a
+// PlayStation 3, in tests/isa/estimates.inc.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ inline constexpr std::array<std::uint32_t, 32> kReciprocalTable = {
     0x124543, 0x124543, 0x0D392D, 0x0D392D, 0x08851A, 0x08851A, 0x041D07, 0x041D07,
 };
 
-/// Entries for even exponents come first.
+/// The first half is for even exponents, the second half for odd ones.
 inline constexpr std::array<std::uint32_t, 64> kReciprocalSquareRootTable = {
     0x350160, 0x34E954, 0x2F993D, 0x2F993D, 0x2AA523, 0x2AA523, 0x26190D, 0x26190D, 0x21E4F9, 0x21E4F9,
     0x1E00E9, 0x1E00E9, 0x1A5CD9, 0x1A5CD9, 0x16F8CB, 0x16F8CB, 0x13CCC0, 0x13CCC0, 0x10CCB3, 0x10CCB3,
@@ -38,11 +39,10 @@ constexpr std::uint32_t reciprocal_square_root_estimate(std::uint32_t x) {
   return halved << 23 | kReciprocalSquareRootTable[x >> 18 & 63];
 }
 
-/// Returns the value at x of the line that `estimate` encodes for its interval: (1.base - 0.000step * 0.y) *
-/// 2^exponent.
+/// Returns the value at x of the line that `estimate` encodes: (1.base - 0.000step * 0.y) * 2^exponent.
 constexpr std::uint32_t interpolate(std::uint32_t x, std::uint32_t estimate) {
   const std::uint64_t base = 0x2000 + (estimate >> 10 & 0x1FFF); // 1.base, 13 bits behind the point
-  const std::uint64_t step = estimate & 0x3FF;                   // 13 bits behind the point as well
+  const std::uint64_t step = estimate & 0x3FF;                   // 13 bits behind the point
   const std::uint64_t y = x & 0x7FFFF;                           // 19 bits
   const std::uint64_t value = (base << 19) - step * y;           // 32 bits, between 0.875 and 2
   const std::uint32_t exponent = estimate >> 23 & 0xFF;

@@ -1,4 +1,4 @@
-// The execution of instructions: one function each, named as its Opcode.
+// Functions that execute instructions: one for each Opcode, with the same name.
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"

@@ -14,7 +14,7 @@ namespace celltrace::isa {
 
 namespace single_exception {
 constexpr std::uint32_t overflow = 4, underflow = 2;
-/// IEEE arithmetic would have given another result.
+/// Set if IEEE arithmetic would have given another result.
 constexpr std::uint32_t differs = 1;
 } // namespace single_exception
 

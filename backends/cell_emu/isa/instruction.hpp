@@ -1,4 +1,4 @@
-// Instructions of the SPU: the table of all opcodes, and decoding with it. Source: SPU Instruction Set
+// Instructions of the SPU: the table of all opcodes, decoding and disassembly. Source: SPU Instruction Set
 // Architecture 1.2.
 #pragma once
 
@@ -11,18 +11,18 @@
 
 namespace celltrace::isa {
 
-/// Layouts of instruction words. The opcode is in the high bits, in as many as the format leaves.
+/// Layouts of instruction words. The opcode is in the high bits that the format's fields leave free.
 enum class Format : std::uint8_t {
-  rr,   ///< 11 bits: rb, ra, rt of 7 bits each
-  rrr,  ///< 4 bits: rt, rb, ra, rc
-  ri7,  ///< 11 bits: immediate of 7, ra, rt
-  ri8,  ///< 10 bits: immediate of 8, ra, rt
-  ri10, ///< 8 bits: immediate of 10, ra, rt
-  ri16, ///< 9 bits: immediate of 16, rt
-  ri18, ///< 7 bits: immediate of 18, rt
+  rr,   ///< opcode of 11 bits; rb, ra, rt of 7 bits each
+  rrr,  ///< opcode of 4 bits; rt, rb, ra, rc
+  ri7,  ///< opcode of 11 bits; immediate of 7, ra, rt
+  ri8,  ///< opcode of 10 bits; immediate of 8, ra, rt
+  ri10, ///< opcode of 8 bits; immediate of 10, ra, rt
+  ri16, ///< opcode of 9 bits; immediate of 16, rt
+  ri18, ///< opcode of 7 bits; immediate of 18, rt
 };
 
-/// Units that execute instructions, which decide their pipe and latency.
+/// Execution units. The unit decides an instruction's pipe and latency.
 enum class Unit : std::uint8_t {
   // Even pipe.
   fx2, ///< simple fixed point, logic, compares
@@ -80,7 +80,7 @@ enum class Syntax : std::uint8_t {
 struct Instruction;
 using Execute = void (*)(State& state, const Instruction& instruction);
 
-/// Bits for the uses of the register fields.
+/// Bits that say which registers an instruction reads and writes.
 namespace operand {
 constexpr std::uint8_t reads_ra = 1, reads_rb = 2, reads_rc = 4, reads_rt = 8, writes_rt = 16;
 }
@@ -89,19 +89,19 @@ struct OpcodeInfo {
   const char* mnemonic;
   Opcode opcode;
   Format format;
-  std::uint16_t code; ///< the opcode's bits, as many as the format has
+  std::uint16_t code; ///< bits of the opcode; the format decides their number
   Unit unit;
   Syntax syntax;
   std::uint8_t operands; ///< bits of namespace `operand`
   Execute execute;
 };
 
-/// Returns all opcodes, by Opcode, without an entry for invalid words.
+/// Returns all opcodes, indexed by Opcode.
 std::span<const OpcodeInfo> opcodes();
-/// Returns the opcode in the word's high bits, or null.
+/// Returns the opcode of an instruction word, or null if the word is invalid.
 const OpcodeInfo* find_opcode(std::uint32_t word);
 
-/// A register number that means none.
+/// The register number that stands for no register.
 constexpr std::uint8_t kNoRegister = 128;
 
 /// An instruction word, decoded.
@@ -109,17 +109,18 @@ struct Instruction {
   Execute execute; ///< calls Environment::invalid_instruction() for an invalid word
   std::uint32_t word;
   std::int32_t immediate; ///< see Syntax; 0 if there is none
-  /// The fields of the format, 0 if it lacks them; rt is set even if it has no meaning.
+  /// Fields of the instruction word; 0 if the format lacks the field. rt is set even if the instruction does
+  /// not use it.
   std::uint8_t rt, ra, rb, rc;
-  std::uint8_t source[3]; ///< registers that it reads, else kNoRegister
-  std::uint8_t target;    ///< register that it writes, else kNoRegister
+  std::uint8_t source[3]; ///< registers that the instruction reads, else kNoRegister
+  std::uint8_t target;    ///< register that the instruction writes, else kNoRegister
   Opcode opcode;          ///< stop for an invalid word
   Unit unit;
 };
 
 Instruction decode(std::uint32_t word);
 
-/// Returns the address of the branch that a hint (Unit::hbr) at `pc` is for.
+/// Returns the address of the branch that a hint (Unit::hbr) at `pc` predicts.
 std::uint32_t hinted_branch(const Instruction& hint, std::uint32_t pc);
 
 /// Returns the instruction in the assembler's syntax, with a tab between mnemonic and operands, as

@@ -24,8 +24,8 @@ constexpr U32 low_unsigned(U32 word) {
 constexpr U32 product(S32 x, S32 y) {
   return static_cast<U32>(x * y); // products of halfwords cannot overflow
 }
-/// Counts the ones. Unlike std::popcount(), a table look-up for each byte, compilers vectorise this for all
-/// bytes.
+/// Counts the ones. Compilers vectorise this for all bytes, but not std::popcount(), which would look up each
+/// byte in a table.
 constexpr U8 ones_of_byte(U8 x) {
   const U8 pairs = static_cast<U8>(x - ((x >> 1) & 0x55));
   const U8 nibbles = static_cast<U8>((pairs & 0x33) + ((pairs >> 2) & 0x33));
@@ -37,7 +37,7 @@ constexpr U32 sum_of_bytes(U32 x) {
 
 template <class Part> constexpr unsigned kBits = 8 * sizeof(Part);
 
-// Counts have one bit more than the width of a part needs; counts that are too large shift everything out.
+// A count has one bit more than the width of a part needs; a count above the width shifts everything out.
 template <class Part> constexpr Part shift_left(Part x, U32 count) {
   count &= 2 * kBits<Part> - 1;
   return static_cast<Part>(count < kBits<Part> ? static_cast<U32>(x) << count : 0);
@@ -45,7 +45,7 @@ template <class Part> constexpr Part shift_left(Part x, U32 count) {
 template <class Part> constexpr Part rotate_left(Part x, U32 count) {
   return std::rotl(x, static_cast<int>(count & (kBits<Part> - 1)));
 }
-/// Shifts right by the negative count: "rotate and mask".
+/// Shifts right by the negated count: "rotate and mask".
 template <class Part> constexpr Part shift_right(Part x, U32 count) {
   count = (0 - count) & (2 * kBits<Part> - 1);
   return static_cast<Part>(count < kBits<Part> ? static_cast<U32>(x) >> count : 0);
@@ -107,7 +107,7 @@ void sfi(State& state, const Instruction& i) {
   of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return y - x; });
 }
 
-// Carries and borrows are the lowest bit of a word; a borrow bit of 1 means no borrow.
+// Carry and borrow are in the lowest bit of a word; a borrow bit of 1 means no borrow.
 void cg(State& state, const Instruction& i) {
   of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x + y < x; });
 }
@@ -162,8 +162,8 @@ void mpya(State& state, const Instruction& i) {
 }
 
 void clz(State& state, const Instruction& i) {
-  // GCC 12 for POWER without vectors keeps two words in one register and counts their zeros as those of one
-  // number. Words are therefore widened to 64 bits, with a bit behind the word that ends the count at 32.
+  // Counts in 64 bits, where a bit behind the word ends the count at 32. Counting in 32 bits fails without
+  // POWER's vectors: GCC 12 then takes two words in one register for one number.
   of_ra<U32>(state, i, [](U32 x) { return std::countl_zero(std::uint64_t{x} << 32 | 0x80000000u); });
 }
 void cntb(State& state, const Instruction& i) {

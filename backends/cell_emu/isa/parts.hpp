@@ -1,5 +1,5 @@
-// Operations on all bytes, halfwords, words or doublewords of registers at once. The order of the parts does
-// not matter, so they work in the host's order; loops of a fixed length that compilers vectorise.
+// Operations on all bytes, halfwords, words or doublewords of registers at once. Parts are processed in the
+// host's order, because their order does not matter, by loops of fixed length that compilers vectorise.
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"
@@ -66,12 +66,12 @@ template <class Part, class F> inline void of_ra_immediate(State& state, const I
   state.gpr[i.rt] = map<Part>(state.gpr[i.ra], [=](Part x) { return f(x, immediate); });
 }
 
-/// Returns the result of a compare: ones or zeros.
+/// Returns the result of a compare: all ones if `condition` is true, else zeros.
 template <class Part> constexpr Part mask_of(bool condition) {
   return static_cast<Part>(condition ? -1 : 0);
 }
 
-/// Returns a register with the word in the preferred slot, zeros in the others.
+/// Returns a register with the word in the preferred slot and zeros in the other slots.
 inline Quadword preferred(std::uint32_t word) {
   Quadword q = Quadword::zero();
   q.set<std::uint32_t>(0, word);

@@ -22,13 +22,13 @@ Quadword quadword(Wide x) {
   return isa::quadword<U64>(Quadword::kReversed ? Parts<U64>{x.low, x.high} : Parts<U64>{x.high, x.low});
 }
 
-// Rotates. Shifting by 1 and then by the rest keeps shifts below the width for counts of 0.
+// Rotates left. Shifts right by 64 - n in two steps, by 1 and by 63 - n, because a shift by 64 is undefined.
 Wide rotate(Wide x, U32 bits) {
   if ((bits & 64) != 0) x = {x.low, x.high};
   const U32 n = bits & 63;
   return {x.high << n | x.low >> 1 >> (63 - n), x.low << n | x.high >> 1 >> (63 - n)};
 }
-/// Shifts left by bits < 256; from 128 on nothing is left.
+/// Shifts left by `bits` < 256; 128 and more give 0.
 Wide shift_left(Wide x, U32 bits) {
   if ((bits & 64) != 0) x = {x.low, 0};
   if ((bits & 128) != 0) x = {0, 0};
@@ -42,7 +42,7 @@ Wide shift_right(Wide x, U32 bits) {
   return {x.high >> n, x.low >> n | x.high << 1 << (63 - n)};
 }
 
-/// Return the count, from the preferred slot of rb or from the immediate.
+/// Return the count of a shift, from the preferred slot of rb or from the immediate.
 U32 count_rb(const State& state, const Instruction& i) {
   return state.gpr[i.rb].word(0);
 }
@@ -60,10 +60,10 @@ constexpr U32 bytes_of(U32 count) {
   return (count & 31) * 8;
 }
 
-/// Generates the control of shufb that inserts the preferred slot's part of `size` bytes at the address and
-/// keeps the rest.
+/// Generates the control of a shufb that inserts the `size` bytes in the preferred slot at the address and
+/// keeps the other bytes.
 void generate_control(State& state, const Instruction& i, U32 address, U32 size) {
-  // A doubleword in the preferred slot starts at byte 0, a smaller part ends with byte 3.
+  // In the preferred slot a doubleword starts at byte 0, a smaller part ends at byte 3.
   constexpr U64 kDoubleword = 0x0001020304050607, kWord = kDoubleword >> 32 << 32;
   const U64 all = size == 8 ? kDoubleword : kWord << (8 * (4 - size));
   const U64 bytes = ~U64{0} << (64 - 8 * size);
@@ -79,7 +79,7 @@ U32 indexed(const State& state, const Instruction& i) {
   return state.gpr[i.ra].word(0) + state.gpr[i.rb].word(0);
 }
 
-/// Returns a part of ones or zeros for each of the low bits, the highest bit first.
+/// Returns a mask: for each of the low bits, the highest bit first, a part of all ones or zeros.
 template <class Part> Quadword form_mask(U32 bits) {
   Parts<Part> mask;
   constexpr unsigned count = sizeof mask / sizeof(Part);
@@ -122,7 +122,7 @@ Quadword look_up(const Quadword& a, const Quadword& b, const Quadword& control) 
   return map<std::uint8_t>(control, [&](std::uint8_t c) { return table[(c & 31u) ^ flip]; });
 }
 
-/// Returns the result for a control byte of 0x80 and above.
+/// Returns the constant that a control byte of 0x80 and above stands for.
 constexpr std::uint8_t constant_of(std::uint8_t control) {
   return static_cast<std::uint8_t>(control < 0xC0 ? 0 : control < 0xE0 ? 0xFF : 0x80);
 }
@@ -132,7 +132,7 @@ Quadword with_constants(const Quadword& found, const Quadword& control) {
 }
 
 #if defined(__x86_64__)
-/// Executes shufb by an instruction that most processors have: shuffles are frequent and sixteen look-ups
+/// Executes shufb by pshufb, which most x86 processors have: shuffles are frequent, and sixteen look-ups are
 /// slow.
 [[gnu::target("ssse3")]] void shufb_by_pshufb(State& state, const Instruction& i) {
   const auto a = std::bit_cast<__m128i>(state.gpr[i.ra]), b = std::bit_cast<__m128i>(state.gpr[i.rb]);
@@ -211,7 +211,7 @@ void rotqbii(State& state, const Instruction& i) {
 void rotqbyi(State& state, const Instruction& i) {
   shift(state, i, rotate, bytes_of(count_immediate(i)));
 }
-// The instructions "rotate and mask" shift right by the negative count.
+// The instructions "rotate and mask" shift right by the negated count.
 void rotqmbi(State& state, const Instruction& i) {
   shift(state, i, shift_right, bits_of(0 - count_rb(state, i)));
 }

@@ -1,6 +1,6 @@
-// Execution: single precision. The FPSCR's flags of overflow, underflow and "differs from IEEE" are
-// kept for sums, products and conversions from integers, and those of division by zero for the estimates;
-// flags that fi and the conversions to integers may set are not modelled.
+// Execution: single precision. Sums, products and conversions from integers set the FPSCR's flags of
+// overflow, underflow and "differs from IEEE"; estimates set the flags of division by zero. Flags that fi and
+// conversions to integers may set are not modelled.
 #include "backends/cell_emu/isa/single_float.hpp"
 #include "backends/cell_emu/isa/estimate.hpp"
 #include "backends/cell_emu/isa/execute.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using U32 = std::uint32_t;
 using S32 = std::int32_t;
-/// Four numbers, or results not yet rounded: of the low and of the high words of both doublewords.
+/// Four numbers, or results before rounding: of the low words and of the high words of both doublewords.
 struct Exact {
   Doubles low, high;
 };
@@ -24,7 +24,7 @@ inline Exact exact(Bits from) {
   return {from_single(from & 0xFFFFFFFF), from_single(from >> 32)};
 }
 
-/// Returns the flags of the results in two slots.
+/// Returns the exception flags of the results in two slots.
 Bits flags_of(Doubles x) {
   const Bits overflow = reaches_mask(x, 0x1p129), underflow = underflow_mask(x);
   const Bits differs = reaches_mask(x, 0x1p128) | underflow;
@@ -41,8 +41,8 @@ Bits flags_of(Doubles x) {
   return std::bit_cast<Quadword>(to_single(value.low) | to_single(value.high) << 32);
 }
 
-/// Rounds, and raises flags. Flags and numbers that are too large are rare: one test finds whether there are
-/// any.
+/// Rounds results and raises flags. Numbers that raise flags or are too large are rare, so one test finds out
+/// whether there are any.
 inline Quadword rounded(State& state, const Exact& value, Bits differing_operands) {
   const Bits odd = differing_operands | underflow_mask(value.low) | underflow_mask(value.high) |
                    reaches_mask(value.low, 0x1p128) | reaches_mask(value.high, 0x1p128);
@@ -79,7 +79,7 @@ template <class Integer> inline void from_integer(State& state, const Instructio
   state.gpr[i.rt] = rounded(state, {low_numbers * scale, high_numbers * scale}, Bits{});
 }
 
-/// Returns the number that is then cut to an integer.
+/// Returns a single times `scale`, which callers cut to an integer.
 double scaled(U32 single, double scale) {
   return from_single(Bits{single, 0})[0] * scale;
 }

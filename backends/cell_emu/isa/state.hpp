@@ -1,4 +1,5 @@
-// The state that instructions work on: the registers and the local store of one SPU, and its environment.
+// State and Environment: the registers and local store of one SPU, on which instructions work, and the
+// interface to everything else.
 #pragma once
 
 #include "celltrace/spe/quadword.hpp"
@@ -18,19 +19,19 @@ public:
   virtual void write_channel(unsigned channel, std::uint32_t value) = 0;
   virtual std::uint32_t channel_count(unsigned channel) = 0;
 
-  /// Executes stop and stopd. Execution goes on at State::next, which the call may change.
+  /// Executes stop and stopd. Execution continues at State::next, which the call may change.
   virtual void stop(std::uint32_t code) = 0;
-  /// Called if the condition of heq or another halt instruction holds.
+  /// Executes a halt instruction (such as heq) whose condition holds.
   virtual void halt() = 0;
   virtual void invalid_instruction(std::uint32_t word) = 0;
 
-  /// Returns the condition of bisled: whether the event status has a count.
+  /// Returns true if the event status has a count: the condition of bisled.
   virtual bool has_event() = 0;
-  /// Sets interrupts as the D and E bits of branches demand.
+  /// Enables or disables interrupts, for branches with an E or D bit.
   virtual void enable_interrupts(bool enabled) = 0;
   virtual std::uint32_t srr0() = 0;
 
-  /// Called before a quadword whose watch byte is not 0 is loaded or stored.
+  /// Called before a load or store of a quadword with the bit kWatchLoads or kWatchStores in its watch byte.
   virtual void watched_load(std::uint32_t lsa) = 0;
   virtual void watched_store(std::uint32_t lsa, const Quadword& value) = 0;
 };
@@ -39,7 +40,7 @@ public:
 struct State {
   Quadword gpr[128] = {};
   Quadword fpscr = {};
-  std::uint32_t pc = 0;                ///< address of the present instruction; a multiple of 4 below 256 KB
+  std::uint32_t pc = 0;                ///< address of the present instruction: a multiple of 4 below 256 KB
   std::uint32_t next = 4;              ///< address of the next instruction; branches change it
   std::uint8_t* local_store = nullptr; ///< 256 KB
   const std::uint8_t* watch = nullptr; ///< one byte for each quadword of local store: 16,384

@@ -1,11 +1,11 @@
-// Formats tables of text.
+// append(), which formats text for tables.
 #pragma once
 
 #include <string>
 
 namespace celltrace::cell_emu {
 
-/// Appends to `text` as printf; up to 511 characters.
+/// Appends to `text`, formatted as by printf(), up to 511 characters.
 [[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...);
 
 } // namespace celltrace::cell_emu

@@ -1,4 +1,4 @@
-// Big-endian integers, as in local store and in the SPU's files.
+// Loads and stores of big-endian integers, as local store and the SPU's ELF files contain them.
 #pragma once
 
 #include <concepts>

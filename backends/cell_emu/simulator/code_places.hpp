@@ -1,5 +1,5 @@
-// The source place of an address in a program, for profiles and messages: function, file and line, and the
-// calls that were inlined there.
+// CodePlaces finds the source place of an address in a program, for profiles and messages: function, file and
+// line, and the calls that were inlined there.
 #pragma once
 
 #include "backends/cell_emu/simulator/inlined_calls.hpp"
@@ -10,7 +10,7 @@
 
 namespace celltrace::cell_emu {
 
-/// A place. Strings live as long as the CodePlaces that they come from.
+/// A source place. Its strings live as long as the CodePlaces that returned it.
 struct CodePlace {
   const char* function = nullptr; ///< null: unknown
   std::uint32_t offset = 0;       ///< bytes from the function's start

@@ -8,7 +8,7 @@ namespace {
 
 using Count = std::uint64_t SpuCycles::*;
 
-/// Counters that together cover every cycle.
+/// Counters whose sum is the number of all cycles.
 constexpr std::pair<const char*, Count> kCycles[] = {
     {"single cycle", &SpuCycles::single_cycle},
     {"dual cycle", &SpuCycles::dual_cycle},
@@ -26,7 +26,7 @@ constexpr std::pair<const char*, Count> kCycles[] = {
 struct Unit {
   const char* name;
   Count instructions;
-  Count dependency; ///< null: its results are never waited for
+  Count dependency; ///< null: no instruction waits for results of this unit
 };
 constexpr Unit kUnits[] = {
     {"fx2", &SpuCycles::fx2, &SpuCycles::dependency_fx2},

@@ -1,5 +1,5 @@
-// Reads debugging information, whatever its bytes: reading beyond the end throws, and never accesses memory
-// there.
+// DwarfReader reads debugging information that may be malformed: reads beyond the end throw and access no
+// memory.
 #pragma once
 
 #include "backends/cell_emu/simulator/big_endian.hpp"
@@ -13,7 +13,7 @@
 
 namespace celltrace::cell_emu {
 
-/// Thrown by a reader at the end of its bytes; caught in the file that reads.
+/// Exception of a DwarfReader at the end of its bytes; each source file that uses a DwarfReader catches it.
 struct MalformedDwarf {};
 
 /// Reads from the front of a range of bytes.
@@ -35,7 +35,7 @@ public:
     return load_big_endian<Integer>(take(sizeof(Integer)).data());
   }
 
-  /// Reads LEB128; bits above the 64th are dropped.
+  /// Read an LEB128 number; bits above the 64th are dropped.
   std::uint64_t unsigned_leb() { return leb().first; }
   std::int64_t signed_leb() {
     auto [value, bits] = leb();

@@ -17,7 +17,7 @@ Quadword all_bytes() {
   return q;
 }
 
-/// Returns all ones for the parts in which any bit is set.
+/// Returns all ones for each part in which a bit is set.
 template <class Part> Quadword widened(const Quadword& bits) {
   Quadword q;
   for (unsigned i = 0; i < 16 / sizeof(Part); ++i)
@@ -85,7 +85,8 @@ const EarlyLoads::Load* EarlyLoads::use(const isa::State& state, const Instructi
     if (source == isa::kNoRegister) continue;
     const Register& read = (*registers_)[source];
     if (!read.live) continue;
-    // An instruction without a result acts by its preferred slots, but a store by everything that it stores.
+    // An instruction without a result uses the preferred slots of its operands; a store also uses all bytes
+    // that it stores.
     const bool acts = instruction.target == isa::kNoRegister || instruction.unit == Unit::ls ||
                       instruction.unit == Unit::br || instruction.unit == Unit::spr;
     const bool stored = is_store(instruction.opcode) && source == instruction.rt;
@@ -116,7 +117,7 @@ Quadword EarlyLoads::passed_on(const isa::State& state, const Instruction& instr
       const std::uint64_t mask = value_in(rc, half);
       return (early_in(ra, half) & ~mask) | (early_in(rb, half) & mask) | early_in(rc, half);
     }));
-  // Bits that are masked out do not count.
+  // A bit of one operand matters only where the other operand has a 1 or is early.
   if (instruction.opcode == Opcode::and_)
     return widened<std::uint8_t>(combined([&](unsigned half) {
       return (early_in(ra, half) & value_in(rb, half)) | (early_in(rb, half) & value_in(ra, half)) |
@@ -128,17 +129,19 @@ Quadword EarlyLoads::passed_on(const isa::State& state, const Instruction& instr
       if (source != isa::kNoRegister) bits |= early_in(source, half);
     return bits;
   });
-  if (instruction.unit == Unit::shuf) return all_bytes(); // gathers and masks depend on the whole register
+  if (instruction.unit == Unit::shuf)
+    return all_bytes(); // results of gathers and masks depend on the whole register
   const bool doublewords = instruction.unit == Unit::fpd || instruction.opcode == Opcode::xswd;
   return doublewords ? widened<std::uint64_t>(sum) : widened<std::uint32_t>(sum);
 }
 
-/// Returns the bytes that an instruction moves, by executing it on values that tell the bytes apart.
+/// Returns the early bytes of the result of an instruction that moves bytes. Executes the instruction on
+/// registers whose bytes say whether they are early.
 Quadword EarlyLoads::moved(const isa::State& state, const Instruction& instruction) const {
   const bool shuffle = instruction.opcode == Opcode::shufb;
   const std::uint8_t control = shuffle ? instruction.rc : instruction.source[1];
   if (control != isa::kNoRegister && !(early(control) == Quadword::zero())) return all_bytes();
-  // The copy of the instruction gets other registers: in the original, one register may be data and control.
+  // Separate registers, because the program's instruction may use one register both as data and as control.
   enum : std::uint8_t { a, b, controls, result_at };
   isa::State bytes;
   Instruction moving = instruction;

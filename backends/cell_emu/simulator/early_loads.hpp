@@ -1,9 +1,10 @@
-// Tracks bytes in registers that were loaded from the target of a get in flight, up to the first use of one.
+// EarlyLoads tracks early bytes: bytes in registers that were loaded from the target of a get in flight. It
+// finds the first use of an early byte.
 //
-// Code that reads ahead, as memcpy() does, loads quadwords that it then drops: only a use is a mistake. Uses
-// are addresses, conditions and targets of branches, words for channels, and stores. Shuffles, rotates and
-// selects pass on certain bytes; for other operations every word of the result depends on the same
-// words of the operands.
+// Only a use is a mistake, because code that reads ahead, as memcpy() does, loads quadwords and then drops
+// them. Early bytes are used as addresses, as conditions and targets of branches, as words for channels, and
+// by stores. Shuffles, rotates and selects move early bytes; in other operations each word of the result
+// depends on the same word of each operand.
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"
@@ -24,12 +25,12 @@ public:
     Mfc::FlightInfo flight;
   };
 
-  /// Returns whether a register holds such bytes.
+  /// Returns true if a register holds early bytes.
   bool any() const { return live_ != 0; }
   /// Notes that the present instruction has loaded its target register early.
   void loaded(std::uint8_t target, const Load& load);
-  /// Tracks an instruction; call it for every one before it executes, while any() is true. Returns the load
-  /// that the instruction uses too early, or null.
+  /// Tracks an instruction. While any() is true, call this for every instruction before it executes. Returns
+  /// the load whose early bytes the instruction uses, or null.
   const Load* use(const isa::State& state, const isa::Instruction& instruction);
   void forget() { registers_.reset(), live_ = 0; }
 
@@ -46,7 +47,7 @@ private:
   isa::Quadword moved(const isa::State& state, const isa::Instruction& instruction) const;
   const isa::Quadword& early(std::uint8_t number) const { return (*registers_)[number].early; }
 
-  std::unique_ptr<std::array<Register, 128>> registers_; ///< only while there are early bytes
+  std::unique_ptr<std::array<Register, 128>> registers_; ///< null if there were no early bytes since forget()
   unsigned live_ = 0;
 };
 

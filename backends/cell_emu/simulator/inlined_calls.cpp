@@ -60,7 +60,7 @@ struct AttributeForm {
   std::uint64_t attribute, form;
 };
 
-/// The attributes of entries of one kind.
+/// A kind of entry in .debug_info, with the forms of its attributes.
 struct Abbreviation {
   std::uint64_t tag = 0;
   bool has_children = false;
@@ -68,9 +68,9 @@ struct Abbreviation {
 };
 using Abbreviations = std::map<std::uint64_t, Abbreviation>;
 
-/// The attributes of an entry that locate its code and its caller.
+/// An entry of .debug_info: its attributes that say where its code and its caller are.
 struct Entry {
-  std::uint32_t offset = 0; ///< in .debug_info
+  std::uint32_t offset = 0; ///< offset of the entry in .debug_info
   const Abbreviation* kind = nullptr;
   std::uint64_t low = 0, high = 0;
   bool has_low = false, has_high = false, high_is_size = false;
@@ -90,17 +90,20 @@ std::span<const std::uint8_t> from(std::span<const std::uint8_t> section, std::u
 struct InlinedCalls::Reading {
   explicit Reading(const Sections& sections)
       : abbreviation_bytes(sections.abbrev.size()), line_bytes(sections.line.size()),
-        // Compilers write each pair of addresses for one entry.
+        // In sound files each pair of addresses belongs to one entry, so no more pairs are read than the
+        // section has.
         pairs(sections.ranges.size() / (2 * kAddressBytes)) {}
 
   const Abbreviations& abbreviations(std::span<const std::uint8_t> section, std::uint32_t offset);
   LineFiles* line_files(std::span<const std::uint8_t> section, std::uint32_t offset);
 
   std::vector<Extent> extents;
-  // Units may share tables. Tables that overlap without being the same are malicious.
+  // Tables by their offset, because units may share tables. Only malicious files have tables that overlap in
+  // part.
   std::map<std::uint32_t, Abbreviations> known_abbreviations;
   std::map<std::uint32_t, LineFiles> known_line_files;
-  std::size_t abbreviation_bytes, line_bytes, pairs; ///< bytes and pairs left to be read
+  /// Bytes, and pairs of addresses, that may still be read: limits for malicious files.
+  std::size_t abbreviation_bytes, line_bytes, pairs;
 };
 
 const Abbreviations& InlinedCalls::Reading::abbreviations(std::span<const std::uint8_t> section,
@@ -118,13 +121,13 @@ const Abbreviations& InlinedCalls::Reading::abbreviations(std::span<const std::u
       for (;;) {
         const std::uint64_t attribute = reader.unsigned_leb(), form = reader.unsigned_leb();
         if (attribute == 0 && form == 0) break;
-        // The attribute takes no bytes of an entry and has no meaning here: many of them would only cost
-        // time.
+        // Flags that are only present take no bytes of an entry and are not used here; keeping many of them
+        // would only take time.
         if (form != kFlagPresent) made.attributes.push_back({attribute, form});
       }
       place->second.try_emplace(code, std::move(made));
     }
-  } catch (const MalformedDwarf&) { // the entries before are sound
+  } catch (const MalformedDwarf&) { // entries before the fault are kept
   }
   abbreviation_bytes -= before - reader.left();
   return place->second;
@@ -140,7 +143,7 @@ LineFiles* InlinedCalls::Reading::line_files(std::span<const std::uint8_t> secti
     if (header.tables.left() > line_bytes) throw MalformedDwarf();
     line_bytes -= header.tables.left();
     place->second = LineFiles(header.tables);
-  } catch (const MalformedDwarf&) { // these calls have no files
+  } catch (const MalformedDwarf&) { // calls of this unit have no files
   }
   return &place->second;
 }
@@ -148,7 +151,7 @@ LineFiles* InlinedCalls::Reading::line_files(std::span<const std::uint8_t> secti
 /// One compilation unit: a tree of entries.
 class InlinedCalls::Unit {
 public:
-  /// Reads a unit: `bytes` with its length, at `offset` of .debug_info.
+  /// Prepares to read the unit at `offset` of .debug_info. `bytes` begin with the unit's length.
   Unit(InlinedCalls& calls, Reading& reading, std::span<const std::uint8_t> bytes, std::uint32_t offset)
       : calls_(calls), reading_(reading), bytes_(bytes), offset_(offset) {}
 
@@ -217,7 +220,7 @@ private:
     }
     case kStringOffset:
       return {reader.integer<std::uint32_t>(), false, true};
-    case kReferenceAnywhere: // as wide as an address in version 2, as an offset later: both have 4 bytes
+    case kReferenceAnywhere: // has the width of an address in version 2, of an offset later: both are 4 bytes
       return {reader.integer<std::uint32_t>()};
     case kReference1:
       return {offset_ + std::uint64_t{reader.integer<std::uint8_t>()}};
@@ -289,7 +292,7 @@ private:
     }
   }
 
-  /// Takes an entry. Returns the scope that the entry's children are in.
+  /// Handles an entry. Returns the scope that the entry's children are in.
   std::uint32_t take(const Entry& entry, std::uint32_t outer) {
     if (entry.line_program) { // the unit's own entry
       base_ = entry.low;
@@ -375,7 +378,7 @@ InlinedCalls::InlinedCalls(const Sections& sections) : sections_(sections) {
 }
 
 void InlinedCalls::read() {
-  // Offsets have 32 bits here, as in the format.
+  // Offsets have 32 bits, as in 32-bit DWARF.
   if (sections_.info.size() >= kNone) return;
   Reading reading(sections_);
   DwarfReader section(sections_.info);
@@ -387,10 +390,10 @@ void InlinedCalls::read() {
       try {
         Unit(*this, reading, sections_.info.subspan(start, end - start), static_cast<std::uint32_t>(start))
             .read();
-      } catch (const MalformedDwarf&) { // the next unit may be sound
+      } catch (const MalformedDwarf&) { // go on with the next unit
       }
     }
-  } catch (const MalformedDwarf&) { // after a length beyond the section nothing can be found
+  } catch (const MalformedDwarf&) { // after a wrong length no further unit can be found
   }
   lay_out(std::move(reading.extents));
 }
@@ -400,7 +403,8 @@ void InlinedCalls::lay_out(std::vector<Extent> extents) {
   const auto is_outside = [&](const Extent& a, const Extent& b) {
     return std::tuple(scopes_[a.scope].depth, a.scope) < std::tuple(scopes_[b.scope].depth, b.scope);
   };
-  // Holds all extents that have begun; those that have ended are removed when they come to the top.
+  // The extents that have begun, the innermost on top. An extent that has ended is removed when it comes to
+  // the top.
   std::priority_queue<Extent, std::vector<Extent>, decltype(is_outside)> open(is_outside);
   const auto step_to = [&](std::uint32_t lsa, std::uint32_t scope) {
     if (!steps_.empty() && steps_.back().lsa == lsa)
@@ -425,7 +429,7 @@ void InlinedCalls::lay_out(std::vector<Extent> extents) {
 }
 
 std::string_view InlinedCalls::name_of(std::uint32_t entry) const {
-  // A body refers to its function, which may refer to its declaration in a class.
+  // The entry of a body refers to its function's entry, which may refer to a declaration in a class.
   for (unsigned i = 0; i < 4; ++i) {
     const auto found = std::ranges::lower_bound(functions_, entry, {}, &Function::entry);
     if (found == functions_.end() || found->entry != entry) break;

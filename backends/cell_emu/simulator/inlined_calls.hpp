@@ -1,5 +1,4 @@
-// The calls that the compiler replaced by the body of the called function, from a program's DWARF
-// information.
+// InlinedCalls finds the calls that the compiler inlined, by a program's DWARF information.
 //
 // DWARF Debugging Information Format, versions 2 to 4, sections 3.3.8, 7.5 and 2.17.
 #pragma once
@@ -15,17 +14,19 @@
 
 namespace celltrace::cell_emu {
 
-/// A call that was replaced by the function's body. Strings live as long as the InlinedCalls.
+/// A call that was replaced by the called function's body. Its strings live as long as the InlinedCalls.
 struct InlinedCall {
-  std::string_view callee;    ///< as in the source, with template arguments; empty: unknown
-  const char* file = nullptr; ///< file of the call as the compiler got it, with its folder; null: unknown
-  std::uint32_t line = 0;     ///< line of the call, from 1; 0: unknown
+  /// Name of the called function as in the source, with template arguments; empty: unknown.
+  std::string_view callee;
+  /// File that contains the call, as its name was passed to the compiler, with folder; null: unknown.
+  const char* file = nullptr;
+  std::uint32_t line = 0; ///< line of the call, from 1; 0: unknown
 };
 
-/// The calls in .debug_info and the sections that it refers to. Malformed parts have no calls, but the rest
-/// of the sections may. Time is proportional to n log n for sections of n bytes, memory to n. Functions at
-/// address 0, where the SPU's interrupts lead, count as discarded by the linker. Thread safety: all members
-/// are const.
+/// The inlined calls that .debug_info and related sections describe. Malformed parts are left out; the rest
+/// of the sections is used. For sections of n bytes, time is proportional to n log n, memory to n. Functions
+/// at address 0, where the SPU's interrupt handler lies, count as discarded by the linker. Thread safety: all
+/// members are const.
 class InlinedCalls {
 public:
   struct Sections {
@@ -38,7 +39,8 @@ public:
   InlinedCalls(InlinedCalls&&) = default;
   InlinedCalls& operator=(InlinedCalls&&) = default;
 
-  /// Returns the calls whose bodies contain the instruction, the innermost first; at most 64.
+  /// Returns the calls whose inlined bodies contain the instruction at `lsa`, the innermost first; at most
+  /// 64.
   std::vector<InlinedCall> at(std::uint32_t lsa) const;
 
   bool empty() const { return steps_.empty(); }
@@ -46,26 +48,26 @@ public:
 private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-  /// A function, or a body in the place of a call.
+  /// A function, or the inlined body of a call.
   struct Scope {
-    std::uint32_t outer = kNone;  ///< in scopes_; kNone for a function
-    std::uint32_t depth = 0;      ///< number of bodies around it
+    std::uint32_t outer = kNone;  ///< index in scopes_ of the scope around this scope; kNone for a function
+    std::uint32_t depth = 0;      ///< number of scopes around this scope
     std::uint32_t callee = kNone; ///< offset in .debug_info of the function's entry
-    std::uint32_t file = kNone;   ///< in files_
+    std::uint32_t file = kNone;   ///< number of the call's file in files_
     std::uint32_t line = 0;
   };
-  /// A function's entry in .debug_info, which has a name or refers to another one.
+  /// A function's entry in .debug_info, which has a name or refers to another entry.
   struct Function {
-    std::uint32_t entry = 0; ///< its offset
+    std::uint32_t entry = 0; ///< offset of the entry
     std::uint32_t name = kNone;
     bool name_in_strings = false;
     std::uint32_t refers_to = kNone;
   };
-  /// Code of a scope, including that of the scopes in it.
+  /// A range of a scope's code, which includes the code of inner scopes.
   struct Extent {
     std::uint32_t begin = 0, end = 0, scope = kNone;
   };
-  /// An address from which on the scope is the innermost one.
+  /// An address from which on `scope` is the innermost scope.
   struct Step {
     std::uint32_t lsa = 0, scope = kNone;
   };
@@ -81,7 +83,7 @@ private:
   FileNames files_;
   std::vector<Scope> scopes_;
   std::vector<Function> functions_; // by ascending entry
-  std::vector<Step> steps_;         // by ascending address, no two with the same
+  std::vector<Step> steps_;         // by ascending address; no two have the same address
 };
 
 } // namespace celltrace::cell_emu

@@ -42,8 +42,8 @@ void IssueModel::wait_for_operands(const isa::Instruction& instruction, Cycle re
 }
 
 void IssueModel::enter_line() {
-  // The port must have been free in some cycle since the last line, or the instructions have not been
-  // fetched.
+  // The instructions of this line have not been fetched in time if loads and stores took the port in every
+  // cycle since the last line.
   const Cycle passed = last_ - line_entered_;
   if (passed != 0 && line_accesses_ >= passed) stall(StallReason::prefetch_miss, last_ + timing_.fetch_miss);
   line_entered_ = last_;
@@ -71,7 +71,8 @@ void IssueModel::contend(std::uint64_t dma_lines) {
   const std::uint64_t cycles = last_ - taken_;
   if (cycles == 0) return;
   const std::uint64_t accesses = units_[static_cast<unsigned>(Unit::ls)];
-  // A line meets a load or store as often as these take the port.
+  // The share of DMA lines that collide with a load or store is the share of cycles in which loads and stores
+  // take the port.
   const std::uint64_t met = std::min(dma_lines * accesses / cycles, accesses);
   contention_ += met;
   last_ += met;

@@ -1,5 +1,5 @@
-// The issue of the SPU's instructions: in order, at most two a cycle, with the latencies of
-// TimingParameters.
+// IssueModel computes the cycles in which an SPU issues instructions: in order, at most two a cycle, with the
+// latencies of TimingParameters.
 //
 //   fetch group   Two instructions at an 8-byte boundary. They issue together if the first goes to the even
 //                 pipe, the second to the odd one, and the operands of both are there; the next group issues
@@ -13,8 +13,8 @@
 //                 port: if they take it in every cycle, the next 32 instructions come late.
 //   DMA           Takes the port for a cycle a line, before loads and stores.
 //
-// Sources: IBM SDK 3.0 programming tutorial (pipelines, dual issue, hints); the order of the port's users
-// from the SPU's description in the same place. The buffers of the fetch unit are not modelled line by line.
+// Source: IBM SDK 3.0 programming tutorial (pipelines, dual issue, hints, priorities of the local store's
+// port). The buffers of the fetch unit are not modelled line by line.
 #pragma once
 
 #include "backends/cell_emu/cycle.hpp"
@@ -36,7 +36,7 @@ class IssueModel {
 public:
   explicit IssueModel(const TimingParameters& timing);
 
-  /// Issues the instruction at `pc`, which follows the last one that was issued.
+  /// Issues the instruction at `pc`, the next instruction that the program executes.
   void issue(const isa::Instruction& instruction, std::uint32_t pc) {
     const unsigned unit = static_cast<unsigned>(instruction.unit);
     ++units_[unit];
@@ -45,7 +45,7 @@ public:
                                  ready_[instruction.source[2]]);
     const bool nop = instruction.unit == isa::Unit::nop || instruction.unit == isa::Unit::lnop;
     if (pc == pair_ && ready <= last_ && !isa::is_even(instruction.unit)) {
-      // Issues with the instruction before.
+      // The instruction issues together with the instruction before.
       dual_cycle_ += !nop && !last_is_nop_;
       single_cycle_ += static_cast<std::uint64_t>(!nop && last_is_nop_) - (!nop && !last_is_nop_);
       nop_cycle_ -= !nop && last_is_nop_;
@@ -69,25 +69,25 @@ public:
     ready_[isa::kNoRegister] = 0;
   }
 
-  /// Notes that a branch at `pc` has gone to `next`. Call it for every branch, taken or not, after its
-  /// issue().
+  /// Notes that the branch at `pc` has continued at `next`. Call this after issue() of every branch, also if
+  /// the branch was not taken.
   void branched(std::uint32_t pc, std::uint32_t next, bool taken);
   /// Notes a hint that the branch at `branch` goes to `target`.
   void hint(std::uint32_t branch, std::uint32_t target) { hint_ = {branch, target, last_, instructions()}; }
-  /// Advances by cycles in which the SPU stood still, which are counted elsewhere.
+  /// Advances by cycles in which the SPU waited, such as at a channel. take() does not count these cycles.
   void pass(Cycle cycles) {
     last_ += cycles;
     taken_ += cycles;
   }
-  /// Notes lines of DMA that have gone through the local store's port since the last take().
+  /// Notes that DMA has moved `dma_lines` lines through the local store's port since the last take().
   void contend(std::uint64_t dma_lines);
 
   /// Returns the counts since the last take().
   SpuCycles take();
 
-  /// Returns the cycle of the last issue. Rises by 0 if two instructions issue together.
+  /// Returns the cycle of the last issue, which is the same for two instructions that issue together.
   Cycle last() const { return last_; }
-  /// Returns cycles lost since the last forget_recent(), for a profile.
+  /// Returns the cycles that were lost for this reason since the last forget_recent(), for a profile.
   Cycle recent(StallReason reason) const { return recent_[static_cast<unsigned>(reason)]; }
   void forget_recent() { recent_ = {}; }
 
@@ -110,11 +110,13 @@ private:
 
   const TimingParameters timing_;
   std::array<std::uint8_t, kUnits> latency_{};
-  std::array<Cycle, 129> ready_{}; ///< index: register, the last for none
+  /// By register: cycle from which on its value can be used; the last element is for kNoRegister.
+  std::array<Cycle, 129> ready_{};
   std::array<isa::Unit, 129> producer_{};
   Cycle last_ = 0;
   Cycle blocked_ = 0;
-  std::uint32_t pair_ = kNoPair; ///< address of the instruction that may issue with the last one
+  /// Address of the instruction that may issue together with the last one, or kNoPair.
+  std::uint32_t pair_ = kNoPair;
   bool last_is_nop_ = false;
   Cycle line_entered_ = 0;
   std::uint64_t line_accesses_ = 0; ///< loads and stores since line_entered_
@@ -122,8 +124,8 @@ private:
 
   Cycle taken_ = 0; ///< cycle up to which take() has counted
   std::array<std::uint64_t, kUnits> units_{};
-  std::array<std::uint64_t, kUnits> dependency_{}; ///< stalls by the unit waited for
-  std::array<Cycle, kStallReasons> stalls_{};      ///< index: StallReason
+  std::array<std::uint64_t, kUnits> dependency_{}; ///< stalls, by the unit whose result was waited for
+  std::array<Cycle, kStallReasons> stalls_{};      ///< by StallReason
   std::array<Cycle, kStallReasons> recent_{};      ///< stalls that a profile has not seen yet
   std::uint64_t issued_before_ = 0;                ///< instructions that take() has counted
   std::uint64_t single_cycle_ = 0, dual_cycle_ = 0, nop_cycle_ = 0;

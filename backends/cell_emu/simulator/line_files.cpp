@@ -3,7 +3,8 @@
 namespace celltrace::cell_emu {
 
 std::uint32_t FileNames::add(std::string_view folder, std::string_view name) {
-  // Folder names are stored again with every file in them: a malicious table could make that quadratic.
+  // Limits for malicious tables: a folder's name is stored with each of its files, so that memory could be
+  // quadratic.
   constexpr std::size_t kLongestPath = 4096, kMostBytes = 1 << 24;
   std::string path;
   if (!name.starts_with('/') && !folder.empty() && bytes_ < kMostBytes &&
@@ -24,7 +25,7 @@ LineHeader LineHeader::read(DwarfReader& unit) {
   LineHeader header;
   header.instruction_bytes = bytes.integer<std::uint8_t>();
   if (version >= 4) bytes.take(1); // operations per instruction: one on the SPU
-  bytes.take(1);                   // whether rows are statements at first
+  bytes.take(1);                   // default of is_stmt
   header.line_base = static_cast<std::int8_t>(bytes.integer<std::uint8_t>());
   header.line_range = bytes.integer<std::uint8_t>();
   header.opcode_base = bytes.integer<std::uint8_t>();

@@ -17,12 +17,12 @@ constexpr std::uint8_t kEndSequence = 1, kSetAddress = 2, kDefineFile = 3;
 
 } // namespace
 
-/// One compilation unit: its header, then its program, which is executed by a machine that builds rows.
+/// One compilation unit: its header, and its line number program, whose execution makes rows.
 class LineTable::Unit {
 public:
   Unit(FileNames& names, std::vector<Sequence>& sequences) : names_(names), sequences_(sequences) {}
 
-  /// Reads the unit. Throws MalformedDwarf; sequences that ended before stay.
+  /// Reads the unit. Throws MalformedDwarf; sequences that ended before the fault are kept.
   void read(DwarfReader unit) {
     header_ = LineHeader::read(unit);
     files_ = LineFiles(header_.tables);
@@ -65,7 +65,7 @@ private:
     case kFixedAdvancePc:
       address_ += program.integer<std::uint16_t>();
       break;
-    default: // opcodes without effect on lines, or unknown
+    default: // unknown opcodes, and opcodes without effect on lines: skip the operands
       for (unsigned i = 0; i < header_.operands[opcode - 1u]; ++i)
         program.unsigned_leb();
     }
@@ -93,7 +93,8 @@ private:
   void add_row() {
     if (address_ > kLocalStoreBytes || (!rows_.empty() && address_ < rows_.back().lsa)) sane_ = false;
     if (!sane_) return;
-    if (!rows_.empty() && rows_.back().lsa == address_) rows_.pop_back(); // the last row of an address counts
+    if (!rows_.empty() && rows_.back().lsa == address_)
+      rows_.pop_back(); // of several rows with one address, the last is used
     const std::optional<std::uint32_t> file = files_.in(names_, file_);
     rows_.push_back({static_cast<std::uint32_t>(address_), file ? line_ : 0, file.value_or(0)});
   }
@@ -121,7 +122,7 @@ private:
 
   std::uint64_t address_ = 0, file_ = 1;
   std::uint32_t line_ = 1;
-  bool sane_ = true; // true if no row of this sequence was outside local store or before another
+  bool sane_ = true; // true if all rows of this sequence were inside local store and in ascending order
   std::vector<Row> rows_;
 };
 
@@ -139,16 +140,17 @@ LineTable::LineTable(std::span<const std::uint8_t> debug_line) {
       const DwarfReader unit(section.take(length));
       try {
         Unit(files_, sequences).read(unit);
-      } catch (const MalformedDwarf&) { // the next unit may be sound
+      } catch (const MalformedDwarf&) { // go on with the next unit
       }
     }
-  } catch (const MalformedDwarf&) { // after a length beyond the section nothing can be found
+  } catch (const MalformedDwarf&) { // after a wrong length no further unit can be found
   }
   merge(std::move(sequences));
 }
 
 void LineTable::merge(std::vector<Sequence> sequences) {
-  // Functions that the linker discarded are listed at address 0: code that is really there comes first.
+  // Functions that the linker discarded have the address 0. They are sorted last, so that they do not hide
+  // code that exists.
   std::ranges::stable_sort(sequences, {}, [](const Sequence& sequence) {
     return std::pair(sequence.first() == 0, sequence.first());
   });

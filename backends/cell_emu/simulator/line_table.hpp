@@ -1,4 +1,4 @@
-// The source line of each instruction: the DWARF line number information of a program.
+// LineTable finds the source line of an instruction, by a program's DWARF line number information.
 //
 // DWARF Debugging Information Format, versions 2 to 4, section 6.2.
 #pragma once
@@ -14,13 +14,13 @@ namespace celltrace::cell_emu {
 
 /// A place in source text.
 struct SourceLine {
-  const char* file = nullptr; ///< as the compiler got it, with its folder; lives as long as the LineTable
-  std::uint32_t line = 0;     ///< from 1
+  /// Name as it was passed to the compiler, with folder; lives as long as the LineTable.
+  const char* file = nullptr;
+  std::uint32_t line = 0; ///< from 1
 };
 
-/// The lines of .debug_line. Malformed parts have no lines, but the rest of the section may. Time and
-/// memory are proportional to the size of the section.
-/// Thread safety: all members are const.
+/// The source lines that .debug_line describes. Malformed parts are left out; the rest of the section is
+/// used. Time and memory are proportional to the size of the section. Thread safety: all members are const.
 class LineTable {
 public:
   explicit LineTable(const SpuElf& elf);
@@ -40,7 +40,7 @@ private:
     std::uint32_t file = 0; ///< number in files_
   };
   struct Sequence {
-    std::vector<Row> rows; ///< rows in ascending order of address; the last row ends the sequence
+    std::vector<Row> rows; ///< by ascending address; the last row ends the sequence
     std::uint32_t first() const { return rows.front().lsa; }
     std::uint32_t end() const { return rows.back().lsa; }
   };
@@ -48,7 +48,7 @@ private:
 
   void merge(std::vector<Sequence> sequences);
 
-  std::vector<Row> rows_; // by ascending address, no two with the same
+  std::vector<Row> rows_; // by ascending address; no two have the same address
   FileNames files_;
 };
 

@@ -60,7 +60,7 @@ bool PpeCalls::handle(unsigned code, std::uint8_t* local_store, std::uint32_t np
     const CallResult result = answer(calls[operation], state_->shared, arguments);
     arguments.set_result(result.word0, result.word1, SpuErrno::none);
   } catch (const CallFailed& failure) {
-    // Results of 64 bits take both words.
+    // The failure value fills both words, for operations whose results have 64 bits.
     const std::uint32_t value = calls[operation].on_failure == PpeCall::OnFailure::zero ? 0 : 0xFFFFFFFF;
     arguments.set_result(value, value, failure.error);
   }

@@ -22,13 +22,13 @@ struct Count {
   std::uint64_t Counts::*member;
 };
 constexpr Count kCounts[] = {{"hits", &Counts::hits}, {"cycles", &Counts::cycles}, {"dual", &Counts::dual}};
-/// Causes of delays, as parts of the cycles.
+/// Cycles of each cause of delays.
 constexpr Count kReasons[] = {
     {"dependency", &Counts::dependency},       {"branch_miss", &Counts::branch_miss},
     {"prefetch_miss", &Counts::prefetch_miss}, {"hint_target", &Counts::hint_target},
     {"fp_resource", &Counts::fp_resource},     {"channel", &Counts::channel}};
 
-/// Words further apart than this belong to different pieces of code if there is no symbol.
+/// Largest distance in bytes between words without symbols that are reported as one function.
 constexpr std::uint32_t kLargestGap = 128;
 
 double percent(std::uint64_t part, std::uint64_t whole) {
@@ -48,7 +48,7 @@ std::string file_of(const CodePlace& place) {
   return std::string(file.substr(file.find_last_of('/') + 1)) + ":" + std::to_string(place.line);
 }
 
-/// Returns an instruction in columns, as assemblers print it, without the disassembler's remarks.
+/// Returns a disassembled instruction in columns, without the disassembler's remarks.
 std::string instruction_text(const Counts& word, std::uint32_t lsa) {
   const std::string text = isa::disassemble(word.instruction, lsa);
   const std::size_t tab = text.find('\t');

@@ -1,7 +1,8 @@
-// A profile by function and instruction: implements profile_text() and profile_json() of simulator.hpp.
+// ProfileReport shows a profile by function and instruction: it implements profile_text() and profile_json()
+// of simulator.hpp.
 //
-// Shows for a whole run what IBM's spu_timing shows for straight-line code: for each instruction, the pipe
-// it issues in, whether it issues with its neighbour, and the cause of its delays.
+// The report shows for a whole run what IBM's spu_timing shows for straight-line code: for each instruction,
+// the pipe that it issues to, whether it issues together with its neighbour, and the causes of its delays.
 #pragma once
 
 #include "backends/cell_emu/simulator/code_places.hpp"
@@ -15,18 +16,18 @@ namespace celltrace::cell_emu {
 
 /// The counts of a word, a function or a whole program.
 struct ProfileSum {
-  SpuProfile::Word word; ///< sums; `instruction` means nothing
+  SpuProfile::Word word; ///< sums of all members except `instruction`, which is meaningless
   ProfileSum& operator+=(const SpuProfile::Word& more);
 
-  /// Returns cycles per instruction; 0 if none was executed.
+  /// Returns cycles per instruction; 0 if no instruction was executed.
   double cycles_per_instruction() const;
-  /// Returns the share of instructions, 0..1, that issued in pairs; both of a pair count.
+  /// Returns the share of instructions, 0..1, that issued in pairs; both instructions of a pair count.
   double paired() const;
 };
 
 /// One function that was executed.
 struct ProfiledFunction {
-  std::string name; ///< as in the source; an address if no symbol names it
+  std::string name; ///< name as in the source; an address if the function has no symbol
   std::uint32_t lsa = 0;
   ProfileSum sum;
   std::vector<std::uint32_t> words; ///< executed addresses, ascending
@@ -35,11 +36,11 @@ struct ProfiledFunction {
 /// Thread safety: all members are const.
 class ProfileReport {
 public:
-  /// Makes the report; the profile's words are copied.
+  /// Makes the report; copies the profile's words.
   ProfileReport(const SpuProfile& profile, const SpuElf& elf);
 
   const ProfileSum& total() const { return total_; }
-  /// Returns the functions by falling cycles.
+  /// Returns the functions, those with the most cycles first.
   const std::vector<ProfiledFunction>& functions() const { return functions_; }
 
   std::string text(double listed) const;

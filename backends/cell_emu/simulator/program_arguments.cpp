@@ -15,7 +15,7 @@ std::size_t rounded(std::size_t bytes, std::size_t to) {
   return (bytes + to - 1) / to * to;
 }
 
-/// Returns the instruction word, or 0 outside the program.
+/// Returns the word at an address, or 0 outside of the program.
 std::uint32_t word_of(const SpuElf& elf, std::uint32_t lsa) {
   for (const ElfSegment& segment : elf.segments())
     if (lsa >= segment.lsa && lsa - segment.lsa + 4 <= segment.content.size())
@@ -34,7 +34,8 @@ StartRegisters StartRegisters::of(std::uint64_t spe_id, std::uint64_t argp, std:
 }
 
 bool fetches_argv(const SpuElf& elf) {
-  // crt2 stores register 6 and then passes register 4 to the MFC; the file has no name for this.
+  // No symbol tells crt2 from crt1. crt2 is recognised by an instruction near its beginning that passes
+  // register 4 to the MFC.
   constexpr std::uint32_t kWriteLsaFromArgp = 0x21A00804; // wrch $ch16,$4
   constexpr std::uint32_t kFirstWords = 8;
   for (std::uint32_t i = 0; i < kFirstWords; ++i)
@@ -44,7 +45,7 @@ bool fetches_argv(const SpuElf& elf) {
 
 ProgramArguments::ProgramArguments(const std::vector<std::string>& arguments)
     : count_(static_cast<std::uint32_t>(arguments.size())) {
-  // In the PPE's form each string has quadwords of its own, so that it can be fetched.
+  // In the PPE's form each string begins at a quadword, so that the program can fetch it by DMA.
   const std::size_t ppe_pointers = rounded((arguments.size() + 1) * sizeof(std::uint64_t), kQuadword);
   const std::size_t spu_pointers = (arguments.size() + 1) * sizeof(std::uint32_t);
   std::size_t ppe_bytes = ppe_pointers, spu_bytes = spu_pointers;

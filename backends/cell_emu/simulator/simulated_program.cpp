@@ -15,8 +15,8 @@
 namespace celltrace::cell_emu {
 namespace {
 
-/// Keeps a string for the whole process, because diagnostics outlive machines and programs. Each is kept
-/// once.
+/// Returns a copy of a string that lives as long as the process, because diagnostics outlive machines and
+/// programs. Equal strings share one copy.
 const char* keep(std::string text) {
   static std::mutex mutex;
   static std::set<std::string> kept;
@@ -44,7 +44,7 @@ std::string short_name(const char* symbol) {
       abi::__cxa_demangle(symbol, nullptr, nullptr, &status), std::free);
   if (status != 0) return symbol;
   const std::string name = without_arguments(demangled.get());
-  // The text in front of the name is the type that a template returns.
+  // Demangled templates have their return type in front of the name.
   const std::size_t space = name.rfind(' ');
   return space == std::string::npos ? name : name.substr(space + 1);
 }
@@ -53,21 +53,22 @@ std::string_view base_name(std::string_view file) {
   return file.substr(file.find_last_of('/') + 1);
 }
 
-/// Returns true for the compiler's own headers, which wrap its intrinsics: the mistake is never there.
+/// Returns true for the compiler's own headers. They only wrap intrinsics, so that mistakes are in their
+/// callers.
 bool is_of_compiler(std::string_view file) {
   for (const std::string_view name : {"spu_internals.h", "spu_intrinsics.h", "spu_mfcio.h"})
     if (base_name(file) == name) return true;
   return file.find("/lib/gcc/") != std::string_view::npos;
 }
 
-/// A line that is being executed, and its function.
+/// A source line that is being executed, and its function.
 struct Frame {
   const char* file = nullptr;
   std::uint32_t line = 0;
   std::string function;
 };
 
-/// Returns the frames, the innermost first; at least one.
+/// Returns the frame of an instruction, and the frames that it was inlined into, the innermost first.
 std::vector<Frame> frames_at(const CodePlaces& places, std::uint32_t address) {
   const CodePlace place = places.at(address);
   std::vector<Frame> frames(1);
@@ -105,14 +106,15 @@ CallSite SimulatedProgram::site(std::uint32_t address) const {
   }
   std::string function = frame->function;
   if (function.empty() && std::next(frame) != frames.end()) function += '?';
-  // Further callers would fill a page; the last one is the function that was really called.
+  // More callers would fill a page. The last caller, the function that was really called, is always named.
   constexpr std::ptrdiff_t kMostCallers = 8;
   for (++frame; frame != frames.end(); ++frame) {
     if (frames.end() - frame > 1 && frame - frames.begin() > kMostCallers) {
       function += ", ...";
       frame = std::prev(frames.end());
     }
-    // Appended piece by piece: GCC 12 takes sums of literals and temporaries for overlapping copies.
+    // Appended piece by piece, because GCC 12 warns of overlapping copies in sums of literals and
+    // temporaries.
     function += ", inlined from ";
     if (frame->line != 0) {
       function += base_name(frame->file);

@@ -1,4 +1,4 @@
-// A program of machine code, and the source places of its addresses.
+// SimulatedProgram: a program of machine code, with the source places of its addresses.
 #pragma once
 
 #include "backends/cell_emu/simulator/code_places.hpp"
@@ -12,8 +12,9 @@ namespace celltrace::cell_emu {
 
 /// The way in which a program takes the argument of Machine::start().
 enum class Convention : std::uint8_t {
-  kernel,      ///< as backends/spu/main.cpp: the second argument is the address of a ControlBlock
-  stand_alone, ///< main(speid, argp, envp), whose second argument it is
+  kernel,      ///< as a kernel with backends/spu/main.cpp: the second argument of main() is the address of a
+               ///< ControlBlock
+  stand_alone, ///< as main(speid, argp, envp): argp is the argument of Machine::start()
 };
 
 /// Thread safety: all members are const.
@@ -25,11 +26,11 @@ public:
   const SpuElf& elf() const { return elf_; }
   const CodePlaces& places() const { return places_; }
   Convention convention() const { return convention_; }
-  /// Returns true if it keeps a stack as the ABI demands: register 1 holds the stack pointer and the space
-  /// that is left.
+  /// Returns true if the program's stack follows the ABI: register 1 then holds the stack pointer and the
+  /// number of free bytes.
   bool has_abi_stack() const { return has_abi_stack_; }
-  /// Returns a place for diagnostics: the innermost line outside of the compiler's own headers. Its strings
-  /// stay valid for as long as the process runs.
+  /// Returns the source place of an address, for diagnostics: the innermost line outside of the compiler's
+  /// own headers. Its strings stay valid as long as the process runs.
   CallSite site(std::uint32_t address) const;
 
 private:

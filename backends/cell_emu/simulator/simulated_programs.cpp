@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t kMaxSpes = 256;
 
-/// Id of the first SPE: any value but 0, as for the main thread of a process that asks for an SPE.
+/// Argument speid of the first SPE's program. Any value but 0 would do.
 constexpr std::uint64_t kFirstSpeId = 0x10000000;
 
-/// Start of virtual time, for programs that ask: a day in 2007.
+/// Time since 1970 at which virtual time begins, for programs that ask for the time: a day in 2007.
 constexpr std::chrono::seconds kFirstSecond{1167609600};
 
 } // namespace

@@ -1,5 +1,5 @@
-// A machine's data for SPUs that execute machine code: the programs it was given, their kernels' data
-// in main memory, and the PPE's answers to their calls.
+// SimulatedPrograms: a machine's data for SPUs that execute machine code. They are the programs that were
+// started, the control blocks of kernels in main memory, and the PPE's side of calls that programs make.
 #pragma once
 
 #include "backends/cell_emu/address_map.hpp"
@@ -16,25 +16,26 @@
 
 namespace celltrace::cell_emu {
 
-/// The data. Thread safety: call() from any thread, all else from the PPE's.
+/// Thread safety: call() may be called by any thread, all other members by the PPE's thread.
 class SimulatedPrograms {
 public:
-  /// Throws InputError for arguments that no program can take. The map has to outlive this object.
+  /// Throws InputError for arguments that are too long, and for folders that do not exist. The map has to
+  /// outlive this object.
   SimulatedPrograms(const MachineConfig& config, const AddressMap& map);
   ~SimulatedPrograms();
 
-  /// Returns the machine code of a program. Throws SpeError if it has none, InputError if that is no
-  /// executable for the SPU.
+  /// Returns the machine code of a program. Throws SpeError if the program has no machine code, InputError if
+  /// the machine code is no executable for the SPU.
   std::shared_ptr<const SimulatedProgram> find(const SpeProgram& program);
   /// Returns the registers for the program when SPE `spe` starts it.
   StartRegisters arguments(const SimulatedProgram& program, unsigned spe, ea_t argument);
-  /// Calls PpeCalls::handle() at virtual time `now`. From any thread.
+  /// Calls PpeCalls::handle() at virtual time `now`. Thread-safe.
   bool call(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now);
 
 private:
   PpeCallsConfig calls_config(const MachineConfig& config, const AddressMap& map);
 
-  /// The data of one SPE as its kernel reads them: big-endian.
+  /// The big-endian data of one SPE that its kernel reads.
   struct Block;
 
   std::vector<std::shared_ptr<const SimulatedProgram>> programs_;

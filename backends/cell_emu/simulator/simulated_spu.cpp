@@ -11,8 +11,8 @@
 namespace celltrace::cell_emu {
 namespace {
 
-/// Instructions between two turns of others: a program that polls its local store for data of another SPE's
-/// DMA must let that SPE have its turn. A compromise, because every turn may switch coroutines.
+/// Number of instructions after which other SPEs get a turn: a program that polls its local store for data of
+/// another SPE's DMA must let this SPE run. A compromise, because every turn may switch coroutines.
 constexpr std::uint32_t kSlice = 2048;
 
 std::uint32_t word_at(const std::uint8_t* from) {
@@ -72,7 +72,8 @@ void SimulatedSpu::abandon() {
 const isa::Instruction& SimulatedSpu::fetch(std::uint32_t pc) {
   const isa::Instruction& instruction = decoded_[pc / 4];
   const std::uint32_t word = word_at(state_of_spu_.local_store + pc);
-  // Writers of local store need not announce changes: the decoded word is compared with the present one.
+  // The decoded word is compared with local store, so that writers of local store need not announce changes
+  // of code.
   if (instruction.word != word) [[unlikely]]
     return decode_again(pc, word);
   return instruction;
@@ -157,7 +158,7 @@ void SimulatedSpu::attend() {
     update_decrementer();
     if (state_.event_count() != 0) take_interrupt();
   }
-  // If events may interrupt, they do so between any two instructions.
+  // If interrupts are enabled, an event interrupts before the next instruction.
   left_in_slice_ = interrupts_enabled_ ? 1 : kSlice;
 }
 
@@ -170,7 +171,8 @@ void SimulatedSpu::take_interrupt() {
 void SimulatedSpu::hint(const isa::Instruction& instruction, std::uint32_t pc) {
   std::uint32_t target = static_cast<std::uint32_t>(instruction.immediate);
   if (instruction.opcode == isa::Opcode::hbr) {
-    if ((instruction.word >> 20 & 1) != 0) return; // hbrp only makes room for instruction fetches
+    if ((instruction.word >> 20 & 1) != 0)
+      return; // hbrp is no hint for a branch: it only makes room for instruction fetches
     target = state_of_spu_.gpr[instruction.ra].word(0);
   } else if (instruction.opcode == isa::Opcode::hbrr) {
     target += pc;
@@ -211,7 +213,7 @@ template <class Access> auto SimulatedSpu::access(Access use) {
   return use();
 }
 
-// --- what instructions ask for ---
+// --- callbacks of instructions ---
 
 std::uint32_t SimulatedSpu::read_channel(unsigned channel) {
   return access([&] { return channel_read(channel); });
@@ -294,7 +296,7 @@ void SimulatedSpu::check_stack() {
   if (!program_.has_abi_stack()) return;
   const isa::Quadword& pointer = state_of_spu_.gpr[1];
   const std::int32_t left = static_cast<std::int32_t>(pointer.word(1));
-  // A store to a frame that does not fit would come after this.
+  // Checked here, before the program stores into the frame that does not fit.
   if (stack_left_ >= 0 && left < 0)
     fail_at(state_of_spu_.pc, Rule::stack_overflow,
             place_of(state_of_spu_.pc) + ": " + std::to_string(-static_cast<std::int64_t>(left)) +

@@ -1,5 +1,5 @@
-// The SPU that executes machine code: fetches, issues and executes instructions from its real local store,
-// with the channels and the clock that it shares with the SPU of host code.
+// SimulatedSpu: the SPU that executes machine code. It fetches, issues and executes instructions from its
+// local store; SpuCore implements its channels and clock, as for host code.
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"
@@ -17,14 +17,15 @@
 
 namespace celltrace::cell_emu {
 
-/// One run of a program on one SPE. Thread safety: belongs to the thread that runs the SPE.
+/// The SPU during one run of a program on one SPE. Thread safety: belongs to the thread that runs the SPE.
 class SimulatedSpu final : public SpuCore, private isa::Environment {
 public:
   static constexpr const char* kKey = "cell_sim";
   /// The key of a stand-alone program's image.
   static constexpr const char* kElfKey = "elf";
 
-  /// Answers a call for help; see PpeCalls::handle(). Returns false if the code is no such call.
+  /// Executes a call that the PPE has to execute; see PpeCalls::handle(). Returns false if the code is no
+  /// such call.
   using CallPpe = std::function<bool(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now)>;
 
   /// Makes the SPU. The program must have been loaded. `profile` may be null.
@@ -52,13 +53,14 @@ private:
   void watched_store(std::uint32_t lsa, const isa::Quadword& value) override;
 
   template <bool profiled> void run_slice();
-  // For the profile: record the instruction under way; record the cycles that belong to no other instruction.
+  // For the profile: record() counts the present instruction; record_cycles() counts all cycles since its
+  // last call as the present instruction's.
   void record();
   void record_cycles();
   void flush_profile();
   const isa::Instruction& fetch(std::uint32_t pc);
   const isa::Instruction& decode_again(std::uint32_t pc, std::uint32_t word);
-  /// Handles, between instructions, limits, interrupts, and the turns of others.
+  /// Between two instructions: checks limits, takes interrupts, and lets other SPEs have their turns.
   void attend();
   void take_interrupt();
   void hint(const isa::Instruction& instruction, std::uint32_t pc);
@@ -68,7 +70,8 @@ private:
 
   /// Advances the clock to the last issued instruction.
   void settle();
-  /// Wraps an access that may let virtual time pass.
+  /// Executes a channel access or a stop, during which virtual time may pass. Settles the clock before, and
+  /// advances the issue model by the time that has passed.
   template <class Access> auto access(Access use);
   const CallSite& site_of(std::uint32_t pc);
   std::string place_of(std::uint32_t pc);
@@ -84,7 +87,7 @@ private:
   IssueModel model_;
   std::uint32_t left_in_slice_ = 0; ///< instructions until attend()
   std::uint64_t dma_bytes_seen_ = 0;
-  std::int32_t stack_left_ = -1; ///< bytes left by register 1; negative: unknown
+  std::int32_t stack_left_ = -1; ///< free bytes of the stack by register 1; negative: unknown
   std::uint32_t lowest_stack_ = kLocalStoreBytes;
   std::unordered_map<std::uint32_t, CallSite> sites_;
   std::vector<SpuProfile::Word> words_; ///< counts for the profile
@@ -94,7 +97,7 @@ private:
     bool paired = false; ///< issued with the instruction before
   } executing_;
   Cycle profiled_until_ = 0;
-  Cycle waited_ = 0; ///< time at channels of the present instruction
+  Cycle waited_ = 0; ///< cycles that the present instruction spent at a channel
 };
 
 } // namespace celltrace::cell_emu

@@ -31,7 +31,8 @@ constexpr std::uint16_t kExecutableFile = 2, kSpu = 23;
 constexpr std::uint32_t kLoad = 1, kFlagExecute = 1, kFlagWrite = 2, kFlagOverlay = 1u << 27;
 constexpr std::uint32_t kNoBits = 8;
 
-// Limit, so that a string table without zero bytes is not searched to its end for every name.
+// Limit of a string's length, so that a string table without zero bytes is not searched to its end for every
+// name.
 constexpr std::size_t kLongestString = 16384;
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -137,7 +138,7 @@ void SpuElf::read_segments() {
 }
 
 void SpuElf::check_overlaps() {
-  // The linker marks all parts of an overlay region, also the first, which is loaded like any other.
+  // The linker marks all segments of an overlay region as overlays, but the first of them has to be loaded.
   constexpr std::uint32_t kUnit = 16; // bytes
   std::vector<bool> used(kLocalStoreBytes / kUnit);
   std::vector<ElfSegment*> by_address;

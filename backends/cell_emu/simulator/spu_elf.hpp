@@ -1,4 +1,4 @@
-// A program for the SPU as its linker writes it: an ELF file of 32 bits, big-endian, for machine 23.
+// SpuElf: a program for the SPU as a linked ELF file, of 32 bits, big-endian, for machine 23.
 #pragma once
 
 #include <cstddef>
@@ -10,37 +10,38 @@
 
 namespace celltrace::cell_emu {
 
-/// A part of the file that belongs into local store.
+/// A part of the file that is loaded into local store.
 struct ElfSegment {
   std::uint32_t lsa = 0;
-  std::uint32_t bytes = 0;               ///< size in local store, more than 0; lsa + bytes is at most 256 KB
-  std::span<const std::uint8_t> content; ///< the segment's first bytes, at most `bytes`; the rest is zero
+  std::uint32_t bytes = 0;               ///< size in local store, above 0; lsa + bytes is at most 256 KB
+  std::span<const std::uint8_t> content; ///< first bytes of the segment, at most `bytes`; the rest is zero
   bool executable = false;
   bool writable = false;
-  /// True if it lies in the place of an earlier segment, for the program to fetch itself when needed: not
-  /// loaded.
+  /// True if the segment has the place of an earlier segment: it is not loaded, because the program fetches
+  /// it when needed.
   bool overlay = false;
 };
 
-/// A part of the file that debuggers find by name.
+/// A part of the file with a name, such as debugging information.
 struct ElfSection {
   std::string_view name;
   std::uint32_t type = 0;  ///< SHT_...
   std::uint32_t flags = 0; ///< SHF_...
   std::uint32_t address = 0;
   std::uint32_t link = 0;
-  std::span<const std::uint8_t> content; ///< empty if the file has none (.bss) or does not reach that far
+  /// Empty if the section has no content (.bss), or its content is not all within the file.
+  std::span<const std::uint8_t> content;
 };
 
-/// A checked program. The image may come from anywhere: whatever its bytes, the constructor throws or every
-/// promise made here holds, in time and memory proportional to the size of the image.
-/// Copies share the image; views stay valid as long as one copy lives. Thread safety: all members are const.
+/// A checked program. The image need not be trusted: for any bytes, either the constructor throws or all
+/// members keep their promises, in time and memory proportional to the size of the image. Copies share the
+/// image; views stay valid as long as one copy lives. Thread safety: all members are const.
 class SpuElf {
 public:
-  /// Copies the image. Throws InputError, with the reason, if it is no executable for the SPU: cut
-  /// short, of another class, byte order, machine or type, tables outside the file, no segment to load,
-  /// segments that do not fit local store or (unless they are marked as overlays) overlap, an entry outside
-  /// local store or not a multiple of 4.
+  /// Copies the image. Throws InputError, with the reason, if the image is no executable for the SPU: if it
+  /// is cut short, has another class, byte order, machine or type, has tables outside of the file, has no
+  /// segment to load, has segments that do not fit into local store or that overlap without being marked as
+  /// overlays, or has an entry that is outside of local store or not a multiple of 4.
   explicit SpuElf(std::span<const std::uint8_t> image);
 
   /// Returns the address where the program starts.
@@ -49,24 +50,25 @@ public:
   /// Returns the segments, at least one, in the file's order.
   const std::vector<ElfSegment>& segments() const { return segments_; }
 
-  /// Returns the first address behind all segments, where the heap starts: the linker's `_end` up to
+  /// Returns the first address behind all segments, where the heap starts: the linker's `_end`, apart from
   /// alignment.
   std::uint32_t program_end() const { return program_end_; }
 
-  /// Returns whether the address lies in a segment that has instructions.
+  /// Returns true if the address lies in an executable segment.
   bool executable(std::uint32_t lsa) const;
 
-  /// Writes all segments that are no overlays; the bytes around them stay.
+  /// Loads all segments that are no overlays into local store; bytes between segments stay.
   /// @param local_store 256 KB
   void load(std::uint8_t* local_store) const;
 
-  /// Returns the sections in the file's order; number 0 stands for none. Empty in a file stripped of them.
+  /// Returns the sections in the file's order; number 0 stands for no section. Empty if the file has been
+  /// stripped of sections.
   const std::vector<ElfSection>& sections() const { return sections_; }
   /// Returns the first section of this name, or null.
   const ElfSection* section(std::string_view name) const;
 
-  /// Returns the whole file. It starts at a page, like a file that a system maps: code that programs fetch
-  /// from it then takes the same time in every run.
+  /// Returns the whole file. Its address is that of a page, as if the file were mapped, so that fetches of
+  /// code modules take the same time in every run.
   std::span<const std::uint8_t> image() const { return {image_.get(), image_bytes_}; }
 
 private:

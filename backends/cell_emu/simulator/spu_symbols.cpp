@@ -20,7 +20,7 @@ constexpr std::uint16_t kUndefined = 0, kAbsolute = 0xFFF1;
 
 struct SpuSymbols::Candidate {
   FunctionSymbol symbol;
-  bool typed = false; ///< marked as a function; else a label in code
+  bool typed = false; ///< true: marked as a function; false: a label in code
   bool global = false;
 };
 
@@ -68,7 +68,7 @@ std::vector<SpuSymbols::Candidate> SpuSymbols::read(const ElfSection& table,
       values_.try_emplace(name, value);
     else
       values_[name] = value;
-    // Local labels are places inside functions written in assembly.
+    // Local labels are left out: they are places inside of functions written in assembly.
     const bool label = type == kNoType && binding == kGlobal && section != kAbsolute;
     if ((type == kFunction || label) && code_around(value) != nullptr)
       functions.push_back({{name.data(), value, load_big_endian<std::uint32_t>(entry + kSize)},
@@ -79,12 +79,12 @@ std::vector<SpuSymbols::Candidate> SpuSymbols::read(const ElfSection& table,
 }
 
 void SpuSymbols::keep_functions(std::vector<Candidate> candidates) {
-  // If a place has several names, the most informative one comes first.
+  // If several symbols have one address, the most informative comes first and is kept.
   const auto order = [](const Candidate& c) {
     return std::make_tuple(c.symbol.lsa, !c.typed, !c.global, c.symbol.bytes == 0);
   };
   std::ranges::stable_sort(candidates, {}, order);
-  std::uint32_t sized_end = 0; // end of the functions so far whose size is known
+  std::uint32_t sized_end = 0; // largest end of the functions so far whose size is known
   for (const Candidate& candidate : candidates) {
     const FunctionSymbol& symbol = candidate.symbol;
     if (!functions_.empty() && functions_.back().lsa == symbol.lsa) continue;

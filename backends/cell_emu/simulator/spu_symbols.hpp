@@ -1,4 +1,4 @@
-// The names of functions and data from a program's symbol table.
+// SpuSymbols: the names of functions and data in a program's symbol table.
 #pragma once
 
 #include "backends/cell_emu/simulator/spu_elf.hpp"
@@ -15,25 +15,25 @@ namespace celltrace::cell_emu {
 struct FunctionSymbol {
   const char* name = nullptr; ///< as in the file (C++ names are mangled); lives as long as the SpuSymbols
   std::uint32_t lsa = 0;
-  std::uint32_t bytes = 0; ///< up to the next function or the end of the code if the file has no size
+  std::uint32_t bytes = 0; ///< size; if the symbol has none, up to the next function or the end of the code
 };
 
-/// The symbols of a program's .symtab; empty for a program that is stripped of it or whose table is
-/// malformed. Thread safety: all members are const.
+/// The symbols of a program's .symtab; empty if the program was stripped or the table is malformed. Thread
+/// safety: all members are const.
 class SpuSymbols {
 public:
   explicit SpuSymbols(const SpuElf& elf);
 
-  /// Returns the function that starts at the address or is the last one to start before it in the same
-  /// segment, or null. In the linker's padding between functions, the address may lie behind the function's
-  /// last byte. If functions in overlays share an address, only one is known.
+  /// Returns the last function that starts at or before the address, in the same segment; null if there is
+  /// none. An address in padding between functions lies behind the returned function's last byte. If
+  /// functions in overlays share an address, only one of them is known.
   const FunctionSymbol* function_at(std::uint32_t lsa) const;
 
-  /// Returns the value of a defined symbol of any kind, such as `_end`, `__stack` or `_start`; a global one
-  /// if several have the name.
+  /// Returns the value of a defined symbol of any kind, such as `_end`, `__stack` or `_start`. If several
+  /// symbols have the name, a global symbol is preferred.
   std::optional<std::uint32_t> value_of(std::string_view name) const;
 
-  /// Returns all functions by ascending address, no two with the same.
+  /// Returns all functions by ascending address; no two have the same address.
   const std::vector<FunctionSymbol>& functions() const { return functions_; }
 
 private:

@@ -1,10 +1,10 @@
-// Measures how fast load balancing converges on a system graph, whether or not theory has a formula for it.
+// Measures how fast load balancing converges on a system graph, also if no formula is known for the graph.
 //
 // The convergence factor is the share of the deviation from balance that a sweep, or a step of diffusion,
-// leaves in the long run: the spectral radius of the sweep as a matrix, apart from the equal loads that it
-// does not change. It is computed by Gelfand's formula, the limit of |M^k|^(1/k), with k = 2^24 by repeated
-// squaring, which also works if eigenvalues are complex or coincide. Takes n^3 operations, so it is meant for
-// graphs of at most some hundred nodes.
+// leaves in the long run: the spectral radius of the sweep's matrix on loads that sum to zero. It is computed
+// by Gelfand's formula, the limit of |M^k|^(1/k), with k = 2^24 by repeated squaring, which also works if
+// eigenvalues are complex or coincide. Takes n^3 operations, so it is meant for graphs of at most some
+// hundred nodes.
 #pragma once
 
 #include "celltrace/balance/dimension_exchange.hpp"
@@ -38,7 +38,7 @@ public:
     }
     return square;
   }
-  /// Divides all values by the largest magnitude unless that is 0. Returns the magnitude.
+  /// Divides all values by the largest magnitude unless this magnitude is 0. Returns the magnitude.
   double normalise() {
     double largest = 0;
     for (const double value : values_)
@@ -93,8 +93,8 @@ inline double diffusion_convergence_factor(const SystemGraph& graph, double alph
       graph.nodes, [&](std::span<double> loads) { diffusion_step(graph, loads, alpha); });
 }
 
-/// Returns the lambda with the smallest convergence factor on any graph, by search to about 1e-4: for graphs
-/// without a formula.
+/// Returns the lambda with the smallest convergence factor, found by a search to about 1e-4, on any graph:
+/// for graphs without a formula.
 inline double best_exchange_parameter(const SystemGraph& graph) {
   double best = 0.5;
   double smallest = convergence_factor(graph, best);
@@ -113,8 +113,8 @@ inline double best_exchange_parameter(const SystemGraph& graph) {
   return best;
 }
 
-/// Returns the number of sweeps of GDE until the imbalance is at most `tolerance`; nothing if `most` are not
-/// enough.
+/// Returns the number of sweeps of GDE until the imbalance is at most `tolerance`; nothing if `most` sweeps
+/// are not enough.
 inline std::optional<std::uint32_t> sweeps_to_balance(const SystemGraph& graph, std::vector<double> loads,
                                                       double lambda, double tolerance,
                                                       std::uint32_t most = 100'000) {
@@ -124,8 +124,8 @@ inline std::optional<std::uint32_t> sweeps_to_balance(const SystemGraph& graph, 
   }
   return std::nullopt;
 }
-/// Returns the number of steps of diffusion until the imbalance is at most `tolerance`; nothing if `most` are
-/// not enough.
+/// Returns the number of steps of diffusion until the imbalance is at most `tolerance`; nothing if `most`
+/// steps are not enough.
 inline std::optional<std::uint32_t> steps_to_balance(const SystemGraph& graph, std::vector<double> loads,
                                                      double alpha, double tolerance,
                                                      std::uint32_t most = 100'000) {

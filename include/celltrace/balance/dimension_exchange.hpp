@@ -34,8 +34,7 @@ inline void require_parameter(double parameter, double largest) {
 inline double flow(double from, double to, double parameter) {
   return parameter * (from - to);
 }
-/// Returns the whole units that flow, rounded down for the larger load, so that rounding makes nothing
-/// oscillate.
+/// Returns the whole units that flow, rounded toward 0, so that rounding cannot make loads oscillate.
 inline std::int64_t flow(std::int64_t from, std::int64_t to, double parameter) {
   return static_cast<std::int64_t>(parameter * static_cast<double>(from - to));
 }
@@ -66,10 +65,10 @@ template <class Load> void diffusion_step(const SystemGraph& graph, std::span<Lo
 
 } // namespace detail
 
-/// Does one sweep of GDE: colour by colour, the neighbours on each edge of that colour exchange the share
-/// `lambda` (0..1) of their loads, w_i = (1 - lambda) w_i + lambda w_j. The sum stays, loads >= 0 stay >= 0.
-/// Whole loads (up to 2^53) move in whole units, rounded towards moving less. Throws std::invalid_argument if
-/// lambda is out of range or the number of loads is not the number of nodes.
+/// Does one sweep of GDE: for each colour in turn, the neighbours on each edge of this colour exchange the
+/// share `lambda` (0..1) of their loads, w_i = (1 - lambda) w_i + lambda w_j. The sum of loads stays, and
+/// loads >= 0 stay >= 0. Whole loads (up to 2^53) move in whole units, rounded toward 0. Throws
+/// std::invalid_argument if lambda is out of range or the number of loads is not the number of nodes.
 inline void gde_sweep(const SystemGraph& graph, std::span<double> loads, double lambda) {
   celltrace::detail::gde_sweep(graph, loads, lambda);
 }
@@ -77,8 +76,8 @@ inline void gde_sweep(const SystemGraph& graph, std::span<std::int64_t> loads, d
   celltrace::detail::gde_sweep(graph, loads, lambda);
 }
 
-/// Does one step of first-order diffusion: all neighbours at once, w_i += alpha * sum over neighbours (w_j -
-/// w_i), with alpha in 0 .. 1/degree. Otherwise as gde_sweep().
+/// Does one step of first-order diffusion, in which each node exchanges with all neighbours at once: w_i +=
+/// alpha * sum over neighbours (w_j - w_i), with alpha in 0 .. 1/degree. Otherwise as gde_sweep().
 inline void diffusion_step(const SystemGraph& graph, std::span<double> loads, double alpha) {
   celltrace::detail::diffusion_step(graph, loads, alpha);
 }

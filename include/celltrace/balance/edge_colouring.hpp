@@ -60,8 +60,8 @@ private:
     rotate(centre, fan, free_at_tip);
   }
 
-  /// Returns edges of `centre`, the first one not yet coloured, such that the colour of each is free at the
-  /// far end of the edge before it.
+  /// Returns a maximal fan: edges of `centre`, the first of them not yet coloured. The colour of each other
+  /// edge is free at the far end of the edge before it.
   std::vector<std::uint32_t> maximal_fan(std::uint32_t centre, std::uint32_t first) {
     std::vector<std::uint32_t> fan{first};
     for (bool grown = true; grown;) {
@@ -78,7 +78,8 @@ private:
     return fan;
   }
 
-  /// Swaps the two colours on the path that leaves `node` by `taken`; `free` is free at `node`.
+  /// Swaps the colours `taken` and `free` on the path of edges of these colours that begins at `node`; `free`
+  /// is free at `node`.
   void swap_along_path(std::uint32_t node, std::uint32_t taken, std::uint32_t free) {
     std::vector<std::uint32_t> path;
     std::uint32_t colour = taken;
@@ -96,8 +97,8 @@ private:
       paint(path[i], swapped[i]);
   }
 
-  /// Shifts colours towards the first edge of the fan, up to an edge whose far end has `colour` free, and
-  /// gives that edge this colour. The swap may have broken the fan, but never before such an edge.
+  /// Shifts colours toward the first edge of the fan, up to the first edge at whose far end `colour` is free,
+  /// and gives that edge `colour`. swap_along_path() may have broken the fan, but only after that edge.
   void rotate(std::uint32_t centre, const std::vector<std::uint32_t>& fan, std::uint32_t colour) {
     std::size_t last = 0;
     while (!is_free(other_end(fan[last], centre), colour))
@@ -112,7 +113,7 @@ private:
 
   std::span<const Pair> edges_;
   std::uint32_t colours_;
-  std::vector<std::uint32_t> edge_at_; ///< index: node and colour
+  std::vector<std::uint32_t> edge_at_; ///< index of an edge, by node and colour
   std::vector<std::uint32_t> colour_;
 };
 

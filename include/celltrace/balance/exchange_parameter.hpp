@@ -1,5 +1,5 @@
-// The exchange parameter of generalized dimension exchange: the speed of convergence that it gives, and its
-// best value.
+// The exchange parameter lambda of generalized dimension exchange: formulas for the speed of convergence, and
+// for the best lambda.
 //
 // Sources: C.-Z. Xu and F. C. M. Lau, "Analysis of the generalized dimension exchange method for dynamic load
 // balancing", J. Parallel and Distributed Computing 16 (1992), and "The generalized dimension exchange method
@@ -24,7 +24,7 @@ namespace celltrace {
 
 namespace detail {
 
-/// Returns the magnitude of the larger root for one frequency.
+/// Returns the magnitude of the larger root of the equation above, for one frequency.
 inline double slowest_factor(double theta, double lambda) {
   const double half_sum = (1 - lambda) * (1 - lambda) + lambda * lambda * std::cos(theta);
   const double product = (1 - 2 * lambda) * (1 - 2 * lambda);
@@ -39,8 +39,8 @@ inline void require_even_ring(std::uint32_t nodes) {
   if (nodes == 0 || nodes % 2 == 1) throw std::invalid_argument("the optimal parameter needs an even ring");
 }
 
-/// Returns `of_side` of the longest side, after checking all sides: the axes of a box are balanced
-/// independently.
+/// Returns `of_side` of the longest side, because the axes of a box are balanced independently. Calls
+/// `of_side` for all sides, so that it checks them.
 template <class OfSide> double of_longest(std::span<const std::uint32_t> sides, OfSide of_side) {
   if (sides.empty()) return 0.5;
   for (const std::uint32_t side : sides)
@@ -63,8 +63,8 @@ inline double ring_convergence_factor(std::uint32_t nodes, double lambda) {
   return nodes == 2 ? std::abs(1 - 2 * lambda)
                     : celltrace::detail::slowest_factor(4 * std::numbers::pi / nodes, lambda);
 }
-/// Return the convergence factor of a mesh or torus: that of the slowest axis, which is a longest one. The
-/// sides of a torus must be even.
+/// Return the convergence factor of a mesh or torus: the largest factor of its axes. The sides of a torus
+/// must be even.
 inline double mesh_convergence_factor(std::span<const std::uint32_t> sides, double lambda) {
   double slowest = 0;
   for (const std::uint32_t side : sides)

@@ -20,9 +20,9 @@ struct CostRun {
   double cost;
 };
 
-/// Cuts the items of `measured` anew, into about `wanted` (at least 1) runs of about equal cost, as far as
-/// single items allow, and of at most `longest` (at least 1) items. Returns at most wanted + items / longest
-/// + 1 runs. All items of a measured run count as equally expensive.
+/// Cuts the items of all `measured` runs into about `wanted` (at least 1) new runs of about equal cost and of
+/// at most `longest` (at least 1) items. Returns at most wanted + items / longest + 1 runs. All items of a
+/// measured run count as equally expensive.
 inline std::vector<CostRun> equal_cost_runs(std::span<const CostRun> measured, std::uint32_t wanted,
                                             std::uint32_t longest) {
   const double total = std::accumulate(measured.begin(), measured.end(), 0.0,
@@ -48,8 +48,9 @@ inline std::vector<CostRun> equal_cost_runs(std::span<const CostRun> measured, s
   return runs;
 }
 
-/// Cuts all units into consecutive strips whose ends lie where the sums of `costs` are nearest to the sums of
-/// `loads`. `loads` has a load per strip; all loads add up to the sum of all costs.
+/// Cuts all units, which have `costs`, into consecutive strips. Each strip ends where the sum of all costs up
+/// to its end is nearest to the sum of the loads up to the strip. `loads` has one load per strip; their sum
+/// is the sum of all costs.
 inline std::vector<UnitRange> strips_of_loads(std::span<const double> costs, std::span<const double> loads) {
   std::vector<UnitRange> strips;
   const auto units = static_cast<std::uint32_t>(costs.size());
@@ -73,8 +74,8 @@ inline std::vector<UnitRange> strips_of_equal_cost(std::span<const double> costs
   return strips_of_loads(costs, std::vector<double>(nodes, total / nodes));
 }
 
-/// Returns the strips after a step of first-order diffusion along the chain, in which neighbours even out the
-/// share `alpha` of the difference between the costs of their strips. Throws as diffusion_step() does.
+/// Returns the strips after a step of first-order diffusion along the chain: each strip passes the share
+/// `alpha` of the difference in cost to each cheaper neighbour. Throws as diffusion_step() does.
 inline std::vector<UnitRange> diffused_strips(std::span<const double> costs,
                                               std::span<const UnitRange> strips, double alpha) {
   std::vector<double> loads;

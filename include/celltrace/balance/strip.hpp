@@ -1,46 +1,48 @@
-// Balances the work of a frame between the nodes of a chain while it is being done, by the generalized
-// dimension exchange of Xu and Lau, run asynchronously and in pairs by whichever node runs out of work. This
-// is the state machine of one node, without clock, thread or transport. Freestanding C++17 (kernel dialect).
+// Balances the work of a frame between the nodes of a chain while the work is being done, by the generalized
+// dimension exchange of Xu and Lau. It runs asynchronously: a node that runs out of work starts an exchange
+// with a neighbour. StripNode is the state machine of one node, without clock, thread or transport.
+// Freestanding C++17 (kernel dialect).
 //
 // Work comes in numbered units, which should cost about the same. A node owns the units [first, first +
-// count) that it has not taken yet. Remaining units are ordered along the chain: every unit of node i lies
-// before every one of node j > i; the units in the gaps between them have been taken.
+// count), which it has not taken yet. Remaining units are ordered along the chain: every unit of node i lies
+// before every unit of node j > i; units in the gaps between nodes have been taken.
 //
-// An exchange on the edge between two neighbours is one word from each to the other; the k-th word of one
-// pairs with the k-th word of the other. A word says how many units the sender has left. From the two words
-// both nodes compute the same new boundary: if exactly one of them is empty it gets floor(lambda * remaining)
-// units of the other, the nearest ones; otherwise nothing moves. The pairing fixes the order of everything
-// that matters, so that no unit is lost or given twice however words are delayed.
+// An exchange on the edge between two neighbours is one word from each neighbour to the other; the k-th word
+// of one neighbour pairs with the k-th word of the other. A word says which units the sender has left. From
+// the two words both nodes compute the same new boundary: if exactly one node is empty, it gets the nearest
+// floor(lambda * remaining) units of the other; otherwise nothing moves. Because of the pairing no unit is
+// lost or given twice, however words are delayed.
 //
-// - A node that is dry asks: one edge at a time, edges of colour 0 (those above an even node) first, later
-//   first on the edge that did not give the last time. It rings the neighbour's doorbell, sends its word and
-//   waits for the neighbour's. It stays dry until that word has come, so its own word remains true. A word
-//   from a neighbour that asked at the same moment is as good as an answer.
+// - A node that is dry (has no units) asks on one edge at a time: first on its edge of colour 0 (the edge
+//   above an even node), later first on the edge that did not give the last time. The node rings the
+//   neighbour's doorbell, sends its word and waits for the neighbour's word. It stays dry until the
+//   neighbour's word has come, so its own word remains true. A word from a neighbour that asked at the same
+//   moment counts as an answer.
 // - A node that is asked answers at once; the exchange is complete on its side.
-// - A node whose neighbour got nothing rings the neighbour's doorbell as soon as it has units
-//   to give. A doorbell invites a dry node that was refused to ask on that edge again; at any other time it
-//   means nothing, so that late, merged and superfluous doorbells do no harm. A node that asks by invitation
-//   does not ring, or two dry nodes could keep each other busy.
+// - A node that refused a neighbour rings the neighbour's doorbell as soon as it has units to give. A
+//   doorbell invites a dry node that was refused to ask on this edge again. At any other time a doorbell is
+//   ignored, so that late, merged and superfluous doorbells do no harm. A node that asks by invitation does
+//   not ring, or two dry nodes could keep each other busy.
 // - A dry node that was refused on every edge is idle and reports the number of units it has completed. It
 //   reports again later if units come by an invitation. The frame is complete when every node has reported
 //   and the reports add up.
 //
-// A node gives away at most all but one of its units, and takes that one before it asks: frames end. In a
-// frame of u units, n nodes send at most 4 n + 8 g words for g <= u exchanges that move units, and no more
+// A node keeps at least one of its units, and takes this unit before it asks, so that frames end. In a frame
+// of u units, n nodes send at most 4 n + 8 g words for g <= u exchanges that move units, and no more
 // doorbells than words.
 //
 // Transport. Words and doorbells may come late and in any order. A word carries the parity of its number on
-// its edge, since a neighbour is never more than one word ahead, and the epoch of its frame: a word that
-// outlived its frame is dropped, and a word from a neighbour that is a frame ahead is kept until
-// begin_frame(). No word may take longer than two frames. A doorbell is a bit (Cell: signal notification 2 in
-// logical-OR mode); doorbells that have not been read merge.
+// its edge, which suffices because a neighbour is never more than one word ahead. It also carries the epoch
+// of its frame: a word of an earlier frame is dropped, and a word from a neighbour that is a frame ahead is
+// kept until begin_frame(). No word may take longer than two frames. A doorbell is a bit (Cell: signal
+// notification 2 in logical-OR mode); unread doorbells of one sender merge.
 //
-// Suppose that words keep their order (Cell: inbound mailbox), that a doorbell is delivered before any later
-// word of the same node, and that delivered doorbells are handed in before each word. Then a node that reads
-// nothing has at most 2 words under way from each neighbour during a frame, and 1 once the frame is complete:
-// with the two questions of the next frame, or with the PPE's word that ends this one, the four entries of a
-// mailbox suffice. This holds if the PPE starts a frame only after every node has left the one before; a
-// frame that is broken off early also needs every mailbox drained before the next one starts.
+// The four entries of a mailbox suffice if words keep their order (Cell: inbound mailbox), if a doorbell is
+// delivered before any later word of the same node, and if the owner passes delivered doorbells to
+// on_doorbell() before each word. Then at most 2 words from each neighbour wait for a node during a frame,
+// and 1 once the frame is complete, besides the two questions of the next frame, or the PPE's word that ends
+// this frame. Besides, the PPE must start a frame only after every node has left the frame before; after a
+// frame that was broken off, every mailbox must be drained before the next frame starts.
 #pragma once
 
 #include <stdint.h>
@@ -55,14 +57,14 @@ struct UnitRange {
   constexpr bool empty() const { return count == 0; }
 };
 
-/// The 32-bit words of the mailboxes: the word of an exchange, and the word of the PPE that ends a frame,
-/// whose `first` is kMaxUnits.
+/// The 32-bit words of the mailboxes: a word of an exchange, or the PPE's word that ends a frame, whose
+/// `first` is kMaxUnits.
 ///   31 parity | 30..29 epoch | 28 sender is the upper neighbour | 27..14 remaining | 13..0 first unit
 namespace strip_word {
 
 /// Units are numbered 0 .. kMaxUnits - 1.
 constexpr uint32_t kMaxUnits = (1u << 14) - 1;
-/// Number of epochs; frames are numbered modulo this.
+/// Number of epochs: the epoch of a frame is its number modulo kEpochs.
 constexpr uint32_t kEpochs = 4;
 
 constexpr uint32_t make(uint32_t epoch, uint32_t parity, bool from_upper, UnitRange units) {
@@ -99,13 +101,13 @@ constexpr uint32_t strip_gift(uint32_t remaining, uint32_t lambda) {
 /// The next thing that the owner of a StripNode has to do.
 struct StripAction {
   enum class Kind : uint32_t {
-    none,        ///< nothing: take a unit, or wait for a word or a doorbell
-    send_word,   ///< send the neighbour `word`, after ringing it with `doorbell` unless that is 0
+    none,        ///< nothing to send: take a unit, or wait for a word or a doorbell
+    send_word,   ///< send the neighbour `word`; before, unless `doorbell` is 0, ring the neighbour with it
     ring,        ///< ring the neighbour with `doorbell`
     report_idle, ///< tell the PPE that this node is idle and has completed `units` in this frame
   };
   Kind kind;
-  uint32_t neighbour; ///< id of the node to address
+  uint32_t neighbour; ///< id of the node to send to or to ring
   uint32_t word;
   uint32_t doorbell; ///< bits to OR into the neighbour's doorbell register
   uint32_t units;
@@ -123,10 +125,9 @@ public:
     edges_[kUpper] = make_edge(id + 1 != count);
   }
 
-  /// Starts a frame with the units that this node has at first. `epoch`: the frame's number modulo 4, the
-  /// same for all nodes. `lambda`: exchange parameter in units of 2^-16, 0..65535; 0: no node asks and no
-  /// unit moves, so that the number of units is not limited. Words of this frame that came early are handled
-  /// now.
+  /// Starts a frame. `epoch`: the frame's number modulo 4, the same for all nodes. `units`: the units that
+  /// this node has at first. `lambda`: exchange parameter in units of 2^-16, 0..65535; 0: no node asks and no
+  /// unit moves, so that kMaxUnits does not apply. Handles words of this frame that came early.
   void begin_frame(uint32_t epoch, UnitRange units, uint32_t lambda) {
     epoch_ = epoch & (strip_word::kEpochs - 1);
     in_frame_ = 1;
@@ -139,7 +140,7 @@ public:
     for (Edge& edge : edges_)
       begin_frame_on(edge);
   }
-  /// Leaves the frame: nothing is sent any more, and words of this frame are dropped from now on.
+  /// Leaves the frame: from now on the node sends nothing and drops words of this frame.
   void end_frame() {
     in_frame_ = 0;
     units_ = UnitRange{0, 0};
@@ -160,12 +161,12 @@ public:
     ++taken_;
     return true;
   }
-  /// Counts the unit that was taken last as completed. Before that the node may ask for units, but is not
-  /// idle.
+  /// Counts the unit that was taken last as completed. Until then the node may ask for units, but does not
+  /// report that it is idle.
   void complete_unit() { ++completed_; }
 
-  /// Handles a word of a neighbour, one for which strip_word::from_ppe() is false. Call next_action()
-  /// afterwards until it returns `none`.
+  /// Handles a word of a neighbour; strip_word::from_ppe(word) must be false. Call next_action() afterwards
+  /// until it returns `none`.
   void on_word(uint32_t word) {
     Edge& edge = edges_[strip_word::from_upper(word) ? kUpper : kLower];
     if (!edge.exists) return;
@@ -184,7 +185,7 @@ public:
     }
   }
 
-  /// Returns the next action, which the node counts as done. Answers come first, so that no neighbour waits
+  /// Returns the next action, which the caller must carry out. Answers come first, so that no neighbour waits
   /// for this node's questions.
   StripAction next_action() {
     for (uint32_t side = 0; side < 2; ++side) {
@@ -212,20 +213,20 @@ private:
   static constexpr uint32_t kNoFrame = strip_word::kEpochs;
   static constexpr uint32_t kNeverReported = ~0u;
 
-  /// The state of this node's question on an edge since it ran dry. A node that has units has no questions:
-  /// all are open.
+  /// The state of this node's question on an edge since it ran dry. On a node that has units all questions
+  /// are open.
   enum class Question : uint32_t { open, waiting, refused, invited };
 
   struct Edge {
     uint32_t exists;
     Question question;
-    uint32_t neighbour_hungry; ///< the neighbour was refused, and has not been rung since
+    uint32_t neighbour_hungry; ///< this node refused the neighbour, and has not rung it since
     uint32_t has_answer;
     uint32_t answer;
     uint32_t sent;     ///< words sent in this frame
     uint32_t received; ///< words received in order in this frame
     uint32_t has_early_word;
-    uint32_t early_word; ///< word after the next one; between frames, a word of the next frame
+    uint32_t early_word; ///< the word after the next word; between frames, a word of the next frame
   };
 
   static Edge make_edge(bool exists) { return {exists ? 1u : 0u, Question::open, 0, 0, 0, 0, 0, 0, 0}; }
@@ -267,7 +268,8 @@ private:
       word = edge.early_word;
     }
   }
-  /// Handles the neighbour's next word; this node's word was sent as a question, or is sent as the answer.
+  /// Handles the neighbour's next word. Makes this node's word as the answer, unless it was already sent as a
+  /// question.
   void exchange(Edge& edge, UnitRange other) {
     ++edge.received;
     if (edge.question != Question::waiting) {
@@ -277,7 +279,8 @@ private:
     const uint32_t moved = settle(edge, other);
     edge.neighbour_hungry = other.empty() && moved == 0 ? 1u : 0u;
   }
-  /// Moves the boundary, as the neighbour does. Returns the number of units that changed hands.
+  /// Moves the boundary between this node and its neighbour, which moves it, too. Returns the number of units
+  /// that changed hands.
   uint32_t settle(Edge& edge, UnitRange other) {
     if (units_.empty()) return receive(edge, other);
     return other.empty() ? give(edge) : 0;
@@ -337,7 +340,7 @@ private:
   uint32_t epoch_; ///< epoch of this frame or the last one; kNoFrame before the first
   uint32_t in_frame_;
   UnitRange units_;
-  uint32_t first_side_; ///< side of the edge to ask on next
+  uint32_t first_side_; ///< side of the edge on which the node asks next
   uint32_t taken_;
   uint32_t completed_;
   uint32_t reported_;

@@ -34,7 +34,7 @@ inline std::vector<UnitRange> even_strips(std::uint32_t units, std::uint32_t nod
 /// Counts the idle reports of one frame. Not thread safe.
 class StripTally {
 public:
-  /// Starts the tally of a frame of `units` units in all.
+  /// Starts the tally of a frame of `units` units, done by `nodes` nodes.
   StripTally(std::uint32_t nodes, std::uint32_t units) : units_(units), reports_(nodes) {}
 
   std::uint32_t units() const { return units_; }
@@ -46,15 +46,15 @@ public:
     return std::accumulate(reports_.begin(), reports_.end(), std::uint32_t{0},
                            [](std::uint32_t sum, const auto& report) { return sum + report.value_or(0); });
   }
-  /// Returns true if every node has been idle and all units are completed.
+  /// Returns true if every node has reported and all units are completed.
   bool frame_complete() const {
     for (const auto& report : reports_) {
       if (!report) return false;
     }
     return completed() == units_;
   }
-  /// Returns strips for the next frame, which is likely to resemble this one: as many units for each node as
-  /// it completed. Precondition: frame_complete().
+  /// Returns strips for the next frame, in which each node gets as many units as it completed in this frame,
+  /// because frames resemble each other. Precondition: frame_complete().
   std::vector<UnitRange> next_strips() const {
     std::vector<std::uint32_t> counts;
     for (const auto& report : reports_)

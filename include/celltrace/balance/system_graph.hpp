@@ -1,5 +1,5 @@
-// System graphs for load balancing: which nodes are neighbours, and in which order neighbours exchange. The
-// edges are coloured so that no two edges of a node have the same colour; the edges of one colour are a
+// System graphs for load balancing: edges connect neighbours, and their colours are the order in which
+// neighbours exchange loads. No two edges of a node have the same colour; the edges of one colour are a
 // "dimension".
 #pragma once
 
@@ -32,10 +32,10 @@ inline constexpr std::uint32_t kMaxGraphNodes = 1u << 20;
 SystemGraph chain_graph(std::uint32_t nodes);
 /// Makes a ring: a chain whose ends are neighbours, from 3 nodes on; 2 colours if `nodes` is even, else 3.
 SystemGraph ring_graph(std::uint32_t nodes);
-/// Makes a box of the given sides, each node a neighbour of the next along each axis. Nodes are numbered x +
-/// sides[0] * (y + ...). The edges along each axis have colours of their own, as in a chain.
+/// Makes a box of the given sides, in which each node is a neighbour of the next node along each axis. Nodes
+/// are numbered x + sides[0] * (y + ...). The edges along each axis have colours of their own, as in a chain.
 SystemGraph mesh_graph(std::span<const std::uint32_t> sides);
-/// Makes a mesh whose lines of 3 nodes and more are rings.
+/// Makes a mesh whose lines along axes are rings if they have 3 nodes or more.
 SystemGraph torus_graph(std::span<const std::uint32_t> sides);
 /// Makes a hypercube of 2^dimensions nodes; neighbours differ in one bit of their number, which is the edge's
 /// colour.
@@ -44,9 +44,9 @@ SystemGraph hypercube_graph(std::uint32_t dimensions);
 /// possible. At most 4096 nodes.
 SystemGraph complete_graph(std::uint32_t nodes);
 
-/// Makes any graph, from pairs of neighbours; at most degree + 1 colours (Vizing), found as by J. Misra and
-/// D. Gries, "A constructive proof of Vizing's theorem", Information Processing Letters 41 (1992). Throws
-/// std::invalid_argument for loops, repeated edges and nodes that do not exist.
+/// Makes any graph from pairs of neighbours. It has at most degree + 1 colours (Vizing), found by the
+/// algorithm of J. Misra and D. Gries, "A constructive proof of Vizing's theorem", Information Processing
+/// Letters 41 (1992). Throws std::invalid_argument for loops, repeated edges and nodes that do not exist.
 SystemGraph coloured_graph(std::uint32_t nodes,
                            std::span<const std::pair<std::uint32_t, std::uint32_t>> neighbours);
 

@@ -1,4 +1,4 @@
-// The bodies of system_graph.hpp.
+// Definitions of the functions of system_graph.hpp.
 #pragma once
 
 #include "celltrace/balance/edge_colouring.hpp"
@@ -13,7 +13,7 @@ namespace celltrace {
 
 namespace detail {
 
-/// An axis of a box: neighbours along it have numbers that differ by `stride`.
+/// An axis of a box: the numbers of neighbours along the axis differ by `stride`.
 struct Axis {
   std::uint32_t side;
   std::uint32_t stride;
@@ -114,7 +114,8 @@ inline SystemGraph hypercube_graph(std::uint32_t dimensions) {
 inline SystemGraph complete_graph(std::uint32_t nodes) {
   celltrace::detail::require_nodes(nodes, 4096);
   // The colours are the rounds of a round-robin tournament: players a and b meet in round a + b, modulo an
-  // odd number of players; one player more meets, in each round, the player who would have to meet himself.
+  // odd number of players. If the number of players is even, the last player meets, in each round, the player
+  // who would have to meet himself.
   const std::uint32_t rounds = nodes - 1 + nodes % 2;
   SystemGraph graph;
   graph.nodes = nodes;

@@ -8,7 +8,8 @@
 
 namespace celltrace {
 
-/// The line that is replaced in a full set: any, the one fetched first, the one used least recently.
+/// The line that is replaced in a full set: a random line, the line that was fetched first, or the line that
+/// was used least recently.
 enum class CacheReplacement : uint32_t { random, fifo, lru };
 
 /// Properties of a cache that are chosen at run time.
@@ -20,8 +21,9 @@ struct CacheConfig {
   /// Replacement: `lru` costs time at every hit, the others only at misses; docs/software-cache.md compares
   /// them.
   CacheReplacement replacement = CacheReplacement::fifo;
-  /// DMA tags of the cache's own: first_tag .. first_tag + tag_count - 1; tag_count is a power of two.
-  /// Lines of different tags are waited for separately, which only matters to prefetch().
+  /// DMA tags first_tag .. first_tag + tag_count - 1, which the program must not use itself; tag_count is a
+  /// power of two. A cache waits for tags separately, so that waiting for one prefetched line does not wait
+  /// for lines with other tags.
   uint32_t first_tag = 16;
   uint32_t tag_count = 8;
   /// False: nothing is cached. Every read is a DMA transfer, and a miss.
@@ -50,7 +52,7 @@ struct CacheConfig {
            lines() <= kMaxLines && power_of_two(tag_count) && tag_count <= kMfcTags &&
            first_tag <= kMfcTags - tag_count;
   }
-  /// Returns the local store in bytes that a cache without CacheOptions takes.
+  /// Returns the bytes of local store that a cache takes with all CacheOptions off.
   constexpr uint32_t local_store_bytes() const {
     return enabled ? lines() * (kLineBytes + kWordBytes) + tag_words() * kWordBytes
                    : kLineBytes + 4 * kWordBytes;
@@ -63,7 +65,7 @@ private:
   static constexpr bool power_of_two(uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 };
 
-/// Properties of a cache that are chosen at compile time: an option that is off costs nothing.
+/// Properties of a cache that are chosen at compile time: an option that is false costs nothing.
 struct CacheOptions {
   /// True: the lifetimes of pointers are checked (lifetimes.hpp).
   static constexpr bool checked = false;
@@ -77,16 +79,16 @@ struct WriteBackCacheOptions : CacheOptions {
   static constexpr bool write_back = true;
 };
 
-/// The default options of caches: `Spu::cache_options` if the Spu has such a type, so that
-/// a kernel can run with other options unchanged.
+/// The default options of caches: `Spu::cache_options` if the Spu has such a type, so that an unchanged
+/// kernel can run with other options.
 template <class Spu, class = void> struct DefaultCacheOptions { using type = CacheOptions; };
 template <class Spu> struct DefaultCacheOptions<Spu, std::void_t<typename Spu::cache_options>> {
   using type = typename Spu::cache_options;
 };
 
-/// Returns the set of the line at an offset, before the number of sets is masked out. Combines two digits of
-/// the line's number, because tables of a scene, and rows of a grid, are often a power of two of lines apart,
-/// and would compete for one set.
+/// Returns the set of the line at an offset, to be taken modulo the number of sets. Combines two groups of
+/// bits of the line's number, because tables of a scene, and rows of a grid, are often a power of two of
+/// lines apart, and would compete for one set.
 constexpr uint32_t cache_set(uint32_t offset) {
   return offset >> 7 ^ offset >> 13;
 }

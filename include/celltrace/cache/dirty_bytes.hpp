@@ -1,10 +1,10 @@
 // Tracks which bytes of a software cache's lines have been written, and writes them to main memory. Kernel
 // dialect.
 //
-// Flags per byte allow several SPEs to write different bytes of one line: a line of which only a part is
-// dirty is merged into main memory by an atomic update (getllar, putllc), which replaces a reservation that
-// the program may have. A line that is dirty as a whole is written by a put. Both are complete before the
-// line is replaced.
+// A flag for each byte allows several SPEs to write different bytes of one line. A line that is dirty in part
+// is merged into main memory by an atomic update (getllar, putllc), by which the program loses any
+// reservation it has. A line that is dirty as a whole is written by a put. Either write is complete before
+// the line is replaced.
 #pragma once
 
 #include "celltrace/cache/config.hpp"

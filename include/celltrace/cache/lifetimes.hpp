@@ -2,10 +2,10 @@
 // dialect.
 //
 // A cache without checks returns plain pointers into its lines. A checked cache returns pointers to copies in
-// a window of its own, and overwrites a copy when its lifetime ends, whether or not the line is still there:
-// a program that uses a pointer too late fails at the first try, not when the line happens to be replaced. A
-// checked pointer that is used then halts the SPE with stale_pointer; a plain pointer or a reference that was
-// made from one finds poison.
+// a window of its own, and overwrites a copy when its lifetime ends, whether or not the line is still cached.
+// A program that uses a pointer too late then always fails, not only if the line happens to be replaced: a
+// checked pointer halts the SPE with stale_pointer; a plain pointer or reference made from a checked pointer
+// reads poison.
 #pragma once
 
 #include "celltrace/cache/config.hpp"
@@ -28,14 +28,14 @@ protected:
   }
 };
 
-/// A pointer that knows its lifetime. Trivially copyable; as all pointers into a cache, it belongs
-/// to the thread of its SPE.
+/// A pointer that checks its lifetime at each use. Trivially copyable; like all pointers into a cache, it
+/// belongs to the thread of its SPE.
 template <class T, class Lifetimes> class CheckedCachePointer {
 public:
   CheckedCachePointer(const T* object, const Lifetimes& lifetimes, uint32_t call)
       : object_(object), lifetimes_(&lifetimes), call_(call) {}
 
-  /// Halts the SPE with stale_pointer if the object's lifetime is over.
+  /// Returns the plain pointer. Halts the SPE with stale_pointer if the object's lifetime is over.
   const T* get() const {
     lifetimes_->check(call_);
     return object_;
@@ -52,7 +52,8 @@ private:
 
 template <class Spu> class CacheLifetimes<Spu, true> {
 public:
-  /// The word that objects are overwritten with at the end of their lifetimes; as a float NaN, or enormous.
+  /// The word that objects are overwritten with at the end of their lifetimes: as a float it is a NaN on the
+  /// host, and enormous on an SPU.
   static constexpr uint32_t kPoison = 0x7FB0DEADu;
 
   void check(uint32_t call) const {
@@ -72,13 +73,13 @@ protected:
     end_lifetimes();
   }
 
-  /// Begins a call of a member of the cache: the object that was returned calls_alive_ calls ago becomes
-  /// invalid.
+  /// Begins a call of a member of the cache, which ends the lifetime of the object that was returned
+  /// calls_alive_ calls ago.
   void begin_call() {
     ++calls_;
     poison(window_[place()]);
   }
-  /// Makes all objects invalid that have been returned.
+  /// Ends the lifetimes of all returned objects.
   void end_lifetimes() {
     calls_ += calls_alive_;
     for (uint32_t i = 0; i < calls_alive_; ++i)
@@ -96,7 +97,8 @@ private:
   struct alignas(kLineBytes) Line {
     uint32_t words[kLineBytes / 4];
   };
-  /// Largest number of lines of the window: with more ways, pointers live shorter than promised.
+  /// Largest number of lines of the window. With more ways, checked pointers live shorter than the cache
+  /// promises.
   static constexpr uint32_t kMaxCallsAlive = 8;
 
   /// Returns the number of calls for which a returned object is valid, including the call that returns it. A

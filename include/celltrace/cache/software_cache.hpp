@@ -2,10 +2,10 @@
 // Managing memory" (IBM developerWorks, 2006). Kernel dialect.
 //
 // A cache serves one region of main memory, addressed by its base and 32-bit offsets. The tag of a line is
-// one word: its offset with flags in the low seven bits. The fast lookup accepts only `line offset | valid`;
-// lines under way or out of date carry further flags and are found by the slow lookup. The slow lookup also
-// finds the ways of a set beyond the first four: the first quadwords of tags of all sets come first in the
-// table, then the second ones, and so on.
+// one word: its offset with flags in the low seven bits. The fast lookup finds only tags `line offset |
+// valid` in the first four ways of a set. The slow lookup also finds lines under way or out of date, which
+// carry further flags, and the other ways. The table of tags has the first quadwords of all sets first, then
+// the second quadwords of all sets, and so on.
 #pragma once
 
 #include "celltrace/cache/config.hpp"
@@ -21,13 +21,13 @@
 namespace celltrace {
 
 /// A cache of main memory in local store. `Kind` numbers the kinds of data whose references are counted
-/// separately: an integer or an enumeration with values below kKinds. If `Spu::direct_memory`, a reference is
-/// nothing but an addition, and the counters stay 0.
+/// separately: an integer or an enumeration with values below kKinds. If `Spu::direct_memory`, a reference
+/// only adds base and offset, and the counters stay 0.
 ///
-/// Lifetime of pointers: the result of get() stays valid until the next call of a member, except the
-/// counters', because that call may fetch another line in its place. With replacement `lru` an enabled cache
-/// keeps it for ways - 1 more calls of get(), copy(), word(), write() and prefetch(). If an object is needed
-/// for longer, take a copy(). CacheOptions::checked detects violations.
+/// Lifetime of pointers: the result of get() stays valid until the next call of a member other than
+/// counters() and reset_counters(), because this call may replace the line. With replacement `lru` an enabled
+/// cache keeps the result for ways - 1 more calls of get(), copy(), word(), write() and prefetch(). If an
+/// object is needed for longer, take a copy(). CacheOptions::checked detects violations.
 ///
 /// Thread safety: one thread, as for the Spu.
 template <class Spu, class Kind = uint32_t, class Options = typename DefaultCacheOptions<Spu>::type>
@@ -53,7 +53,7 @@ public:
   SoftwareCache(const SoftwareCache&) = delete;
   SoftwareCache& operator=(const SoftwareCache&) = delete;
 
-  /// Returns the local store in bytes that such a cache takes.
+  /// Returns the bytes of local store that a cache with these options and this configuration takes.
   static constexpr uint32_t local_store_bytes(const CacheConfig& config) {
     return config.local_store_bytes() + Lifetimes::lifetime_bytes(config) +
            Dirt::dirt_bytes(config.enabled ? config.lines() : 1);
@@ -70,13 +70,13 @@ public:
   Pointer<uint8_t> bytes(uint32_t offset, uint32_t size, Kind kind) {
     return shown_at<uint8_t>(offset, size, kind);
   }
-  /// Returns the object by value.
+  /// Returns a copy of the object at `offset`, which must not cross a line.
   template <class T> T copy(uint32_t offset, Kind kind) { return *get<T>(offset, kind); }
   /// Returns the word at `offset`, a multiple of 4.
   uint32_t word(uint32_t offset, Kind kind) { return *get<uint32_t>(offset, kind); }
   /// Returns the words at `offsets`, multiples of 4, for the lanes that have their bit set in `lanes`; other
-  /// lanes are meaningless. Each word counts as one reference, as by word(), but lanes with the same line
-  /// share its lookup.
+  /// lanes of the result are meaningless. Each word counts as one reference, as by word(), but lanes with the
+  /// same line share its lookup.
   Lanes words(const Lanes& offsets, uint32_t lanes, Kind kind) {
     if constexpr (Spu::direct_memory) {
       return words_one_by_one(offsets, lanes, kind);
@@ -89,7 +89,7 @@ public:
   // --- fetching ahead ---
   // Prefetches are not counted; the get() that follows is a hit if the line is still there.
 
-  /// Starts to fetch the line of `offset` unless it is there. Does not wait, unless the line that is replaced
+  /// Starts to fetch the line of `offset` unless it is cached. Does not wait, unless the line to be replaced
   /// is itself under way or dirty.
   void prefetch(uint32_t offset) {
     if constexpr (!Spu::direct_memory) {
@@ -102,20 +102,21 @@ public:
       hint(offset);
     }
   }
-  /// Waits for the lines that prefetch() has under way, which a program has to do before it ends.
+  /// Waits for all lines that are still under way after prefetch(). A program has to call this before it
+  /// ends.
   void settle() {
     if constexpr (!Spu::direct_memory) wait_for_fetches();
   }
-  /// Prefetches into the host's caches if memory is direct. Does nothing otherwise: for data that are mostly
-  /// cached, where looking them up with prefetch() would cost more than their misses.
+  /// Prefetches into the host's caches if memory is direct; otherwise does nothing. For data that are mostly
+  /// cached, whose lookups by prefetch() would cost more than their misses.
   void hint(uint32_t offset) {
     if constexpr (Spu::direct_memory)
       __builtin_prefetch(reinterpret_cast<const void*>(static_cast<uintptr_t>(base_ + offset)));
     else
       (void)offset;
   }
-  /// Fetches the lines of `count` offsets that are not there, with one wait for each sixteen of them. If the
-  /// cache has no room for all of them together, some are not there afterwards.
+  /// Fetches the lines of `count` offsets that are not cached, with one wait for each sixteen offsets. If the
+  /// cache has no room for all these lines at once, some are not cached afterwards.
   void fetch(const uint32_t* offsets, uint32_t count) {
     if constexpr (!Spu::direct_memory) {
       this->begin_call();
@@ -135,8 +136,8 @@ public:
       if (config_.enabled) clear();
     }
   }
-  /// Marks all lines as out of date, because main memory has changed: each is fetched again at its next
-  /// reference. Dirty bytes are written back before that.
+  /// Marks all lines as out of date, because main memory has changed: each line is fetched again at its next
+  /// reference. Dirty bytes are written back before the line is fetched.
   void synchronize_all() {
     if constexpr (!Spu::direct_memory) {
       this->end_lifetimes();
@@ -160,7 +161,7 @@ public:
     }
   }
 
-  /// As synchronize(), for the line at `line` alone, which costs no more than looking it up.
+  /// As synchronize(), for the line at offset `line` alone; costs no more than a lookup.
   void synchronize_line(uint32_t line) {
     if constexpr (!Spu::direct_memory) {
       this->end_lifetimes();
@@ -175,8 +176,8 @@ public:
 
   // --- writing, with CacheOptions::write_back ---
 
-  /// Writes an object that must not cross a line. Counts as a reference. Main memory gets the object when the
-  /// line is replaced, at invalidate_all() or at flush(); at once if memory is direct.
+  /// Writes an object that must not cross a line. Counts as a reference. The object is written to main memory
+  /// when the line is replaced, by invalidate_all() or by flush(); if memory is direct, at once.
   template <class T> void write(uint32_t offset, const T& value, Kind kind) {
     static_assert(Options::write_back && sizeof(T) <= kLineBytes && std::is_trivially_copyable_v<T>);
     if constexpr (Spu::direct_memory) {
@@ -223,8 +224,8 @@ private:
   static constexpr uint32_t kNoWay = 0xFFFFFFFFu;
   static constexpr uint32_t kNotFound = 0xFFFFFFFFu;
 
-  // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches, shift, waits,
-  // misses. Written by tools/calibrate-charges.sh; see src/kernel/scalar_work.hpp.
+  // Scalar work besides the comparison of tags, in the order of ScalarWork: fixed, floating, memory, shuffle,
+  // branches, shift, waits, misses. Generated by tools/calibrate-charges.sh; see src/kernel/scalar_work.hpp.
   static constexpr ScalarWork kLookup = {21, 0, 14, 4, 5, 6, 0, 35, "kLookup"};
   static constexpr ScalarWork kReadThrough = {24, 0, 4, 6, 3, 0, 29, 52, "kReadThrough"};
   static constexpr ScalarWork kWords = {3, 0, 3, 4, 5, 8, 0, 17, "kWords"};
@@ -249,7 +250,7 @@ private:
     spu_.compute(kLookup);
     return look_up(offset, size, kind);
   }
-  /// As find(), for callers that account for the work themselves.
+  /// As find(), for callers that call compute() themselves.
   uint8_t* look_up(uint32_t offset, uint32_t size, Kind kind) {
     const uint32_t line = offset & ~kLineMask;
     const uint32_t set = set_of(line);
@@ -261,7 +262,8 @@ private:
     return line_at(slot);
   }
 
-  /// Returns which of the first four ways of a set holds the line, ready to be read: one bit, or 0.
+  /// Returns a bit for the way that holds the line ready to be read, among the first four ways of the set; 0
+  /// if none does.
   uint32_t matches(uint32_t set, uint32_t line) const {
     return equal_bits(U4::load(tags_ + (set << 2)), U4::splat(line | kValid));
   }
@@ -368,7 +370,7 @@ private:
       *arriving[i] &= ~kInFlight;
   }
 
-  /// Returns the way that holds the line, whether it is up to date or has arrived or not; or kNotFound.
+  /// Returns the way that holds the line, also if the line is out of date or has not arrived; or kNotFound.
   uint32_t locate(uint32_t set, uint32_t line) const {
     const U4 state = U4::splat(~(kOutOfDate | kInFlight));
     const U4 wanted = U4::splat(line | kValid);
@@ -392,8 +394,8 @@ private:
     return way != kNotFound && (tag(set, way) & kOutOfDate) == 0;
   }
 
-  /// Starts to fetch a line into the way that holds it out of date, else into a free way, else in place of
-  /// another line. Returns the way.
+  /// Starts to fetch a line: into `way` if the line is there but out of date, else into a free way, else in
+  /// place of another line. Returns the way.
   uint32_t start_fetch(uint32_t set, uint32_t way, uint32_t line) {
     spu_.compute(kFetch);
     if (way == kNotFound) way = free_way(set);
@@ -436,7 +438,7 @@ private:
 
   // --- without a cache ---
 
-  /// Fetches the quadwords that the object touches. Returns the line that the object would lie in.
+  /// Fetches only the quadwords that the object touches, into the bounce line. Returns the bounce line.
   uint8_t* read_through(uint32_t offset, uint32_t size) {
     const uint32_t first = offset & ~15u;
     const uint32_t bytes = ((offset + size - 1) | 15u) + 1 - first;
@@ -448,7 +450,7 @@ private:
 
   // --- state ---
 
-  /// Sets up the tables. A disabled cache is one bounce line behind a set without ways, so that no lookup
+  /// Allocates the tables. A disabled cache has one bounce line, and a set without ways, so that no lookup
   /// succeeds.
   void set_up() {
     if (!config_.valid() || (base_ & kLineMask) != 0) spu_.halt(HaltCode::bad_argument);
@@ -510,8 +512,8 @@ private:
     spu_.record(this, cache_trace::make(operation, offset & ~kLineMask));
   }
 
-  // The words that a hit needs lie first in a quadword each: an SPU can use such a word as it is loaded, and
-  // has to rotate any other one into its place.
+  // Each word that a hit needs is the first of a quadword: an SPU can use such a word as loaded, but has to
+  // rotate any other word into the first slot.
   alignas(16) uint32_t set_mask_ = 0;
   alignas(16) uint32_t* tags_ = nullptr;
   alignas(16) uint8_t* lines_ = nullptr;

@@ -1,5 +1,5 @@
-// Recordings of the requests to software caches, on the host: written while SPEs run on cell_emu, kept in
-// files, replayed through caches of any shape (replay.hpp).
+// Traces: recordings of the requests to software caches, on the host. They are written to files while SPEs
+// run on cell_emu, and replayed through caches of any shape (replay.hpp).
 //
 //   std::ofstream file("scene.cachetrace", std::ios::binary);
 //   CacheTraceWriter writer(file);
@@ -27,7 +27,8 @@ struct CacheRequest {
   cache_trace::Operation operation = cache_trace::Operation::read;
   std::uint8_t kind = 0;  ///< kind of data of a read or a write; below kKinds
   std::uint32_t line = 0; ///< number of the line; for synchronize, the first line
-  /// For a read or a write: immediate repetitions, at least 1; for synchronize: number of lines.
+  /// For a read or a write: number of identical requests in a row, at least 1; for synchronize: number of
+  /// lines.
   std::uint32_t count = 1;
 };
 
@@ -39,11 +40,11 @@ struct CacheTrace {
   std::vector<CacheRequest> requests;
 };
 
-/// Removes the prefetches from a trace: the rest is what a program has to wait for if nothing is fetched
-/// ahead.
+/// Returns the trace without its prefetches, as if the program fetched nothing ahead.
 CELLTRACE_EXPORT CacheTrace without_prefetches(CacheTrace trace);
 
-/// Writes the requests that the caches of a machine record. Its memory does not grow with the run.
+/// Writes the requests that the caches of a machine record. Its memory does not grow with the length of the
+/// run.
 class CELLTRACE_EXPORT CacheTraceWriter : public SpeRecorder {
 public:
   /// `file` is a binary stream that outlives the writer.
@@ -53,7 +54,8 @@ public:
 
   /// Records a word; called by an SPE's thread, as SpeRecorder says.
   void record(unsigned spe, const void* source, std::uint32_t word) override;
-  /// Writes the rest, once no SPE runs any more. The stream's state says whether everything was written.
+  /// Writes the rest of the file; call it when no SPE runs any more. The stream's state then says whether
+  /// everything was written.
   void finish();
 
 private:
@@ -62,7 +64,7 @@ private:
 };
 
 /// Returns all traces of a file, ordered by SPE and then by age. Throws InputError if the file has another
-/// format, is damaged, or has more than `max_requests` requests, which take most of the memory.
+/// format, is damaged, or has more than `max_requests` requests, a limit on memory.
 CELLTRACE_EXPORT std::vector<CacheTrace> read_cache_traces(std::istream& file,
                                                            std::uint64_t max_requests = 1u << 27);
 

@@ -1,7 +1,7 @@
 // The words in which a software cache records its requests (Spu::record()). Kernel dialect.
 //
-// A word has the number of a line, its offset divided by 128, in the upper 25 bits and the operation in
-// the lower 7. docs/software-cache.md has the table.
+// The upper 25 bits of a word are the number of a line, its offset divided by 128; the lower 7 bits are the
+// operation. docs/software-cache.md has the table.
 #pragma once
 
 #include "celltrace/cache/config.hpp"
@@ -10,14 +10,14 @@
 
 namespace celltrace::cache_trace {
 
-constexpr uint32_t kKinds = 8; ///< kinds of data that can be told apart
+constexpr uint32_t kKinds = 8; ///< number of kinds of data that a trace tells apart
 
 enum class Operation : uint8_t {
   read = 0,  ///< + kind
   write = 8, ///< + kind
   prefetch = 16,
-  synchronize = 17,     ///< the line is the first; the next word is the number of lines
-  synchronize_all = 18, ///< for this and the operations below, the upper bits are 0
+  synchronize = 17,     ///< the line is the first line; the next word is the number of lines
+  synchronize_all = 18, ///< here and in the operations below, the upper bits are 0
   invalidate_all = 19,
   reset_counters = 20,
   flush = 21,
@@ -40,7 +40,7 @@ constexpr uint32_t words_after(Operation operation) {
   return operation == Operation::begin ? 2 : operation == Operation::synchronize ? 1 : 0;
 }
 
-// The words after `begin`.
+// The two words after `begin`, which encode the cache's configuration.
 constexpr uint32_t first_word(const CacheConfig& config) {
   return config.ways << 16 | config.sets;
 }

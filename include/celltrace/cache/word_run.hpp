@@ -7,9 +7,9 @@
 
 namespace celltrace {
 
-/// Reads words one after the other, with one reference to the cache a line. Between the words the cache may
-/// be used for other things: the line being read is a copy. The line after it is prefetched, so a program
-/// that leaves a run before its end has to settle() the cache before it ends.
+/// Reads words one after the other, with one reference to the cache for each line. The run copies the line
+/// that it reads, so that the program may use the cache otherwise between words. The run prefetches the next
+/// line: a program that leaves a run early has to settle() the cache before the program ends.
 ///
 ///   for (WordRun list(cache, offset, count, Kind::list); !list.empty();)
 ///     visit(list.next());
@@ -26,7 +26,7 @@ public:
   }
 
   bool empty() const { return count_ == 0; }
-  /// Returns the next word; there has to be one.
+  /// Returns the next word; the run must not be empty.
   uint32_t next() {
     --count_;
     if constexpr (Spu::direct_memory) {

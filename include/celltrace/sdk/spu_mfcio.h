@@ -1,4 +1,4 @@
-// The header's name in existing SPE sources; see celltrace/spe/spu_mfcio.hpp.
+// Gives celltrace/spe/spu_mfcio.hpp the name that existing SPE sources include.
 #pragma once
 
 #include "celltrace/spe/spu_mfcio.hpp"

@@ -1,4 +1,4 @@
-// The header's name in existing SPE sources: the names of VMX for vector types.
+// Defines VMX's names of vector types, in a header with the name that existing SPE sources include.
 #pragma once
 
 #include "spu_intrinsics.h"

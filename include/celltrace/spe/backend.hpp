@@ -12,24 +12,24 @@ namespace celltrace {
 /// A machine that runs the SPEs' programs.
 enum class Backend : unsigned char {
   native,   ///< threads of the host, which access memory directly
-  cell_emu, ///< an emulated Cell, with programs that were compiled for the host
-  cell_sim, ///< the same Cell with SPUs that execute machine code; needs a build with a compiler for the SPU
+  cell_emu, ///< an emulated Cell; its programs are compiled for the host
+  cell_sim, ///< the same Cell, but its SPUs execute machine code; needs a build with a compiler for the SPU
 };
 constexpr Backend kBackends[] = {Backend::native, Backend::cell_emu, Backend::cell_sim};
 
-/// SIMD instructions of `native`. A level that the build or the CPU lacks is refused when a machine is made.
+/// SIMD instructions of `native`. make_machine() throws for a level that the build or the CPU lacks.
 enum class SimdLevel : unsigned char {
-  automatic, ///< the widest that the CPU and the program have
+  automatic, ///< the widest level that the CPU and the program support
   sse2,
   avx2,
-  avx512,  ///< with CD, DQ, BW and VL
-  neon64,  ///< Neon of AArch64
-  generic, ///< by the compiler's vector extensions
+  avx512,  ///< AVX-512 with CD, DQ, BW and VL
+  neon64,  ///< NEON of AArch64
+  generic, ///< the compiler's vector extensions, for any CPU
 };
 constexpr SimdLevel kSimdLevels[] = {SimdLevel::automatic, SimdLevel::sse2,   SimdLevel::avx2,
                                      SimdLevel::avx512,    SimdLevel::neon64, SimdLevel::generic};
 
-/// Return the names that the command line uses; "unknown" for values outside of the enumeration.
+/// Return the name on the command line; "unknown" for values outside of the enumeration.
 constexpr const char* name_of(Backend backend) {
   switch (backend) {
   case Backend::native:
@@ -73,8 +73,8 @@ Enumeration named(const char* what, const Enumeration (&all)[N], std::string_vie
 
 } // namespace detail
 
-/// Return the enumerator with the name. Throw InputError, listing all names, if there is none. Safe to call
-/// from any thread.
+/// Return the enumerator whose name_of() is `name`. Throw InputError, listing all names, if no enumerator has
+/// this name. Safe to call from any thread.
 inline Backend backend_named(std::string_view name) {
   return detail::named("backend", kBackends, name);
 }

@@ -1,13 +1,13 @@
 // Converts records of main storage to the byte order of a machine's SPUs (Machine::byte_order()) and back.
 //
-// A record's fields are listed once, by a function of its namespace that is never
-// defined:
+// A record's fields are listed once, in the return type of a function in the record's namespace that is
+// declared but never defined:
 //
 //   struct alignas(16) Task { ea_t blocks; uint32_t count; float scale; };
 //   FieldList<&Task::blocks, &Task::count, &Task::scale> fields_of(const Task&);
 //
-// The widths follow from the types. A list that leaves a field out, names one twice or leaves padding does
-// not compile: give padding a name.
+// The widths follow from the fields' types. A list that omits a field or names a field twice does not
+// compile, nor does a record with padding: declare padding as a field.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -47,7 +47,8 @@ template <auto first, auto... others> consteval bool are_different() {
 
 } // namespace detail
 
-/// All data members of a record: numbers, enumerations, other records with fields, and arrays of all of them.
+/// All data members of a record, which may be numbers, enumerations, other records with a field list, and
+/// arrays of these.
 template <auto first, auto... others> struct FieldList {
   using Record = celltrace::detail::RecordOf<first>;
   static_assert((std::is_same_v<Record, celltrace::detail::RecordOf<others>> && ...),
@@ -62,7 +63,7 @@ template <auto first, auto... others> struct FieldList {
     visit(record.*first);
     (visit(record.*others), ...);
   }
-  /// Returns whether `holds` is true for the types of all fields.
+  /// Returns true if `holds` is true for the type of every field.
   template <class Holds> static consteval bool all(Holds holds) {
     return holds.template operator()<celltrace::detail::FieldOf<first>>() &&
            (holds.template operator()<celltrace::detail::FieldOf<others>>() && ...);
@@ -76,7 +77,7 @@ concept HasFields = requires(const T& record) {
 };
 template <HasFields Record> using FieldsOf = decltype(fields_of(std::declval<const Record&>()));
 
-/// Returns true if all numbers of a T have 32 bits, so that it can be handled as an array of words.
+/// Returns true if all numbers in a T have 32 bits, so that a T can be handled as an array of words.
 template <class T> consteval bool consists_of_words() {
   if constexpr (std::is_array_v<T>)
     return consists_of_words<std::remove_all_extents_t<T>>();
@@ -86,8 +87,8 @@ template <class T> consteval bool consists_of_words() {
     return !std::is_class_v<T> && sizeof(T) == 4;
 }
 
-/// Reverses the bytes of a number, or of every number in an array or a record. Its own inverse. A value with
-/// reversed bytes is only good for memcpy() and DMA: floats in it may have any bits.
+/// Reverses the bytes of a number, or of every number in an array or a record. Its own inverse. Use a value
+/// with reversed bytes for memcpy() and DMA only: its floats may be signalling NaNs.
 template <class T> void reverse_bytes(T& value) noexcept {
   if constexpr (std::is_array_v<T>) {
     for (auto& element : value)

@@ -1,4 +1,4 @@
-// The SPU's channels: their names, their directions, and which of them stall.
+// The SPU's channels: names, directions, and whether a channel stalls.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -97,13 +97,13 @@ constexpr bool exists(Channel channel) {
   return name_of(channel)[0] != 'n';
 }
 
-/// Returns true if the channel's count depends on the commands of this SPU alone.
+/// Returns true for the channels of the SPU's own MFC, whose counts depend on the commands of this SPU alone.
 constexpr bool belongs_to_mfc(Channel channel) {
   return channel >= Channel::mfc_lsa && channel <= Channel::rd_atomic_stat;
 }
 
-/// Returns true if an access stalls while the count is 0. Channel 23 is documented as stalling, too, but its
-/// count is always 1.
+/// Returns true if an access stalls while the count is 0. Channel 23 (MFC_WrTagUpdate) is documented as
+/// stalling, too, but its count is always 1.
 constexpr bool may_stall(Channel channel) {
   switch (channel) {
   case Channel::rd_event_stat:

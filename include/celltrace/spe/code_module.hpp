@@ -1,12 +1,13 @@
-// Code modules: overlays of code in local store. Freestanding C++17.
+// Code modules: groups of functions that are fetched into local store when they are called (overlays).
+// Freestanding C++17.
 //
-// A module is a set of a program's functions. Modules share regions of local store: calling a module that is
-// not there fetches it from main memory, in place of the present one. On an SPU the linker puts a module's
-// functions into an overlay section, and calls of them go through backends/spu/modules.S; on cell_emu,
-// SpuBase's enter_module() takes the time and counts the fetch; where memory is direct, a module is ordinary
-// code.
+// Modules share regions of local store: a call into a module that is not in its region fetches the module
+// from main memory, in place of the module that is there. On an SPU the linker puts a module's functions into
+// an overlay section, and calls of these functions go through backends/spu/modules.S; on cell_emu, SpuBase's
+// enter_module() counts the fetch and its time; where memory is direct, a module is ordinary code.
 //
-// A module's functions may call each other and resident code, but no other module of the same region.
+// A module's functions may call each other and resident code, but no functions of another module in the same
+// region.
 #pragma once
 
 #include <stdint.h>
@@ -15,9 +16,9 @@ namespace celltrace {
 
 struct CodeModule {
   const char* name;
-  uint32_t number; ///< from 1, one for each module of a program
-  uint32_t region; ///< from 0 up to kMaxModuleRegions
-  uint32_t bytes;  ///< most bytes that it takes in the real SPU's build
+  uint32_t number; ///< number of the module in its program, from 1
+  uint32_t region; ///< region of local store, 0..kMaxModuleRegions - 1
+  uint32_t bytes;  ///< largest size that the module may have when it is compiled for the SPU
 };
 constexpr uint32_t kMaxModuleRegions = 4;
 

@@ -7,8 +7,8 @@
 
 namespace celltrace {
 
-/// Arguments of a kernel. The program's main() gets the effective address of one, 16-byte aligned, and
-/// fetches it by DMA. Big-endian, like everything that a PPE writes.
+/// Arguments of a kernel. The program's main() gets the effective address of a ControlBlock, 16-byte aligned,
+/// and fetches it by DMA. Big-endian, like everything that a PPE writes.
 struct alignas(16) ControlBlock {
   ea_t argument;  ///< argument of the kernel
   ea_t addresses; ///< array of `count` SpeAddresses, 16-byte aligned

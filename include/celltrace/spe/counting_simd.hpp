@@ -1,5 +1,5 @@
 // The SIMD facade of the emulated SPU: forwards every operation to another implementation of simd.hpp, and
-// counts the instructions that the spu backend issues for it.
+// counts the instructions that an SPU issues for the operation.
 #pragma once
 
 #include "celltrace/spe/operation_counter.hpp"
@@ -9,7 +9,7 @@
 
 namespace celltrace::cell_emu {
 
-/// Counts the operations of `Uncounted`, which computes them.
+/// Counts operations, and computes their results by `Uncounted`, another implementation of simd.hpp.
 template <class Uncounted> struct CountingSimd {
   static constexpr std::uint32_t kWidth = Uncounted::kWidth;
   static constexpr std::uint32_t kLanes = Uncounted::kLanes;
@@ -43,7 +43,8 @@ template <class Uncounted> struct CountingSimd {
       count_packet({.fx2 = 1});
       return {a.value | b.value};
     }
-    /// Costs nothing: becomes part of the operation that follows, as andc, orc or exchanged operands of selb.
+    /// Counts nothing: on an SPU, the negation becomes part of the next operation, as andc, orc or exchanged
+    /// operands of selb.
     friend M operator!(const M& a) { return {!a.value}; }
   };
 
@@ -54,7 +55,7 @@ template <class Uncounted> struct CountingSimd {
     /// Counts a constant as two immediates or a load; a number from memory as a load, a rotation and a
     /// shuffle.
     F(float number) : value(number) { count_chain({.fx2 = 1, .ls = 1, .shuf = 1}); }
-    /// Builds the result of `compute` in place: copies made emulation a tenth slower.
+    /// Makes the result of `compute` in place, because copies made emulation a tenth slower.
     template <std::invocable Compute> explicit F(Compute compute) : value(compute()) {}
     static F load(const float* lanes) {
       count_packet({.ls = 1});
@@ -62,7 +63,7 @@ template <class Uncounted> struct CountingSimd {
     }
     static F load_unaligned(const float* lanes) {
       count_packet({.ls = 2, .shuf = 1});
-      count_chain({.fx2 = 2, .shuf = 1}); // the pattern of the shuffles
+      count_chain({.fx2 = 2, .shuf = 1}); // makes the pattern of the shuffles
       return F([&] { return Uncounted::F::load_unaligned(lanes); });
     }
     void store(float* lanes) const {
@@ -112,8 +113,8 @@ template <class Uncounted> struct CountingSimd {
       count_chain({.shuf = 1});
       return {Uncounted::I::splat(number)};
     }
-    /// Counts a load and a rotation for each lane, and for each four lanes three more rotations to get their
-    /// offsets, and three shuffles.
+    /// Counts for each lane a load and a rotation, and for each four lanes three more rotations, which
+    /// extract offsets, and three shuffles.
     static I load_words(const void* line, const I& offsets) {
       count_packet({.fx2 = 1, .ls = 4, .shuf = 10});
       return {Uncounted::I::load_words(line, offsets.value)};
@@ -156,9 +157,8 @@ template <class Uncounted> struct CountingSimd {
     }
   };
 
-  /// Counts the sums; for each lane and row, a load and a rotation that find the start and a load of the
-  /// factors; for each of their channels, another load and a shuffle; and the shuffles that transpose the
-  /// factors and the sums.
+  /// Counts for each lane and row a load and a rotation for the row's start, a load of the factors, and for
+  /// each channel a load and a shuffle; then the sums, and the shuffles that transpose factors and sums.
   template <std::uint32_t kRows, std::uint32_t kChannels, class StartsOf, class FactorsOf>
   static void sum_rows(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                        F (&sums)[kChannels]) {
@@ -212,7 +212,7 @@ template <class Uncounted> struct CountingSimd {
     count_packet({.fx2 = 1});
     return {Uncounted::select(m.value, a.value, b.value)};
   }
-  /// Counts conversions to an integer and back, and the subtraction of 1 if the result is above `a`.
+  /// Counts conversions to an integer and back, a comparison with `a`, and the subtraction of 1.
   static F floor(const F& a) {
     count_packet({.fx2 = 2, .fp6 = 1, .fp7 = 2});
     return F([&] { return Uncounted::floor(a.value); });
@@ -225,7 +225,7 @@ template <class Uncounted> struct CountingSimd {
     count_packet({.fp7 = 1});
     return F([&] { return Uncounted::to_float(a.value); });
   }
-  /// Cost nothing: a register has no type.
+  /// Count nothing, because an SPU's registers have no type.
   static I bits_of(const F& a) { return {Uncounted::bits_of(a.value)}; }
   static F float_of(const I& a) {
     return F([&] { return Uncounted::float_of(a.value); });
@@ -271,7 +271,7 @@ template <class Uncounted> struct CountingSimd {
       return not_above_bits(a.value, b.value);
     }
   };
-  /// Costs nothing: the quadwords stay where they are.
+  /// Counts nothing, because each F4 is already a register of the result.
   static F join(const F4& a, const F4& b, const F4& c, const F4& d) {
     return F([&] { return Uncounted::join(a.value, b.value, c.value, d.value); });
   }

@@ -17,7 +17,7 @@ namespace celltrace {
 enum class Rule : unsigned char {
   none, ///< no rule is broken
 
-  // An MFC command, when it is issued or its list is walked.
+  // Rules on an MFC command, checked when it is issued or its list is processed.
   known_command,
   tag_range,
   transfer_size,
@@ -47,7 +47,8 @@ enum class Rule : unsigned char {
   proxy_command,
   proxy_tag_range,
 
-  // Commands in flight: from their issue until the SPU has observed their completion.
+  // Rules on commands in flight, which are commands from their issue until the SPU has observed their
+  // completion.
   local_store_race,
   main_storage_race,
   get_target_touched,
@@ -102,16 +103,16 @@ CELLTRACE_EXPORT std::string_view name_of(Rule rule);
 /// Returns the condition that must hold: "size must be 1, 2, 4, 8 or a multiple of 16 up to 16384".
 CELLTRACE_EXPORT std::string_view text_of(Rule rule);
 
-/// The reaction to a broken rule: nothing, a diagnostic, or a diagnostic and the end of the SPE's
-/// program.
+/// The reaction to a broken rule: nothing, a diagnostic, or a diagnostic and the end of the SPE's program.
 enum class Action : unsigned char { ignore, warn, stop };
 /// Returns the reaction that holds unless the machine's configuration names another.
 CELLTRACE_EXPORT Action default_action(Rule rule);
-/// Returns Action::ignore for the rules that the hardware does not enforce, for programs that rely on its
-/// behaviour beyond the manuals. For EmulationConfig::actions.
+/// Returns a map, for EmulationConfig::actions, that ignores the rules that the hardware does not enforce:
+/// for programs that rely on the hardware's behaviour beyond the manuals.
 CELLTRACE_EXPORT std::map<Rule, Action> lenient_actions();
 
-/// One broken rule. The address fields are those of the command, if there is one.
+/// One broken rule. `opcode`, `tag`, `lsa`, `size` and `ea` are those of the MFC command, if a command is
+/// involved.
 struct Diagnostic {
   static constexpr unsigned kPpe = 0xFFFFFFFFu;
 
@@ -126,12 +127,12 @@ struct Diagnostic {
   std::uint32_t size = 0; ///< bytes
   ea_t ea = 0;
   CallSite site; ///< place of the operation; line 0: unknown
-  // The other side of a race. If the PPE broke the rule, other_spe is the SPE that it accessed.
+  // The other operation of a race. If the PPE broke the rule, other_spe is the SPE that the PPE accessed.
   unsigned other_spe = 0;
   std::uint64_t other_command = 0; ///< 0: none
   CallSite other_site;
   std::uint64_t cycle = 0; ///< the SPE's virtual time
-  /// One line with all of this: "SPE 0: get 20 bytes, LS 0x18080 <- EA 0x..., tag 5: size must be ...
+  /// One line with all members above: "SPE 0: get 20 bytes, LS 0x18080 <- EA 0x..., tag 5: size must be ...
   /// [transfer-size, command 1, at kernel.hpp:12]".
   std::string text;
 };

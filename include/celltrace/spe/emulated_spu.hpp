@@ -15,10 +15,11 @@
 
 namespace celltrace::cell_emu {
 
-/// One run of a kernel on one SPE; machines make it. Thread safety: belongs to the thread that runs the SPE.
+/// The SPU during one run of a kernel on one SPE; a machine makes the object. Thread safety: belongs to the
+/// thread that runs the SPE.
 ///
-/// A stall, or a poll that finds a count of 0, throws SpeError if the SPE has been interrupted. A broken
-/// rule whose action is to stop also ends the program with an exception.
+/// A stall, or a poll of a channel whose count is 0, throws SpeError if the SPE has been interrupted. A
+/// broken rule with Action::stop also ends the program with an exception.
 class CELLTRACE_EXPORT Spu : public SpuBase<Spu> {
 public:
   static constexpr const char* kKey = "cell_emu";
@@ -30,13 +31,13 @@ public:
   Spu& operator=(const Spu&) = delete;
 
   /// Returns the Spu of the program that runs on this thread, for code that has no Spu at hand. Throws
-  /// SpeError if there is none.
+  /// SpeError if no program runs.
   static Spu& running();
 
   /// As running(), but returns null if no program runs on this thread.
   static Spu* running_or_null();
 
-  // Allocations are tracked, so that commands and stores that leave them are detected.
+  // Allocations are tracked, so that commands and stores beyond an allocation are detected.
 
   template <class T>
   T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes,
@@ -49,7 +50,7 @@ public:
 
   std::uint32_t id() const { return id_; }
   std::uint32_t count() const { return count_; }
-  /// Returns the addresses of an SPE. Throws SpeError if it does not exist.
+  /// Returns the addresses of an SPE. Throws SpeError if the SPE does not exist.
   virtual SpeAddresses addresses(std::uint32_t spe) const = 0;
   virtual ArenaState& arena() = 0;
   [[noreturn]] void halt(HaltCode code, CallSite site = CallSite::here()) {
@@ -84,7 +85,7 @@ public:
 
   // --- members that only the emulator has ---
 
-  /// The floating-point status that the SDK's intrinsics keep.
+  /// Returns the floating-point status register of the SDK's intrinsics.
   isa::Quadword& floating_status() { return floating_status_; }
 
   [[gnu::always_inline]] void compute(const ScalarWork& work) {
@@ -92,7 +93,7 @@ public:
     if (recorder_ != nullptr) [[unlikely]]
       recorder_->computed(id_, work);
   }
-  /// Takes the time of the DMA command that fetches the module, if it is not in local store.
+  /// Fetches the module if it is not in local store: spends the time of the DMA command.
   void enter_module(const CodeModule& module) {
     if (resident_modules_[module.region] != module.number) fetch_module(module);
   }
@@ -100,14 +101,14 @@ public:
     if (resident_modules_[module.region] != module.number) [[unlikely]]
       report_absent_module(module, site);
   }
-  /// Puts a value into the trace.
+  /// Writes a named value into the trace.
   virtual void note(const char* what, std::uint32_t value) = 0;
   void record(const void* source, std::uint32_t word) {
     if (recorder_ != nullptr) recorder_->record(id_, source, word);
   }
   void at(CallSite site) { call_site_ = site; }
 
-  /// Returns the offset in this SPE's local store; kOutsideLocalStore for a pointer to elsewhere.
+  /// Returns the offset of `pointer` in this SPE's local store; kOutsideLocalStore if it points elsewhere.
   std::uint32_t local_address(const void* pointer) const {
     const std::uintptr_t offset = reinterpret_cast<std::uintptr_t>(pointer) - local_store_;
     return offset < kLocalStoreBytes ? static_cast<std::uint32_t>(offset) : kOutsideLocalStore;
@@ -116,18 +117,18 @@ public:
   /// object on a real SPE.
   virtual void* local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment) = 0;
 
-  // Channels by number, for programs that compute the number. Access to a channel that does not exist in this
-  // direction ends the program, as an invalid channel does; its count is 0.
+  // Channels by number, for programs that compute the number. Access to a channel that does not exist, or not
+  // in this direction, ends the program; the count of such a channel is 0.
 
   virtual std::uint32_t read_channel(unsigned channel) = 0;
   virtual void write_channel(unsigned channel, std::uint32_t value) = 0;
   virtual std::uint32_t channel_count(unsigned channel) = 0;
 
   /// Enables SPU interrupts: while they are enabled and the event status has a count, `handler` runs before
-  /// the next channel access, with interrupts disabled. It is called again until it has read the event
+  /// the next channel access, with interrupts disabled. `handler` is called again until it has read the event
   /// status.
   virtual void enable_interrupts(std::function<void(Spu&)> handler) = 0;
-  /// Enables interrupts again, with the handler that was given last. Throws SpeError if there was none.
+  /// Enables interrupts again, with the last handler. Throws SpeError if there was no handler.
   virtual void enable_interrupts() = 0;
   virtual void disable_interrupts() = 0;
   /// Calls `handler` if the event status has a count (bisled).
@@ -139,7 +140,7 @@ public:
   virtual std::uint64_t cycles() = 0;
 
 protected:
-  /// Makes the SPU. `site` receives the place of every operation before the operation.
+  /// Makes the SPU. `site` is set to the place of every operation before the operation.
   Spu(std::uint32_t id, std::uint32_t count, const void* local_store, SpeRecorder* recorder, CallSite& site)
       : id_(id), count_(count), local_store_(reinterpret_cast<std::uintptr_t>(local_store)),
         recorder_(recorder), call_site_(site) {}

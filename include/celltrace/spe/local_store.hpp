@@ -1,9 +1,10 @@
-// Static objects of SPE programs, which lie in local store on the emulated Cell as on the real one.
+// LocalStore: static objects of SPE programs that lie in local store, on the emulated Cell as on a real Cell.
 //
 //   static celltrace::LocalStore<float[2][2048]> samples;
 //   mfc_get((*samples)[0], ea, sizeof (*samples)[0], tag, 0, 0);
 //
-// A plain static object on a PC lies in the host's memory, once for all SPEs; no DMA command can reach it.
+// A plain static object on a PC would lie in the host's memory, shared by all SPEs, and no DMA command could
+// reach it.
 #pragma once
 
 #ifndef __SPU__
@@ -14,9 +15,9 @@
 
 namespace celltrace {
 
-/// A T that every SPE has one of, aligned to `alignment` (a power of two, at least 16). It is all zero when
-/// the SPE's program first uses it, and destroyed when the program ends. On a PC, access throws SpeError if
-/// no SPE program runs.
+/// An object of type T in each SPE, aligned to `alignment` (a power of two, at least 16). The object is all
+/// zero when the SPE's program first uses it, and gone when the program ends. On a PC, access throws SpeError
+/// if no SPE program runs on the thread.
 template <class T, unsigned alignment = 128> class LocalStore {
   static_assert(alignment >= 16 && (alignment & (alignment - 1)) == 0, "a power of two, at least 16");
 

@@ -1,5 +1,5 @@
 // Counts the work of a kernel on the emulated SPU: the instructions that a real SPU would issue for the
-// operations of the SIMD facade, and those that the kernel declares by compute().
+// operations of the SIMD facade, and the instructions that the kernel declares by compute().
 #pragma once
 
 #include "celltrace/spe/spu.hpp"
@@ -22,21 +22,22 @@ struct UnitCounts {
   std::uint64_t br = 0;   ///< branch, orx
 };
 
-/// Instructions counted since the last take_operation_counts(); see cycles_of() in pipeline.hpp.
+/// Instructions counted since the last take_operation_counts(); see cycles of declared scalar work:
+/// ScalarWork::waits and misses_of() in pipeline.hpp.
 struct OperationCounts {
-  /// Instructions that are issued for each of the four quadwords of a packet, which do not depend on each
-  /// other.
+  /// Instructions that are issued once for each of the four quadwords of a packet; the quadwords do not
+  /// depend on each other.
   UnitCounts packet;
-  /// Instructions of which each depends on the one before.
+  /// Instructions that each depend on the instruction before.
   UnitCounts chain;
-  /// Scalar work that kernels declare, with its waits below.
+  /// Scalar work that kernels declare by compute().
   UnitCounts scalar;
   std::uint64_t waits = 0, misses = 0; ///< cycles
-  std::uint64_t moves = 0;             ///< those loads and stores that copy whole quadwords
+  std::uint64_t moves = 0;             ///< loads and stores among `scalar` that copy whole quadwords
 };
 
-/// The counts of the kernel that runs on this host thread. With initial-exec, constant initialisation, and
-/// everything below always inlined, counting is an addition to memory per unit and basic block, some 15 % of
+/// The counts of the kernel that runs on this host thread. Because of initial-exec, constant initialisation
+/// and always-inlined functions, counting takes one addition to memory per unit and basic block, some 15 % of
 /// the time of a kernel that only computes. With a function call per operation, kernels would take twice as
 /// long.
 inline constinit thread_local OperationCounts operation_counts
@@ -49,12 +50,12 @@ inline OperationCounts take_operation_counts() {
   return taken;
 }
 
-// The functions below count the instructions of one operation. Most of the numbers are 0, which is known at
-// compile time. The fields are named one by one, because GCC 12's undefined-behaviour sanitizer takes a
-// reference to part of a thread-local for null.
+// The functions below count the instructions of one operation. Most numbers are 0 at compile time, so that
+// their additions vanish. Each field is named, instead of a reference to part of `operation_counts`, because
+// GCC 12's undefined-behaviour sanitizer takes such a reference to a thread-local for null.
 
-/// Counts instructions that are issued once for each of the four quadwords of a packet; the four are
-/// independent of each other, the instructions are a chain.
+/// Counts a chain of dependent instructions that is issued for each of the four quadwords of a packet; the
+/// four chains are independent of each other.
 [[gnu::always_inline]] inline void count_packet(const UnitCounts& n) {
   if (n.fx2 != 0) operation_counts.packet.fx2 += n.fx2;
   if (n.fx3 != 0) operation_counts.packet.fx3 += n.fx3;
@@ -65,7 +66,7 @@ inline OperationCounts take_operation_counts() {
   if (n.shuf != 0) operation_counts.packet.shuf += n.shuf;
   if (n.br != 0) operation_counts.packet.br += n.br;
 }
-/// Counts instructions that are issued once, each of which needs the result of the one before.
+/// Counts instructions that are issued once, and each need the result of the instruction before.
 [[gnu::always_inline]] inline void count_chain(const UnitCounts& n) {
   if (n.fx2 != 0) operation_counts.chain.fx2 += n.fx2;
   if (n.fx3 != 0) operation_counts.chain.fx3 += n.fx3;
@@ -77,8 +78,8 @@ inline OperationCounts take_operation_counts() {
   if (n.br != 0) operation_counts.chain.br += n.br;
 }
 
-/// Counts scalar work that a kernel declares. A scalar load or store comes with a shuffle; loads and stores
-/// without one copy quadwords from one place to another.
+/// Counts scalar work that a kernel declares. A scalar load or store comes with a shuffle. Loads and stores
+/// beyond the number of shuffles count as copies of whole quadwords.
 [[gnu::always_inline]] inline void count(const ScalarWork& work) {
   if (work.fixed != 0) operation_counts.scalar.fx2 += work.fixed;
   if (work.shift != 0) operation_counts.scalar.fx3 += work.shift;

@@ -1,5 +1,5 @@
-// An SPE program as the PPE handles it: a name, its entry points, one per kind of SPU that it was compiled
-// for, and its machine code for SPUs that execute it.
+// SpeProgram, an SPE program as the PPE handles it: a name, an entry point for each SPU type that the program
+// was compiled for, and machine code for SPUs that execute machine code.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -22,15 +22,15 @@ struct LocalStoreUse {
   unsigned stack_bytes = 0;
 };
 
-/// The exception by which a program of host code on the emulated Cell ends as if it had returned with this
-/// exit code.
+/// The exception that ends a program of host code on the emulated Cell, as if the program had returned with
+/// this exit code.
 struct CELLTRACE_EXPORT SpeExit {
   std::uint32_t code;
 };
 
 /// A kernel compiled for one or more backends. `Spu::kKey` names the SPU type ("cell_emu", "native.avx2",
-/// ...); the machine picks the entry or the image whose key fits it best. Copyable; must not change while a
-/// machine runs it.
+/// ...); a machine picks the entry or the image whose key fits the machine best. Copyable; must not change
+/// while a machine runs it.
 class SpeProgram {
 public:
   /// An entry point; `spu` is the address of the backend's Spu object.
@@ -50,8 +50,8 @@ public:
     return *this;
   }
 
-  /// Adds machine code: an ELF executable, whose bytes must outlive the program and its copies; they are not
-  /// checked here. The key "cell_sim" stands for a kernel with the main() of backends/spu/main.cpp;
+  /// Adds machine code: the bytes of an ELF executable, which must outlive the program and its copies. Does
+  /// not check the bytes. The key "cell_sim" stands for a kernel with the main() of backends/spu/main.cpp;
   /// "elf" for a stand-alone program, main(speid, argp, envp), whose argp is the argument of
   /// Machine::start().
   SpeProgram& add_image(std::string key, std::span<const std::uint8_t> elf) {
@@ -68,7 +68,7 @@ public:
 
   const std::string& name() const noexcept { return name_; }
   const std::optional<LocalStoreUse>& local_store_use() const noexcept { return local_store_use_; }
-  /// Returns the entry for an SPU type, or an empty one if the program was not compiled for it.
+  /// Returns the entry for an SPU type; empty if the program was not compiled for this type.
   Entry entry(const std::string& key) const noexcept {
     const auto found = entries_.find(key);
     return found == entries_.end() ? nullptr : found->second;

@@ -40,7 +40,7 @@ struct alignas(16) Quadword {
     return q;
   }
 
-  /// Load and store 16 bytes as they lie in local store.
+  /// Load and store 16 bytes in the byte order of a real SPU's local store, big-endian.
   static Quadword load(const std::uint8_t* from) {
     Quadword q;
     std::memcpy(q.bytes, from, 16);

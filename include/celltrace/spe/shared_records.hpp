@@ -1,4 +1,5 @@
-// Records in main memory that the PPE and a machine's SPEs both use, whatever the byte order of each.
+// SharedRecords: arrays in main memory that the PPE and a machine's SPEs both use, even if their byte orders
+// differ.
 #pragma once
 
 #include "celltrace/spe/byte_order.hpp"
@@ -16,9 +17,10 @@
 
 namespace celltrace {
 
-/// An array of a number type, or of a record that has fields_of(). The PPE uses it in the host's order, the
-/// SPEs in theirs. If the two orders are the same there is one array, and publish() and fetch() do nothing;
-/// else there are two arrays, which they copy. Either side sees the writes of the other only after that.
+/// An array of a number type, or of a record that has fields_of(). The PPE uses the array in the host's byte
+/// order, SPEs in the SPUs'. If these orders are equal there is one array, and publish() and fetch() do
+/// nothing. Otherwise there are two arrays: the SPEs see the PPE's writes after publish(), the PPE sees the
+/// SPEs' writes after fetch().
 ///
 /// Thread safety: as a standard container; SPEs count as threads that use the array at ea().
 template <class Record> class SharedRecords {
@@ -27,8 +29,8 @@ template <class Record> class SharedRecords {
 public:
   /// Makes an empty array.
   SharedRecords() = default;
-  /// Makes an array of `count` zeroed records for a machine whose SPUs have this order. Throws
-  /// std::bad_alloc.
+  /// Makes an array of `count` zeroed records for a machine whose SPUs have the byte order `spe_order`.
+  /// Throws std::bad_alloc.
   SharedRecords(std::size_t count, std::endian spe_order) : converts_(spe_order != std::endian::native) {
     resize(count);
     clear();
@@ -40,8 +42,8 @@ public:
   Record& operator[](std::size_t index) noexcept { return data()[index]; }
   const Record& operator[](std::size_t index) const noexcept { return data()[index]; }
 
-  /// Returns the address of a record for the SPEs. The first one is 128-byte aligned, and all bytes of the
-  /// last one's cache line exist.
+  /// Returns the effective address of a record for the SPEs. The first record is 128-byte aligned; the memory
+  /// includes the whole cache line of the last record.
   ea_t ea(std::size_t index = 0) const noexcept {
     const Line* lines = converts_ ? theirs_.get() : ours_.get();
     return reinterpret_cast<std::uintptr_t>(lines) + index * sizeof(Record);
@@ -78,7 +80,7 @@ private:
   }
   Record* data() const noexcept { return reinterpret_cast<Record*>(ours_.get()); }
 
-  /// Makes room for `count` records with indeterminate contents.
+  /// Makes room for `count` records, whose contents are indeterminate.
   void resize(std::size_t count) {
     const std::size_t lines = lines_of(count);
     if (lines > capacity_) {
@@ -97,7 +99,7 @@ private:
   }
 
   bool converts_ = false;
-  std::size_t count_ = 0, capacity_ = 0; ///< capacity: lines
+  std::size_t count_ = 0, capacity_ = 0; ///< records, and lines that fit into the allocated memory
   std::unique_ptr<Line[]> ours_, theirs_;
 };
 

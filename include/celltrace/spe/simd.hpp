@@ -1,6 +1,5 @@
-// The SIMD facade: the operations that `Spu::simd` offers to kernels. This header documents it and holds what
-// all implementations share; simd_host.hpp implements it over xsimd, the spu backend over the SPU's
-// intrinsics.
+// The SIMD facade: the operations that `Spu::simd` offers to kernels. This header documents the facade.
+// simd_host.hpp implements it over xsimd, backends/spu over the SPU's intrinsics.
 //
 // A ray packet is 4x4 rays, 16 lanes in structure-of-arrays form: four 128-bit vectors on an SPU, one 512-bit
 // vector on AVX-512. Lane l is ray (l % 4, l / 4). Types, all plain values without alignment demands on the
@@ -34,23 +33,24 @@
 //   spread(uint32 bits, uint32 lanes): moves bit i of `bits` to the i-th bit that is set in `lanes`
 //
 // `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes: 16, or the 4 of one quadword
-// if local store is short. It has F, I and M with all of the above but load_words, extremes, join,
-// transpose_quads and the types of four: rare code works on the lanes of a packet part by part. A facade of 4
-// lanes has part(F of Spu::simd, first) and set_part(F& of Spu::simd, first, F), `first` a multiple of 4.
-// Both facades have
+// if local store is short, and then rare code works on the lanes of a packet part by part. It has F, I and M
+// with all operations above except load_words, extremes, join and transpose_quads; it has no F4 and U4. A
+// facade of 4 lanes has part(F of Spu::simd, first), which returns lanes first to first + 3, and set_part(F&
+// of Spu::simd, first, F), which replaces these lanes; `first` is a multiple of 4. Both facades have
 //
-//   sum_rows<rows>(const float* table, starts_of, factors_of, F (&sums)[channels]): for each lane, the sum
-//   of some rows of the table, times factors. starts_of(lane, uint32_t (&starts)[rows]) returns in `starts`
-//   where in the table the rows of a lane start, anywhere. Two lanes have the same starts if
-//   starts_of.keys(i), an aligned const int32_t[kLanes], is equal for both, for each i below StartsOf::kKeys;
-//   some implementations use the keys. Others call starts_of.find_indices(look_up, int32_t
-//   (&)[rows][kLanes]), which returns indices of all lanes' rows; starts_of.start(index) turns one into a
-//   start. look_up(const uint16_t* table, index_of, Numbers (&numbers)[n]) helps to find them: for each lane,
-//   it sets numbers[i] to the table's number at index_of(lane, i). LookUp::Numbers is an I, whose operations
-//   emulations do not count. factors_of(row, F (&factors)[4]) returns a row's four factors, and may be
-//   called more than once. A row has four numbers for each channel, one after the other: those of channel c
-//   are multiplied by the four factors of the row, and added up to sums[c]. The rows are added up in their
-//   order, then the four numbers as (0 + 1) + (2 + 3). Up to 16 bytes behind the last row may be read.
+//   sum_rows<rows>(const float* table, starts_of, factors_of, F (&sums)[channels]): for each lane, the sum of
+//   some rows of the table, times factors. A row has four numbers for each channel, one after the other:
+//   those of channel c are multiplied by the four factors of the row, and added up to sums[c]. The rows are
+//   added up in their order, then the four numbers as (0 + 1) + (2 + 3). Up to 16 bytes behind the last row
+//   may be read. starts_of(lane, uint32_t (&starts)[rows]) sets `starts` to the indices in the table at which
+//   the rows of a lane start. Two lanes have the same starts if starts_of.keys(i), an aligned const
+//   int32_t[kLanes], has equal numbers for both lanes, for each i below StartsOf::kKeys; some implementations
+//   use the keys. Other implementations call starts_of.find_indices(look_up, int32_t (&)[rows][kLanes]),
+//   which returns indices of all lanes' rows; starts_of.start(index) turns an index into a start.
+//   find_indices may call look_up(const uint16_t* table, index_of, Numbers (&numbers)[n]), which sets lane l
+//   of numbers[i] to the table's number at index_of(l, i). LookUp::Numbers is an I, whose operations emulated
+//   machines do not count. factors_of(row, F (&factors)[4]) returns a row's four factors, and may be called
+//   more than once.
 //
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,

@@ -1,6 +1,7 @@
-// The batches that simd_host.hpp composes its 16 lanes of: xsimd's, if xsimd knows the processor, and batches
-// of four lanes by GCC's and clang's vector extensions for any other. The latter have the operations that
-// simd_host.hpp needs, and give the same bits as SSE2.
+// Batches: the host's vector registers, of which simd_host.hpp composes its 16 lanes. If xsimd knows the
+// processor, its batches are used. For other processors there are batches of four lanes, made with the vector
+// extensions of GCC and clang; they have the operations that simd_host.hpp needs, and give the same bits as
+// SSE2.
 #pragma once
 
 #include <stdint.h>
@@ -20,8 +21,8 @@ namespace celltrace {
 /// An architecture for processors that xsimd does not know.
 struct GenericArch {};
 
-/// The SIMD that every CPU of the build's target has. Builds for one machine define more:
-/// CELLTRACE_BASELINE_SIMD.
+/// The SIMD architecture that every CPU of the build's target has; the CMake option CELLTRACE_BASELINE_SIMD
+/// raises it.
 #if defined(CELLTRACE_BASELINE_AVX512)
 using BaselineArch = xsimd::avx512dq;
 #elif defined(CELLTRACE_BASELINE_AVX2)
@@ -88,7 +89,7 @@ template <class T> struct GenericBatch {
   Bits bits() const { return reinterpret_cast<Bits>(data); }
   static GenericBatch of_bits(Bits lanes) { return reinterpret_cast<register_type>(lanes); }
 
-  // Integers wrap around, which is only defined for unsigned ones.
+  // Integers wrap around: they are added as unsigned integers, whose overflow is defined.
   friend GenericBatch operator+(const GenericBatch& a, const GenericBatch& b) {
     if constexpr (std::is_integral_v<T>)
       return of_bits(a.bits() + b.bits());
@@ -172,7 +173,7 @@ using xsimd::abs, xsimd::bitwise_cast, xsimd::bool_cast, xsimd::floor, xsimd::ma
     xsimd::sqrt, xsimd::to_float, xsimd::to_int, xsimd::zip_hi, xsimd::zip_lo;
 
 #if defined(__aarch64__)
-// xsimd 8 estimates these operations, which does not give IEEE's bits.
+// Replacements for xsimd 8's operations, which are estimates and do not give IEEE's bits.
 inline xsimd::batch<float, xsimd::neon64> divide(const xsimd::batch<float, xsimd::neon64>& a,
                                                  const xsimd::batch<float, xsimd::neon64>& b) {
   return vdivq_f32(a, b);

@@ -1,5 +1,4 @@
-// The SIMD facade of simd.hpp on a host CPU, over simd_batch.hpp: 16 lanes are kSimdLanes / size
-// batches of the architecture.
+// The SIMD facade of simd.hpp on a host CPU: its 16 lanes are kSimdLanes / size batches of simd_batch.hpp.
 //
 // `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq", "xsimd::neon64") or GenericArch; it is
 // part of every type's name, so that translation units compiled for different CPUs share no inline function.
@@ -57,7 +56,7 @@ template <class Batch> void extremes(const Batch& low, const Batch& high, float&
   }
 }
 
-/// 16 lanes, as batches of registers of four lanes each.
+/// 16 lanes as batches, which join() makes of four registers of four lanes.
 template <class Batch> struct Joined { Batch part[kSimdLanes / Batch::size]; };
 template <class Batch, class Four>
 Joined<Batch> join(const Four& a, const Four& b, const Four& c, const Four& d) {

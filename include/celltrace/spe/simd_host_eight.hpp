@@ -7,7 +7,8 @@
 
 namespace celltrace {
 
-/// `Simd` is a HostSimd, part of the name so that units compiled for different CPUs share no inline function.
+/// Eight floats. `Simd` is a HostSimd; it is part of the type's name, so that translation units compiled for
+/// different CPUs share no inline function.
 template <class Simd> struct HostEight {
   using Batches = simd_host::Batches<float, typename Simd::FloatBatch::arch_type>;
   using Part =
@@ -35,7 +36,7 @@ template <class Simd> struct HostEight {
   friend HostEight operator*(const HostEight& a, const HostEight& b) {
     return make([&](uint32_t i) { return a.part[i] * b.part[i]; });
   }
-  /// Returns a * b - c, rounded once or twice.
+  /// Returns a * b - c, rounded once (fused) or twice.
   friend HostEight multiply_subtract(const HostEight& a, const HostEight& b, const HostEight& c) {
     return make([&](uint32_t i) {
 #if defined(__AVX512VL__)

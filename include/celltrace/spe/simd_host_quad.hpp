@@ -6,7 +6,8 @@
 
 namespace celltrace {
 
-/// `Simd` is a HostSimd, part of the name so that units compiled for different CPUs share no inline function.
+/// Types of four lanes. `Simd` is a HostSimd; it is part of the type's name, so that translation units
+/// compiled for different CPUs share no inline function.
 template <class Simd> struct HostQuad {
   using Batch = typename Simd::F4::Batch;
   static constexpr uint32_t kLanes = 4;
@@ -33,7 +34,9 @@ template <class Simd> struct HostQuad {
     friend F operator-(const F& a, const F& b) { return a.lanes - b.lanes; }
     friend F operator*(const F& a, const F& b) { return a.lanes * b.lanes; }
     friend F operator/(const F& a, const F& b) { return simd_host::divide(a.lanes, b.lanes); }
-    friend F operator-(const F& a) { return a.lanes ^ Batch(-0.0f); } // also right for zeros
+    friend F operator-(const F& a) {
+      return a.lanes ^ Batch(-0.0f);
+    } // flips the sign bit: 0 - a would give zeros the wrong sign
     friend M operator<(const F& a, const F& b) { return {a.lanes < b.lanes}; }
     friend M operator<=(const F& a, const F& b) { return {a.lanes <= b.lanes}; }
     friend M operator>(const F& a, const F& b) { return b < a; }
@@ -44,7 +47,7 @@ template <class Simd> struct HostQuad {
   static F max(const F& a, const F& b) { return simd_host::max(a.lanes, b.lanes); }
   static F abs(const F& a) { return simd_host::abs(a.lanes); }
   static F select(const M& m, const F& a, const F& b) { return simd_host::select(m.lanes, a.lanes, b.lanes); }
-  /// Transposes the 4x4 numbers.
+  /// Transposes the 4x4 numbers whose rows are `a` to `d`.
   static void transpose(F& a, F& b, F& c, F& d) {
     simd_host::transpose_quads(a.lanes, b.lanes, c.lanes, d.lanes);
   }

@@ -1,6 +1,6 @@
-// Sums of rows of a table, as sum_rows() of Spu::simd has to compute them, on the host: all lanes at
-// once if their rows are the same, otherwise lane by lane. Both ways do the same operations in the
-// same order.
+// The host's implementation of sum_rows() of Spu::simd (simd.hpp), which sums rows of a table: for all lanes
+// at once if their rows are the same, otherwise lane by lane. Both ways do the same operations in the same
+// order.
 #pragma once
 
 #include "celltrace/spe/simd_batch.hpp"
@@ -47,7 +47,7 @@ template <class Batch> [[gnu::always_inline]] inline void keep_in_order([[maybe_
 #endif
 }
 
-/// Calls `body` with each of the numbers, without a loop, so that its arrays stay in registers.
+/// Calls `body` with each index, without a loop, so that arrays of `body` stay in registers.
 template <std::size_t... i, class Body>
 [[gnu::always_inline]] inline void unroll(std::index_sequence<i...>, const Body& body) {
   (body(i), ...);
@@ -69,7 +69,7 @@ template <class S, uint32_t kRows, uint32_t kChannels> struct RowSums {
     const uint32_t others = ~lanes_like(starts_of, 0) & ((1u << kLanes) - 1);
     uint32_t second = 0;
     if (others != 0) {
-      // Two sums over all lanes are faster than one for each lane if one register holds all lanes.
+      // If one register holds all lanes, summing twice for all lanes is faster than once for each lane.
       if constexpr (S::kParts == 1) second = lanes_like(starts_of, first_of(others));
       if ((others & ~second) != 0) return sum_by_lane(table, starts_of, factors_of, sums);
     }
@@ -92,8 +92,8 @@ private:
     return same.bits();
   }
 
-  /// Sums the rows of one lane for all lanes, row by row and part by part, so that the sums and a row's
-  /// factors stay in registers.
+  /// Computes the sums of all lanes from the rows of one lane. The order, row by row and part by part, keeps
+  /// the sums and a row's factors in registers.
   template <class StartsOf, class FactorsOf>
   [[gnu::always_inline]] static void sum_like(const float* table, const StartsOf& starts_of, uint32_t lane,
                                               const FactorsOf& factors_of, F (&sums)[kChannels]) {
@@ -130,9 +130,9 @@ private:
   }
 
 #if defined(__AVX512F__)
-  /// Looks up numbers of a table into their lanes in registers: storing them one by one takes twice as
-  /// long. Handles half the lanes at a time, so that values that several numbers share stay in registers,
-  /// too.
+  /// The `look_up` that starts_of.find_indices() gets (simd.hpp). It inserts numbers of the table into lanes
+  /// of registers, because storing them one by one takes twice as long. It handles half the lanes at a time,
+  /// so that values that several indices share stay in registers, too.
   struct LookUp {
     using Numbers = typename S::I;
 
@@ -165,16 +165,16 @@ private:
     }
   };
 
-  /// Loads a row by one unaligned load for each pair of channels, and one for the last of an odd number.
-  /// Four lanes share one register, or two for pairs: lane 4q + i is the q-th quarter of the i-th
-  /// register of four.
+  /// Sums lane by lane. Loads a row by one unaligned load for each pair of channels, and one load for the
+  /// last channel if their number is odd. A channel's numbers of all lanes take four registers: lane 4q + i
+  /// is the q-th quarter of the i-th register.
   template <class StartsOf, class FactorsOf>
   requires(kLanes == 16)
       static void sum_by_lane(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                               F (&sums)[kChannels]) {
     alignas(64) int32_t indices[kRows][kLanes];
     starts_of.find_indices(LookUp(), indices);
-    asm("" : "+m"(indices)); // keeps compilers from taking the numbers out of their registers
+    asm("" : "+m"(indices)); // makes compilers store the indices, instead of extracting them from registers
     Batch four[kChannels][4];
     // Pairs of channels, side by side: `low` has lanes i and i + 4, `high` lanes i + 8 and i + 12.
     Batch low[kPairs + 1][4], high[kPairs + 1][4];
@@ -220,7 +220,8 @@ private:
     }
   }
 #endif
-  /// Loads a row by one unaligned load a channel: gathering would take a load for each number.
+  /// Sums lane by lane. Loads a row by one unaligned load for each channel; gathering would take a load for
+  /// each number.
   template <class StartsOf, class FactorsOf>
   static void sum_by_lane(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                           F (&sums)[kChannels]) {
@@ -235,7 +236,8 @@ private:
     }
     alignas(64) float of_lane[kChannels][kLanes];
     for (uint32_t quad = 0; quad < kLanes / 4; ++quad) {
-      // By channel or pair of channels: the four sums of each of four lanes.
+      // The four sums of each of four lanes, by pair of channels, and by channel for a channel without a
+      // pair.
       Pair pairs[kPairs + 1][4];
       F4 singles[kChannels][4];
       unroll<4>([&](std::size_t i) __attribute__((always_inline)) {
@@ -265,7 +267,7 @@ private:
   }
 
 #if defined(__AVX__)
-  /// Four factors, twice side by side.
+  /// Four factors, repeated in the upper half of a register.
   struct Factors {
     __m256 twice;
 
@@ -273,7 +275,8 @@ private:
         : twice(_mm256_broadcast_ps(reinterpret_cast<const __m128*>(four))) {}
     [[gnu::always_inline]] F4 once() const { return {typename F4::Batch(_mm256_castps256_ps128(twice))}; }
   };
-  /// The four sums of two channels side by side: one load and one product serve both.
+  /// The four sums of two channels, side by side in a register, so that one load and one product serve both
+  /// channels.
   struct Pair {
     __m256 eight;
 

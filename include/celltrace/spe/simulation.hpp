@@ -14,18 +14,21 @@
 
 namespace celltrace {
 
-/// The cycles of programs, by word of local store. Programs that replace their code share
-/// the words. Thread safety: several SPEs may add at once; read it when none runs.
+/// The cycles of programs, by word of local store. If programs overlay code, the cycles of all code at a word
+/// are added up. Thread safety: several SPEs may add at once; read the profile when no SPE runs.
 class CELLTRACE_EXPORT SpuProfile {
 public:
   struct Word {
-    std::uint64_t hits = 0;   ///< times that the instruction was issued
-    std::uint64_t cycles = 0; ///< cycles from the issue before to its own, plus the stall of its channel
-    std::uint64_t dual = 0;   ///< issues together with the instruction before it
+    std::uint64_t hits = 0; ///< times that the instruction was issued
+    /// Cycles from the issue of the instruction before to this instruction's issue, plus the stall at its
+    /// channel.
+    std::uint64_t cycles = 0;
+    /// Times that the instruction was issued together with the instruction before it.
+    std::uint64_t dual = 0;
     // Parts of `cycles`, by the cause of the delay.
     std::uint64_t dependency = 0, branch_miss = 0, prefetch_miss = 0, hint_target = 0, fp_resource = 0,
                   channel = 0;
-    std::uint32_t instruction = 0; ///< the word as it was last executed
+    std::uint32_t instruction = 0; ///< the instruction that the word held when it was last executed
   };
 
   static constexpr std::uint32_t kWords = 65536;
@@ -42,16 +45,17 @@ private:
 
 /// Options of `cell_sim`.
 struct SimulationConfig {
-  /// Receive the text that programs write to their standard output and error output, in pieces; null: it is
-  /// dropped. Called by one thread at a time.
+  /// Receive the text that programs write to their standard output and error output, in pieces; null: the
+  /// text is dropped. Called by one thread at a time.
   std::function<void(std::string_view)> output, error_output;
-  /// argv of stand-alone programs, from argv[0], the program's name, on. A program that is linked with
-  /// -mstdmain finds it in its local store, as main(argc, argv). For any other program, if there is more than
-  /// argv[0], argp is the effective address of an argv in the format of a 64-bit PPE (big-endian effective
-  /// addresses of strings, and a 0) instead of the argument of Machine::start().
+  /// Arguments (argv) of stand-alone programs, beginning with the program's name. A program that is linked
+  /// with -mstdmain has main(argc, argv) and gets the arguments in its local store. Any other program, if
+  /// there are arguments besides the name, gets as argp, in place of the argument of Machine::start(), the
+  /// effective address of an argv in the format of a 64-bit PPE: big-endian effective addresses of strings,
+  /// and a 0.
   std::vector<std::string> arguments;
-  /// Standard input of programs, and a function that returns further pieces when they have read it all, "" at
-  /// the end; null: there is no more. Called by one thread at a time.
+  /// Standard input of programs, and a function that returns further input when programs have read all of
+  /// `input`, "" at the end; null: there is no further input. Called by one thread at a time.
   std::string input;
   std::function<std::string()> more_input;
   /// Folders in which programs may open, read, write, make and remove files; none: no files.

@@ -1,9 +1,8 @@
 // The SPE's side of the runtime: the operations that a kernel may use on its SPU.
 //
 // A kernel is `template <class Spu> void kernel(Spu& spu, ea_t argument)`. It is compiled once per backend;
-// `Spu` is that backend's type and derives from `SpuBase<Spu>` below, which spells every operation in terms
-// of the Cell's channels and MFC commands. A backend provides, besides the constructor that its machine
-// calls:
+// `Spu` is the backend's type. It derives from `SpuBase<Spu>` below, which expresses every operation by the
+// Cell's channels and MFC commands. A backend provides, besides the constructor that its machine calls:
 //
 // clang-format off
 //   static constexpr bool direct_memory      an ea can be dereferenced: reads need no DMA (see cache.hpp, stream.hpp)
@@ -23,12 +22,11 @@
 // clang-format on
 //
 // Threads: a Spu belongs to the thread that runs its kernel; no other thread may call its operations.
-// Other SPEs and the PPE may only touch the mapped registers and local stores, through DMA and through
-// Machine.
+// Other SPEs access its mapped registers and local store by DMA, the PPE by Machine.
 //
 // Errors: an operation that breaks a rule of the architecture (size, alignment, tag, local-store address,
-// unmapped register) ends the kernel with an error that names the rule, the SPE and the addresses on
-// `cell_emu`; it is not checked on `native`, and does what the hardware does on `spu`.
+// unmapped register) ends the kernel on `cell_emu` with an error that names the rule, the SPE and the
+// addresses. `native` does not check operations; on `spu` the hardware decides.
 //
 // Local store: every `ls` pointer below points into local store, that is into memory that allocate()
 // returned. Kernel variables on the stack are not DMA targets.
@@ -43,7 +41,7 @@
 
 namespace celltrace {
 
-/// A bump allocator's state: [begin, end) is local store, `next` the first free byte.
+/// The state of a bump allocator of local store: [begin, end) is its memory, `next` the first free byte.
 struct ArenaState {
   uint8_t* begin;
   uint8_t* end;
@@ -56,7 +54,7 @@ struct ScalarWork {
   uint32_t floating = 0; ///< single precision operations
   uint32_t memory = 0;   ///< loads and stores of local store
   uint32_t shuffle =
-      0; ///< shuffles; one of them comes with every scalar load or store that is not in the preferred slot
+      0; ///< shuffles and rotations; one comes with every scalar load or store outside of the preferred slot
   uint32_t branches = 0;      ///< branches of all kinds
   uint32_t shift = 0;         ///< word shifts and rotations
   uint32_t waits = 0;         ///< cycles that these instructions wait for each other's results
@@ -71,14 +69,14 @@ public:
   /// Makes a code module resident. Call it before functions of the module are called; it stays until another
   /// module of its region is entered. Does nothing on backends whose code is not in local store.
   void enter_module(const CodeModule&) {}
-  /// Checks, on cell_emu, that a function's module is resident. Functions of a module call it.
+  /// Checks, on cell_emu, that a module is resident. Functions of the module call this.
   void run_in_module(const CodeModule&) {}
 
   // --- local store ---
 
   /// Returns `count` value-initialised objects in local store, aligned to `alignment` (a power of two, at
   /// least 16). Halts the SPE with local_store_exhausted if they do not fit, with bad_argument for another
-  /// alignment. There is no free; see mark() and release().
+  /// alignment. Memory is freed by mark() and release() only.
   template <class T>
   T* allocate(uint32_t count = 1, uint32_t alignment = kLineBytes, CallSite site = CallSite::here()) {
     if (alignment < 16 || (alignment & (alignment - 1)) != 0) self().halt_at(HaltCode::bad_argument, site);
@@ -97,7 +95,8 @@ public:
     }
     return objects;
   }
-  /// Returns the present fill of the arena; release() frees everything that was allocated since.
+  /// Returns the arena's first free byte, for release(), which frees everything that was allocated after
+  /// mark().
   uint8_t* mark() { return self().arena().next; }
   void release(uint8_t* marked) { self().arena().next = marked; }
   /// Returns the number of free bytes.
@@ -107,7 +106,8 @@ public:
   // `size` is 1, 2, 4, 8 or a multiple of 16 up to 16 KB; ls and ea agree in their low four bits and are
   // naturally aligned (16 bytes from size 16 on). `tag` is 0..31 (31 is the runtime's own, see kRuntimeTag).
   // A call stalls while the queue of 16 is full; the data may move at any time until a wait has observed
-  // the tag's completion. Suffix f: after all earlier commands of the tag; b: also before all later ones.
+  // the tag's completion. Suffix f (fence): the command starts after all earlier commands of the tag. Suffix
+  // b (barrier): later commands of the tag also wait for it.
 
   void get(void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site = CallSite::here()) {
     command<MfcOpcode::get>(ls, ea, size, tag, site);
@@ -129,8 +129,8 @@ public:
   }
 
   // Lists: `list` points to `elements` (at most 2048) ListElements in local store, 8-byte aligned; `ls` is
-  // where the data lie (each element starts at the next 16-byte boundary); `ea` supplies the high half of all
-  // addresses. The list itself must stay unchanged until the tag is complete.
+  // the place of the data, where each element starts at the next 16-byte boundary; `ea` supplies the high
+  // half of all effective addresses. The list itself must stay unchanged until the tag is complete.
 
   void getl(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
             CallSite site = CallSite::here()) {
@@ -157,7 +157,7 @@ public:
     list_command<MfcOpcode::putlb>(ls, ea, list, elements, tag, site);
   }
 
-  /// Orders all earlier commands of the queue, whatever their tag, before all later ones.
+  /// Orders all earlier commands of the queue before all later commands, whatever their tags.
   void mfc_barrier(uint32_t tag, CallSite site = CallSite::here()) {
     command<MfcOpcode::barrier>(nullptr, 0, 0, tag, site);
   }
@@ -197,7 +197,7 @@ public:
     return tag_status(mask, TagUpdate::immediate, site);
   }
 
-  /// Returns the tag groups whose lists stopped at a notify element; stalls until there is one.
+  /// Returns the tag groups whose lists stopped at a notify element; stalls until a list has stopped.
   uint32_t read_list_stall_status(CallSite site = CallSite::here()) {
     return read<Channel::rd_list_stall_stat>(site);
   }
@@ -248,8 +248,9 @@ public:
     command<MfcOpcode::sndsig>(word, which == Signal::one ? to.signal_1 : to.signal_2, 4, kRuntimeTag, site);
     wait_all(1u << kRuntimeTag, site);
   }
-  /// Writes a word to the inbound mailbox of SPE `spe`. A full mailbox loses its newest word, so the protocol
-  /// between the SPEs has to bound the number of words under way. Returns when the word has been delivered.
+  /// Writes a word to the inbound mailbox of SPE `spe`. The word replaces the newest word of a full mailbox,
+  /// so the protocol between the SPEs has to bound the number of words under way. Returns when the word has
+  /// been delivered.
   void send_mailbox(uint32_t spe, uint32_t value, CallSite site = CallSite::here()) {
     uint32_t* word = outgoing_word(value);
     command<MfcOpcode::put>(word, self().addresses(spe).in_mailbox, 4, kRuntimeTag, site);
@@ -257,16 +258,16 @@ public:
   }
 
   // --- events ---
-  // Pending bits accumulate whatever the mask. The count of the status becomes 1 when an enabled event
-  // occurs, or when a write of the mask or an acknowledge leaves enabled events pending; only a read clears
-  // it. A status of 0 (phantom event: masked or acknowledged after the count rose) is normal and must be
-  // tolerated.
+  // Events become pending even if the mask disables them. The count of the event status becomes 1 when an
+  // enabled event occurs, or when an enabled event is still pending after a write of the mask or an
+  // acknowledge; only a read of the status makes the count 0. The status can be 0 (phantom event), if an
+  // event was masked or acknowledged after the count rose; programs must tolerate this.
 
   void write_event_mask(uint32_t mask, CallSite site = CallSite::here()) {
     write<Channel::wr_event_mask>(mask, site);
   }
   uint32_t read_event_mask(CallSite site = CallSite::here()) { return read<Channel::rd_event_mask>(site); }
-  /// Returns pending & mask; stalls until the count is 1. Clears no pending bit.
+  /// Returns the pending events that the mask enables; stalls until the count is 1. The events stay pending.
   uint32_t read_event_status(CallSite site = CallSite::here()) { return read<Channel::rd_event_stat>(site); }
   uint32_t event_count(CallSite site = CallSite::here()) { return count_of<Channel::rd_event_stat>(site); }
   void acknowledge_events(uint32_t mask, CallSite site = CallSite::here()) {
@@ -283,26 +284,26 @@ public:
 
   // --- run control ---
 
-  /// Stops with a 14-bit code. 0x2000..0x20FF end the program as if it returned; after any other code the SPE
-  /// waits for Machine::resume(). The code is a template argument because it is part of the real SPU's
-  /// instruction.
+  /// Stops with a 14-bit code. Codes 0x2000..0x20FF end the program as if it returned; after any other code
+  /// the SPE waits for Machine::resume(). The code is a template argument because it is part of the real
+  /// SPU's instruction.
   template <uint32_t code> void stop_and_signal(CallSite site = CallSite::here()) {
     static_assert(code < 0x4000, "a stop code has 14 bits");
     self().at(site);
     self().template stop<code>();
   }
 
-  // --- for machines that measure; elsewhere these members do nothing ---
+  // --- for emulated machines, which measure and check; elsewhere these members do nothing ---
 
   /// Declares scalar work that the SIMD facade does not see.
   void compute(const ScalarWork&) {}
-  /// Marks a moment in the trace. `what` is a string literal.
+  /// Writes a named value into the trace. The name must be a string literal.
   void note(const char*, uint32_t) {}
-  /// Adds a word to the recording of the kernel's object `source` (recorder.hpp).
+  /// Records a word for a recording object of the kernel (recorder.hpp).
   void record(const void*, uint32_t) {}
-  /// Names the place in the kernel of the operation that follows.
+  /// Tells the machine the place of the next operation in the kernel's source.
   void at(CallSite) {}
-  /// Halts, as halt(), because of a call at this place.
+  /// Halts as halt() does, and reports the place of the call that failed.
   [[noreturn]] void halt_at(HaltCode code, CallSite) { self().halt(code); }
 
   /// The DMA tag that send_signal() and send_mailbox() use.
@@ -332,8 +333,8 @@ private:
     self().at(site);
     self().template mfc_command<op>(const_cast<void*>(ls), ea, size, tag);
   }
-  /// Issues a list command, which carries its list's local-store address in the low half of the effective
-  /// address.
+  /// Issues a list command; the backend puts the list's local-store address into the low half of the
+  /// effective address.
   template <MfcOpcode op>
   void list_command(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
                     CallSite site) {
@@ -350,8 +351,8 @@ private:
     write<Channel::wr_tag_update>(static_cast<uint32_t>(request), site);
     return read<Channel::rd_tag_stat>(site);
   }
-  /// Returns the word to send, word 3 of a quadword, because the registers of other SPEs lie at 0xC of a
-  /// quadword.
+  /// Stores the word to send and returns its address. It is word 3 of a quadword, as registers of other SPEs
+  /// are at 0xC of a quadword.
   uint32_t* outgoing_word(uint32_t value) {
     outgoing_[3] = value;
     return outgoing_ + 3;

@@ -1,6 +1,6 @@
-// The generic intrinsics of the C/C++ Language Extensions for Cell that compute, spu_*: one name for the
-// instructions of all element types. A scalar in the place of a vector stands for all elements. The
-// intrinsics do exactly what the SPU does, see spu_instructions.hpp.
+// The generic intrinsics (spu_*) of the C/C++ Language Extensions for Cell that compute: each is one name for
+// the instructions of all element types. A scalar in place of a vector stands for all elements. Results are
+// exactly the SPU's (spu_instructions.hpp).
 #pragma once
 
 #include "celltrace/spe/spu_specific.hpp"
@@ -10,7 +10,8 @@
 
 namespace celltrace::sdk {
 
-/// Returns an operand in its register: a vector, or a scalar for every element of T.
+/// Returns the register of an operand: of a vector, or of a scalar that is repeated in every element of type
+/// T.
 template <class T, class Operand> Quadword operand(const Operand& given) {
   if constexpr (AnyVector<Operand>) {
     static_assert(sizeof(ElementOf<Operand>) == sizeof(T), "operands have elements of one size");
@@ -74,7 +75,7 @@ auto spu_splats(Scalar scalar) {
     all[i] = static_cast<typename decltype(all)::value_type>(scalar);
   return all;
 }
-/// Returns an element, whose number counts modulo the number of elements.
+/// Returns an element of `v`; `element` is taken modulo the number of elements.
 template <celltrace::sdk::AnyVector V> celltrace::sdk::ElementOf<V> spu_extract(const V& v, int element) {
   using Elements = celltrace::sdk::VectorOf<V>;
   return Elements(v)[static_cast<unsigned>(element) % Elements::kElements];
@@ -86,7 +87,7 @@ celltrace::sdk::VectorOf<V> spu_insert(Scalar scalar, const V& v, int element) {
       static_cast<celltrace::sdk::ElementOf<V>>(scalar);
   return result;
 }
-/// Sets the other elements to 0, which are undefined on the SPU.
+/// Returns a vector with one element; the other elements, which are undefined on the SPU, are 0.
 template <class Scalar>
 requires std::is_arithmetic_v<Scalar>
 auto spu_promote(Scalar scalar, int element) {
@@ -108,7 +109,8 @@ inline vec_int4 spu_convts(const vec_float4& a, int scale) {
 inline vec_uint4 spu_convtu(const vec_float4& a, int scale) {
   return celltrace::sdk::unary<unsigned int>(celltrace::isa::Opcode::cfltu, a.quadword(), scale);
 }
-/// Takes elements 0 and 2 of a vec_float4; of integers the lower half of each element of the result.
+/// Returns wider elements: of a vec_float4, elements 0 and 2; of integers, the lower half of each wider
+/// element, sign-extended.
 template <celltrace::sdk::AnyVector V> auto spu_extend(const V& a) {
   using namespace celltrace::sdk;
   using T = ElementOf<V>;
@@ -122,7 +124,7 @@ template <celltrace::sdk::AnyVector V> auto spu_extend(const V& a) {
   else
     return unary<long long>(Opcode::xswd, register_of(a));
 }
-/// Writes the results to elements 0 and 2.
+/// Rounds to single precision, into elements 0 and 2.
 inline vec_float4 spu_roundtf(const vec_double2& a) {
   return celltrace::sdk::unary<float>(celltrace::isa::Opcode::frds, a.quadword());
 }
@@ -136,7 +138,7 @@ template <celltrace::sdk::AnyVector V, class B> celltrace::sdk::VectorOf<V> spu_
       .halfword = Opcode::ah, .word = Opcode::a, .single = Opcode::fa, .doubleword = Opcode::dfa};
   return binary<T>(opcode_for<kAdd, T>(), register_of(a), operand<T>(b));
 }
-/// Subtracts; one of the operands may be a scalar.
+/// Returns a - b; one operand may be a scalar.
 template <class A, class B>
 requires celltrace::sdk::AnyVector<A> || celltrace::sdk::AnyVector<B>
 auto spu_sub(const A& a, const B& b) {
@@ -144,7 +146,7 @@ auto spu_sub(const A& a, const B& b) {
   using T = ElementOf<std::conditional_t<AnyVector<A>, A, B>>;
   if constexpr (std::is_floating_point_v<T>)
     return binary<T>(sizeof(T) == 4 ? Opcode::fs : Opcode::dfs, operand<T>(a), operand<T>(b));
-  else { // "subtract from"
+  else { // the instructions subtract the first operand from the second
     constexpr OpcodeByElement kSubtractFrom{.halfword = Opcode::sfh, .word = Opcode::sf};
     return binary<T>(opcode_for<kSubtractFrom, T>(), operand<T>(b), operand<T>(a));
   }
@@ -174,7 +176,7 @@ CELLTRACE_SPU_CARRY(spu_genb, bg, b, a)
 #undef CELLTRACE_SPU_EXTENDED
 #undef CELLTRACE_SPU_CARRY
 
-/// Returns a * b + c for floating point; for vec_short8 uses the products of the odd elements, and adds a
+/// Returns a * b + c for floating point. For vec_short8, returns the products of the odd elements plus a
 /// vec_int4.
 template <celltrace::sdk::AnyVector V, celltrace::sdk::AnyVector W>
 celltrace::sdk::VectorOf<W> spu_madd(const V& a, const std::type_identity_t<V>& b, const W& c) {
@@ -189,7 +191,7 @@ celltrace::sdk::VectorOf<W> spu_madd(const V& a, const std::type_identity_t<V>& 
     return ternary<T>(opcode_for<kMultiplyAdd, T>(), register_of(a), register_of(b), register_of(c));
   }
 }
-/// Adds the products of the even elements.
+/// Returns the products of the even elements plus `c`.
 template <celltrace::sdk::AnyVector V, celltrace::sdk::AnyVector W>
 celltrace::sdk::VectorOf<W> spu_mhhadd(const V& a, const std::type_identity_t<V>& b, const W& c) {
   using namespace celltrace::sdk;
@@ -227,7 +229,7 @@ celltrace::sdk::VectorOf<V> spu_mul(const V& a, const std::type_identity_t<V>& b
   return binary<T>(opcode_for<kMultiply, T>(), register_of(a), register_of(b));
 }
 
-/// Multiplies the even halfwords of a by the odd ones of b, into the high halfwords of words.
+/// Returns the products of the even halfwords of a and the odd halfwords of b, shifted left by 16.
 inline vec_int4 spu_mulh(const vec_short8& a, const vec_short8& b) {
   return celltrace::sdk::binary<int>(celltrace::isa::Opcode::mpyh, a.quadword(), b.quadword());
 }
@@ -270,7 +272,7 @@ inline vec_uchar16 spu_absd(const vec_uchar16& a, const vec_uchar16& b) {
 inline vec_uchar16 spu_avg(const vec_uchar16& a, const vec_uchar16& b) {
   return celltrace::sdk::binary<unsigned char>(celltrace::isa::Opcode::avgb, a.quadword(), b.quadword());
 }
-/// Sums every four bytes: those of b into the even, those of a into the odd halfword.
+/// Returns the sums of each four bytes: sums of b in the even halfwords, sums of a in the odd halfwords.
 inline vec_ushort8 spu_sumb(const vec_uchar16& a, const vec_uchar16& b) {
   return celltrace::sdk::binary<unsigned short>(celltrace::isa::Opcode::sumb, a.quadword(), b.quadword());
 }
@@ -360,7 +362,7 @@ template <std::integral Bits> vec_uint4 spu_maskw(Bits bits) {
   return celltrace::sdk::unary<unsigned int>(celltrace::isa::Opcode::fsm,
                                              celltrace::sdk::preferred(static_cast<unsigned int>(bits)));
 }
-/// Selects the bits of b where the mask's are 1, else those of a.
+/// Returns the bits of b where the mask has a 1, else the bits of a.
 template <celltrace::sdk::AnyVector V, celltrace::sdk::AnyVector Mask>
 celltrace::sdk::VectorOf<V> spu_sel(const V& a, const std::type_identity_t<V>& b, const Mask& mask) {
   using namespace celltrace::sdk;
@@ -399,7 +401,7 @@ template <celltrace::sdk::AnyVector V> celltrace::sdk::VectorOf<V> spu_orx(const
 
 // --- shifts and rotates of elements ---
 
-// Counts that are too large shift all bits out; spu_rlmask() and spu_rlmaska() shift right by the negative
+// Counts that are too large shift all bits out. spu_rlmask() and spu_rlmaska() shift right by the negated
 // count.
 #define CELLTRACE_SPU_SHIFT(name, of_halfwords, of_words, sign)                                              \
   template <celltrace::sdk::AnyVector V, class Count>                                                        \
@@ -422,8 +424,8 @@ CELLTRACE_SPU_SHIFT(spu_sra, rotmah, rotma, -)
 
 // --- shifts and rotates of the quadword ---
 
-// Shifts by bits use only the low three bits of the count; those by "bytes from bit shift count" the bits
-// above.
+// Shifts by bits use only the low three bits of the count; shifts by "bytes from bit shift count" use the
+// bits above these.
 #define CELLTRACE_SPU_QUADWORD(name, opcode, of_count)                                                       \
   template <celltrace::sdk::AnyVector V> celltrace::sdk::VectorOf<V> name(const V& a, int count) {           \
     using namespace celltrace::sdk;                                                                          \
@@ -443,7 +445,7 @@ CELLTRACE_SPU_QUADWORD(spu_slqwbyte, shlqby, CELLTRACE_COUNT)
 CELLTRACE_SPU_QUADWORD(spu_slqwbytebc, shlqbybi, CELLTRACE_COUNT)
 CELLTRACE_SPU_QUADWORD(spu_srqw, rotqmbi, CELLTRACE_RIGHT)
 CELLTRACE_SPU_QUADWORD(spu_srqwbyte, rotqmby, CELLTRACE_RIGHT)
-// The instruction negates the number of bytes, which is rounded down, so that counts start from 7.
+// The instruction negates the count and rounds it down to bytes: 7 - count makes it shift by count / 8 bytes.
 CELLTRACE_SPU_QUADWORD(spu_srqwbytebc, rotqmbybi, 7u -)
 #undef CELLTRACE_SPU_QUADWORD
 #undef CELLTRACE_COUNT

@@ -1,5 +1,5 @@
-// The SPU's instructions as functions of the host, which compute exactly the same results. The intrinsics
-// of spu_specific.hpp and spu_generic.hpp are made of them.
+// execute() computes SPU instructions on the host, with exactly the SPU's results. The intrinsics of
+// spu_specific.hpp and spu_generic.hpp call it.
 #pragma once
 
 #include "celltrace/export.hpp"
@@ -24,18 +24,18 @@ namespace celltrace::sdk {
 using isa::Opcode;
 using isa::Quadword;
 
-/// Returns the value of register rt after the instruction; `c` is rc, or the old value of rt if the
-/// instruction reads it. `immediate` is the number as in assembly; for conversions the scale 0..127. Throws
-/// InputError for loads, stores, branches and channels.
+/// Returns the value of register rt after the instruction; `a` and `b` are ra and rb; `c` is rc, or the old
+/// value of rt if the instruction reads rt. `immediate` is the number as in assembly; for conversions the
+/// scale 0..127. Throws InputError for loads, stores, branches and channels.
 ///
-/// If an SPE program runs on this thread, its floating-point status is used, its virtual time goes on, and
-/// a halt ends it (Rule::halted). Otherwise every thread has a status of its own, and a halt throws SpeError.
-/// Thread-safe.
+/// If an SPE program runs on this thread, the instruction uses the program's floating-point status and
+/// advances its virtual time, and a halt instruction ends the program (Rule::halted). Otherwise every thread
+/// has a floating-point status of its own, and a halt throws SpeError. Thread-safe.
 CELLTRACE_EXPORT Quadword execute(Opcode opcode, const Quadword& a, const Quadword& b, const Quadword& c,
                                   std::int32_t immediate);
 
-/// Returns the 16 bytes of the running SPE's local store at an address, whose low four bits and bits beyond
-/// 256 KB are ignored. Throws SpeError if no SPE program runs.
+/// Returns a pointer to the 16 bytes of the running SPE's local store at an address, whose low four bits and
+/// bits beyond 256 KB are ignored. Throws SpeError if no SPE program runs.
 CELLTRACE_EXPORT void* local_quadword(std::uint32_t lsa);
 
 } // namespace celltrace::sdk

@@ -1,7 +1,7 @@
-// The SDK's <spu_intrinsics.h>, for existing SPE sources on the emulated Cell: vector types, the specific
-// (si_*) and generic (spu_*) intrinsics of the C/C++ Language Extensions for Cell. This file itself has the
-// intrinsics of channels, interrupts and run control; they act on the SPE whose program runs on the present
-// thread, and throw SpeError if none does. On a real SPU this header is the compiler's own.
+// The SDK's <spu_intrinsics.h>, for existing SPE sources on the emulated Cell: vector types, and the specific
+// (si_*) and generic (spu_*) intrinsics of the C/C++ Language Extensions for Cell. This file defines the
+// intrinsics of channels, interrupts and run control. They act on the SPE whose program runs on the present
+// thread, and throw SpeError if no program runs. On a real SPU this header includes the compiler's own.
 #pragma once
 
 #ifdef __SPU__
@@ -27,7 +27,7 @@ constexpr unsigned int MFC_RdTagMask = 12;
 constexpr unsigned int SPU_RdMachStat = 13;
 constexpr unsigned int SPU_WrSRR0 = 14;
 constexpr unsigned int SPU_RdSRR0 = 15;
-constexpr unsigned int MFC_LSA = 16; ///< takes the offset in local store, see spu_ls_address()
+constexpr unsigned int MFC_LSA = 16; ///< channel that takes an offset in local store, see spu_ls_address()
 constexpr unsigned int MFC_EAH = 17;
 constexpr unsigned int MFC_EAL = 18;
 constexpr unsigned int MFC_Size = 19;
@@ -55,7 +55,7 @@ constexpr int SPU_SV_NAN = 0x40;
 
 namespace celltrace::sdk {
 
-/// Returns the running SPE, and notes that the next operation stands at `site`.
+/// Returns the running SPE's Spu, and notes `site` as the place of the next operation.
 inline cell_emu::Spu& spu_at(CallSite site) {
   cell_emu::Spu& spu = cell_emu::Spu::running();
   spu.at(site);
@@ -80,7 +80,7 @@ inline unsigned int spu_readchcnt(unsigned int channel,
   return celltrace::sdk::spu_at(site).channel_count(channel);
 }
 
-// Channel access by registers, whose preferred slot counts.
+// Channel access with the value in the preferred slot of a register.
 
 inline qword si_rdch(unsigned int channel, celltrace::CallSite site = celltrace::CallSite::here()) {
   return si_from_uint(spu_readch(channel, site));
@@ -103,8 +103,8 @@ void spu_writechqw(unsigned int channel, const V& value,
 
 // --- MFC commands by their opcode ---
 
-/// Returns the number that a cast of a local-store pointer to unsigned int gives on a real SPU. Not part of
-/// the SDK.
+/// Returns the local-store address of a pointer, which on a real SPU is the pointer cast to unsigned int. Not
+/// part of the SDK.
 inline unsigned int spu_ls_address(const volatile void* pointer) {
   return celltrace::cell_emu::Spu::running().local_address(celltrace::sdk::local_pointer(pointer));
 }
@@ -118,8 +118,8 @@ inline void* si_to_ptr(qword ra) {
   return lsa == 0 ? nullptr : static_cast<char*>(celltrace::sdk::local_quadword(lsa)) + (lsa & 15);
 }
 
-/// Issues a command with the EAH that was written last. For a list command, `eal` is the list's
-/// spu_ls_address().
+/// Issues a command with the high half of the effective address (EAH) that was written last. For a list
+/// command, `eal` is the list's spu_ls_address().
 inline void spu_mfcdma32(const volatile void* ls, unsigned int eal, unsigned int size, unsigned int tag,
                          unsigned int command, celltrace::CallSite site = celltrace::CallSite::here()) {
   spu_writech(MFC_LSA, ls == nullptr ? 0 : spu_ls_address(ls), site);
@@ -135,7 +135,7 @@ inline void spu_mfcdma64(const volatile void* ls, unsigned int eah, unsigned int
   spu_mfcdma32(ls, eal, size, tag, command, site);
 }
 
-/// Requests a tag status and waits for it: 0 immediate, 1 any, 2 all.
+/// Requests a tag status (`type`: 0 immediate, 1 any, 2 all), waits for it, and returns it.
 inline unsigned int spu_mfcstat(unsigned int type, celltrace::CallSite site = celltrace::CallSite::here()) {
   spu_writech(MFC_WrTagUpdate, type, site);
   return spu_readch(MFC_RdTagStat, site);
@@ -147,15 +147,15 @@ inline unsigned int spu_mfcstat(unsigned int type, celltrace::CallSite site = ce
 template <class Handler> void spu_bisled(Handler handler) {
   celltrace::cell_emu::Spu::running().branch_if_event([&](auto&) { handler(); });
 }
-/// Enables interrupts with the handler of EmulatedSpu::enable_interrupts(), which stands for the code at LS 0
-/// of a real SPU. Throws SpeError if there is none.
+/// Enables interrupts with the last handler of EmulatedSpu::enable_interrupts(), which stands for the code at
+/// address 0 of a real SPU's local store. Throws SpeError if there is no handler.
 inline void spu_ienable() {
   celltrace::cell_emu::Spu::running().enable_interrupts();
 }
 inline void spu_idisable() {
   celltrace::cell_emu::Spu::running().disable_interrupts();
 }
-/// Disables, or enables, interrupts if it branches.
+/// As spu_bisled(), and disables (_d) or enables (_e) interrupts if it calls `handler`.
 template <class Handler> void spu_bisled_d(Handler handler) {
   celltrace::cell_emu::Spu::running().branch_if_event([&](auto& spu) {
     spu.disable_interrupts();
@@ -178,7 +178,7 @@ inline void spu_mtspr(int number, unsigned int value) {
 
 // --- run control ---
 
-/// Stops with a code that is part of the instruction, so that it has to be a constant.
+/// Stops with a code, which has to be a constant, because it is part of the instruction.
 #define spu_stop(code) (celltrace::cell_emu::Spu::running().stop_and_signal<(code)>())
 
 #define si_stop(code) spu_stop(code)

@@ -1,7 +1,7 @@
 // The SDK's <spu_mfcio.h>, for existing SPE sources in C or C++ on the emulated Cell: DMA, tag groups,
-// mailboxes, signals, events and the decrementer under the SDK's names. Everything acts on the SPE
-// whose program runs on the present thread, and throws SpeError if none does. On a real SPU this header is
-// the compiler's own.
+// mailboxes, signals, events and the decrementer under the SDK's names. All functions act on the SPE whose
+// program runs on the present thread, and throw SpeError if no program runs. On a real SPU this header
+// includes the compiler's own.
 //
 //   #define main saxpy_main
 //   #include "saxpy.c"
@@ -9,7 +9,7 @@
 //   const EmulatedRun run = emulate(lockstep(2), spe_main(saxpy_main), to_ea(&control));
 //
 // Differences from the SDK: effective addresses have 64 bits, like main memory on a PC; DMA buffers have to
-// be LocalStore objects or memory from EmulatedSpu::allocate(); functions instead of macros.
+// be LocalStore objects or memory from EmulatedSpu::allocate(); macros of the SDK are functions here.
 // docs/testing-spe-code.md has more.
 #pragma once
 
@@ -32,7 +32,7 @@ constexpr unsigned int MFC_CMD_WORD(unsigned int tid, unsigned int rid, unsigned
   return tid << 24 | rid << 16 | command;
 }
 
-/// The SDK's list element, with the bits at the same places as in ListElement.
+/// The SDK's list element; its bits have the places of ListElement's.
 struct mfc_list_element_t {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
   uint32_t notify : 1;
@@ -60,7 +60,8 @@ static_assert(sizeof(mfc_list_element_t) == sizeof(celltrace::ListElement));
 
 namespace celltrace::sdk {
 
-/// An effective address as the SDK's macros take it: 64 bits, or a pointer of the host.
+/// An effective address as an argument of the SDK's functions: an integer of 64 bits, or a pointer of the
+/// host.
 struct EffectiveAddress {
   ea_t value;
 
@@ -95,7 +96,7 @@ void command(const volatile void* ls, EffectiveAddress ea, uint32_t size, uint32
 template <MfcOpcode op>
 void list_command(const volatile void* ls, EffectiveAddress ea, const volatile void* list, std::size_t bytes,
                   uint32_t tag, CallSite site) {
-  // A count times the size of an element has 64 bits on a PC.
+  // On a PC, a count times the size of an element has 64 bits, and may exceed 32.
   const auto length =
       static_cast<uint32_t>(std::min<std::size_t>(bytes, ListElement::list_bytes(~uint64_t{0})));
   spu_at(site).mfc_list_command<op>(local_pointer(ls), ea.value,
@@ -105,8 +106,8 @@ void list_command(const volatile void* ls, EffectiveAddress ea, const volatile v
 } // namespace celltrace::sdk
 
 // --- DMA ---
-// tid and rid, the transfer and replacement class, change only the speed of a transfer; they
-// are ignored.
+// The unnamed arguments tid and rid, the transfer and replacement classes, are ignored: they only affect
+// speed.
 
 inline void mfc_put(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int size,
                     unsigned int tag, unsigned int, unsigned int,
@@ -139,7 +140,7 @@ inline void mfc_getb(const volatile void* ls, celltrace::sdk::EffectiveAddress e
   celltrace::sdk::command<celltrace::MfcOpcode::getb>(ls, ea, size, tag, site);
 }
 
-// Lists: `bytes` is the size of the list, 8 for every element; only the high half of `ea` counts.
+// Lists: `bytes` is the size of the list, 8 for every element; only the high half of `ea` is used.
 
 inline void mfc_putl(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
                      std::size_t bytes, unsigned int tag, unsigned int, unsigned int,
@@ -376,10 +377,10 @@ inline unsigned int spu_read_srr0(celltrace::CallSite site = celltrace::CallSite
 
 namespace celltrace::sdk {
 
-/// The tags that an SPE's program has reserved.
+/// The tags that an SPE's program has reserved, one bit each.
 inline LocalStore<uint32_t, 16> reserved_tags;
 
-/// Returns the bits of `count` tags from `tag` on; 0 if there are no such tags.
+/// Returns the bits of `count` tags from `tag` on; 0 if not all of these tags exist.
 constexpr uint32_t tag_bits(unsigned int tag, unsigned int count) {
   if (count == 0 || count > kMfcTags || tag > kMfcTags - count) return 0;
   return static_cast<uint32_t>(((uint64_t{1} << count) - 1) << tag);
@@ -387,7 +388,8 @@ constexpr uint32_t tag_bits(unsigned int tag, unsigned int count) {
 
 } // namespace celltrace::sdk
 
-/// Reserves `count` free tags in sequence and returns the first, or MFC_TAG_INVALID if there are none.
+/// Reserves `count` consecutive free tags and returns the first tag, or MFC_TAG_INVALID if no such tags are
+/// free.
 inline unsigned int mfc_multi_tag_reserve(unsigned int count) {
   uint32_t& reserved = *celltrace::sdk::reserved_tags;
   for (unsigned int tag = 0; tag < celltrace::kMfcTags; ++tag) {
@@ -398,7 +400,8 @@ inline unsigned int mfc_multi_tag_reserve(unsigned int count) {
   }
   return MFC_TAG_INVALID;
 }
-/// Releases the tags. Returns MFC_TAG_INVALID, and releases nothing, unless all of them are reserved.
+/// Releases `count` tags from `tag` on. Returns MFC_TAG_INVALID, and releases nothing, unless all these tags
+/// are reserved.
 inline unsigned int mfc_multi_tag_release(unsigned int tag, unsigned int count) {
   uint32_t& reserved = *celltrace::sdk::reserved_tags;
   const uint32_t bits = celltrace::sdk::tag_bits(tag, count);
@@ -415,8 +418,8 @@ inline unsigned int mfc_tag_release(unsigned int tag) {
 
 namespace celltrace {
 
-/// Turns the renamed `main(speid, argp, envp)` of an SPE program into a program for emulate(). Its result is
-/// the exit code. It may take fewer arguments.
+/// Makes a program for emulate() of the renamed `main(speid, argp, envp)` of an SPE program, which may take
+/// fewer arguments. The result of `main` is the exit code.
 template <class... Arguments> auto spe_main(int (*main_function)(Arguments...), unsigned long long envp = 0) {
   static_assert(sizeof...(Arguments) <= 3, "main(speid, argp, envp)");
   return [main_function, envp](cell_emu::Spu& spu, ea_t argp) {

@@ -16,7 +16,7 @@ constexpr unsigned int MFC_MAX_DMA_LIST_ELEMENTS = celltrace::kMaxListElements;
 constexpr unsigned int MFC_MIN_DMA_LIST_SIZE = 8;
 constexpr unsigned int MFC_MAX_DMA_LIST_SIZE = 8 * MFC_MAX_DMA_LIST_ELEMENTS;
 
-// Commands, and the bits that they are made of.
+// Commands, and the bits that commands consist of.
 
 constexpr unsigned int MFC_BARRIER_ENABLE = 0x01;
 constexpr unsigned int MFC_FENCE_ENABLE = 0x02;

@@ -1,11 +1,11 @@
-// The specific intrinsics of the C/C++ Language Extensions for Cell, si_*: each is an instruction of the SPU,
-// on registers (qword). Arguments are in the order of the instruction's operands; a register that an
-// instruction reads and writes (rt) comes last. Immediates are the numbers as in assembly, scales of
-// conversions 0..127. The intrinsics do exactly what the SPU does, see spu_instructions.hpp.
+// The specific intrinsics (si_*) of the C/C++ Language Extensions for Cell: each executes one instruction of
+// the SPU, on registers (qword). Arguments are in the order of the instruction's operands; a register that an
+// instruction reads and writes (rt) comes last. Immediates are the numbers in assembly; scales of conversions
+// are 0..127. Results are exactly the SPU's (spu_instructions.hpp).
 //
-// Addresses are numbers in local store, as from si_from_ptr() and spu_ls_address(). si_lqd() and the other
-// loads and stores move words in the host's byte order. Instructions that refer to a
-// place in the code (lqr, stqr, bisled) are missing; spu_bisled() takes a function.
+// Addresses are offsets in local store, as si_from_ptr() and spu_ls_address() return them. si_lqd() and the
+// other loads and stores move words in the host's byte order. Instructions that refer to an address in the
+// code (lqr, stqr, bisled) are missing; use spu_bisled(), which takes a function.
 #pragma once
 
 #include "celltrace/spe/spu_vectors.hpp"
@@ -248,7 +248,8 @@ inline void si_hlgti(qword ra, int immediate) {
 
 namespace celltrace::sdk {
 
-/// Element of the preferred slot: a scalar of 1 or 2 bytes ends at byte 3, a larger one begins at byte 0.
+/// Number of the element in the preferred slot: a scalar of 1 or 2 bytes ends at byte 3, a larger scalar
+/// begins at byte 0.
 template <class Scalar>
 constexpr unsigned kPreferredElement = sizeof(Scalar) < 4 ? 4 / sizeof(Scalar) - 1 : 0;
 
@@ -375,7 +376,8 @@ inline qword si_mfspr(int) {
 inline void si_mtspr(int, qword) {
 }
 
-// --- instructions that only take time, or order what is in order on the emulated Cell ---
+// --- instructions that only take time, or only order accesses that the emulated Cell does in order anyway
+// ---
 
 inline void si_nop() {
 }

@@ -1,10 +1,10 @@
 // The vector types of the C/C++ Language Extensions for Cell, on the host: vec_float4 and others, and
 // qword.
 //
-// The types behave as on the SPU: element 0 is the one at the lowest address, and a cast from one type to
-// another keeps the 128 bits of the register, in which element 0 is the most significant, whatever the byte
-// order of the host. Operators compute the same as the SPU's instructions. In memory an element is a number
-// of the host.
+// The types behave as on the SPU: element 0 is at the lowest address. A cast from one type to another keeps
+// the 128 bits of the register, in which element 0 is the most significant, whatever the byte order of the
+// host. Operators give the results of the SPU's instructions. In memory, elements are numbers in the host's
+// byte order.
 //
 //   vec_float4 v = {1, 2, 3, 4};
 //   vec_uchar16 pattern = (vec_uchar16)(vec_uint4){0x04050607, 0x00010203, 0x0C0D0E0F, 0x08090A0B};
@@ -28,7 +28,7 @@ template <class T> class Vector;
 
 /// The compilers' own vector types.
 template <class T> struct NativeVector;
-/// Traits of types; vectors have an element_type.
+/// Traits of types: only vector types have an element_type.
 template <class V> struct VectorTraits {};
 template <class T> struct VectorTraits<Vector<T>> {
   using element_type = T;
@@ -62,7 +62,7 @@ concept AnyNativeVector = AnyVector<V> && VectorTraits<std::remove_cvref_t<V>>::
 template <AnyVector V> using ElementOf = typename VectorTraits<std::remove_cvref_t<V>>::element_type;
 template <AnyVector V> using VectorOf = Vector<ElementOf<V>>;
 
-/// An element of a list in braces, which takes numbers of any type, as in C.
+/// An element of a braced list, converted from a number of any type, as in C.
 template <class T> struct ListedElement {
   T value;
   template <class Number>
@@ -70,7 +70,7 @@ template <class T> struct ListedElement {
   constexpr ListedElement(Number number) : value(static_cast<T>(number)) {}
 };
 
-/// The instructions of an operation, by type of elements; `stop`: there is none.
+/// The instructions of an operation, by type of elements; `stop`: there is no instruction.
 struct OpcodeByElement {
   Opcode byte = Opcode::stop, halfword = Opcode::stop, word = Opcode::stop, single = Opcode::stop,
          doubleword = Opcode::stop;
@@ -82,7 +82,7 @@ struct OpcodeByElement {
   }
 };
 
-/// A vector of 16 bytes. Trivial; may alias other types. Thread safety: that of its bytes.
+/// A vector of 16 bytes. Trivial; may alias other types. Thread safety: as an array.
 template <class T> class [[gnu::may_alias]] alignas(16) Vector {
 public:
   using value_type = T;
@@ -90,7 +90,8 @@ public:
   static constexpr unsigned kElements = 16 / sizeof(T);
 
   Vector() = default;
-  /// Takes elements in braces; missing ones are 0. Throws std::length_error for too many.
+  /// Makes a vector of elements in braces; missing elements are 0. Throws std::length_error for too many
+  /// elements.
   constexpr Vector(std::initializer_list<ListedElement<T>> list) : elements_{} {
     if (list.size() > kElements) throw std::length_error("too many elements for a vector");
     unsigned i = 0;
@@ -104,7 +105,7 @@ public:
       for (unsigned i = 0; i < kElements; ++i)
         elements_[i] = q.get<T>(i);
   }
-  /// Converts, keeping the bits.
+  /// Converts from another vector type; the bits stay the same.
   template <class Other> explicit Vector(const Vector<Other>& other) : Vector(other.quadword()) {}
 
   Vector(const Native& native) { std::memcpy(elements_, &native, sizeof elements_); }
@@ -148,7 +149,7 @@ public:
   friend Vector operator-(const Vector& a, const Vector& b) {
     if constexpr (std::is_floating_point_v<T>)
       return of(sizeof(T) == 4 ? Opcode::fs : Opcode::dfs, a, b);
-    else if constexpr (kHasSums) // the instruction subtracts from the second
+    else if constexpr (kHasSums) // the instruction subtracts its first operand from its second
       return of(sizeof(T) == 4 ? Opcode::sf : Opcode::sfh, b, a);
     else
       return each(a, b, [](auto x, auto y) { return x - y; });
@@ -163,7 +164,7 @@ public:
   friend Vector operator|(const Vector& a, const Vector& b) { return of(Opcode::or_, a, b); }
   friend Vector operator^(const Vector& a, const Vector& b) { return of(Opcode::xor_, a, b); }
   friend Vector operator~(const Vector& a) { return of(Opcode::nor, a, a); }
-  /// Negates; changes the sign of floating-point zeros, too.
+  /// Returns the negated elements; floating-point zeros change their sign, too.
   friend Vector operator-(const Vector& a) {
     if constexpr (std::is_floating_point_v<T>) {
       Vector signs;
@@ -182,8 +183,8 @@ public:
   Vector& operator^=(const Vector& b) { return *this = *this ^ b; }
 
 private:
-  /// True if there are instructions for sums. Compilers for the SPU compose sums of bytes and doublewords
-  /// from others.
+  /// True if the SPU has an add instruction for these elements. Compilers for the SPU compose sums of bytes
+  /// and doublewords of other instructions.
   static constexpr bool kHasSums = std::is_floating_point_v<T> || sizeof(T) == 2 || sizeof(T) == 4;
 
   static Vector of(Opcode opcode, const Vector& a, const Vector& b) {

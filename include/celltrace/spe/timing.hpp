@@ -1,5 +1,5 @@
-// The timing model of `cell_emu` and `cell_sim`: every number in one place. Results are those of a model, not
-// of a real machine.
+// The parameters of the timing model of `cell_emu` and `cell_sim`. A model's times differ from a real
+// machine's.
 //
 // Units are SPU cycles unless said otherwise. Sources: Kistler, Perrone, Petrini, "Cell Multiprocessor
 // Communication Network", IEEE Micro 2006 (290 cycles for a line from SPE to SPE, 25.6 GB/s a port); IBM Cell
@@ -18,8 +18,9 @@ namespace celltrace {
 
 struct TimingParameters {
   double clock_hz = 3.2e9;            ///< 1000 to 1e12
-  std::uint32_t cycles_per_tick = 40; ///< decrementer: 80 MHz; at least 1
-  unsigned spes = 8;                  ///< number of SPEs of a machine unless it is configured; 1 to 256
+  std::uint32_t cycles_per_tick = 40; ///< cycles of one tick of the decrementer (80 MHz); at least 1
+  /// Number of SPEs of a machine unless MachineConfig::spes sets it; 1 to 256.
+  unsigned spes = 8;
 
   // --- channels ---
   std::uint32_t channel_write = 1;
@@ -29,11 +30,13 @@ struct TimingParameters {
   std::uint32_t mfc_issue = 10;          ///< from the write of MFC_Cmd to the start of the command
   std::uint32_t first_line_spe = 290;    ///< latency to another local store or a register
   std::uint32_t first_line_memory = 500; ///< latency to main memory
-  std::uint32_t port_line = 16;          ///< one line through an SPE's port: 8 bytes a cycle
-  std::uint32_t memory_line = 16;        ///< one line through the memory controller, which all SPEs share
-  std::uint32_t bus_line = 2;            ///< one line of the bus's 64 bytes a cycle
+  std::uint32_t port_line = 16;          ///< time of one line through an SPE's port: 8 bytes a cycle
+  /// Time of one line through the memory controller, which all SPEs share.
+  std::uint32_t memory_line = 16;
+  std::uint32_t bus_line = 2; ///< time of one line on the bus: 64 bytes a cycle
   std::uint32_t list_element = 10;
-  std::uint32_t lock_line_spe = 290; ///< a lock line that another SPE's atomic unit holds
+  /// Time of a lock-line command if another SPE's atomic unit holds the line.
+  std::uint32_t lock_line_spe = 290;
   std::uint32_t lock_line_memory = 500;
   std::uint32_t ppe_delivery = 200; ///< from the PPE's store until an SPE's register has it
   std::uint32_t ppe_access = 400;   ///< cost to the PPE of an access to an SPE's registers
@@ -50,28 +53,30 @@ struct TimingParameters {
   std::uint32_t branch_miss = 18;
 
   // --- machine code: `cell_sim` ---
-  std::uint32_t double_operation = 13; ///< FPD; its first cycles keep both pipes from issuing
+  std::uint32_t double_operation = 13; ///< FPD; both pipes issue nothing during its first cycles
   std::uint32_t double_issue_block = 6;
   std::uint32_t hint_latency =
-      15; ///< from a hint until its target can be issued from; an earlier branch waits
-  std::uint32_t hint_distance = 8; ///< instructions from a hint to its branch; a closer one is not hinted
-  std::uint32_t fetch_miss = 9;    ///< the next 32 instructions were not fetched in time
-  std::uint32_t ppe_call = 20000;  ///< a call for help from the PPE: two system calls and a switch of context
+      15; ///< from a hint until instructions at its target can be issued; an earlier branch waits
+  /// Least number of instructions from a hint to its branch; a closer branch is not hinted.
+  std::uint32_t hint_distance = 8;
+  std::uint32_t fetch_miss = 9; ///< stall if the next 32 instructions were not fetched in time
+  /// A call that the PPE executes for the program: two system calls and a context switch.
+  std::uint32_t ppe_call = 20000;
 
   // --- counted operations: `cell_emu`; 0 to 1 each ---
   // Calibrated by cell_sim with tools/calibrate-charges.sh.
-  /// Share of the latency, beyond the issue of an operation's own four quadwords, that other code cannot
+  /// Share of an operation's latency, beyond the issue of its own four quadwords, that other code cannot
   /// fill.
   double exposed_latency = 0.613;
-  /// Share of the cycles in which both pipes have something to issue that are really dual-issued.
+  /// Share of cycles with dual issue among cycles in which both pipes have an instruction to issue.
   double paired_issue = 0.376;
   /// Hint instructions per branch.
   double hints = 0.936;
-  /// Cycles per branch of waiting for a hint that comes too late.
+  /// Cycles per branch spent waiting for a hint that comes too late.
   double late_hint = 0.23;
   /// Cycles per branch in which only no-ops are issued.
   double no_ops = 0.102;
-  /// Cycles per copied quadword in which instructions come late.
+  /// Cycles per copied quadword spent waiting for instructions to be fetched.
   double late_fetch = 0.039;
 
   /// Returns the parameters of a Cell at 3.2 GHz with 8 SPEs.
@@ -85,23 +90,23 @@ struct TimingParameters {
   }
 };
 
-/// The cycles of an SPE by their use, under the names of IBM's full-system simulator. `cell_emu` cannot see
-/// some of them, which are 0 there.
+/// The cycles of an SPE by their use, under the names of IBM's full-system simulator. Members that `cell_emu`
+/// cannot observe are always 0 there.
 struct SpuCycles {
-  /// Sum of all cycles and stalls that follow.
+  /// Sum of the cycles and stalls below, up to stall_due_to_injection.
   std::uint64_t total_cycle = 0;
-  std::uint64_t single_cycle = 0; ///< one instruction issued
-  std::uint64_t dual_cycle = 0;   ///< two instructions issued
-  std::uint64_t nop_cycle = 0;    ///< nothing but no-ops issued
+  std::uint64_t single_cycle = 0; ///< cycles in which one instruction was issued
+  std::uint64_t dual_cycle = 0;   ///< cycles in which two instructions were issued
+  std::uint64_t nop_cycle = 0;    ///< cycles in which only no-ops were issued
   std::uint64_t stall_due_to_dependency = 0;
   std::uint64_t stall_due_to_branch_miss = 0;
   std::uint64_t stall_due_to_prefetch_miss = 0; ///< instructions were not fetched in time
   std::uint64_t stall_due_to_hint_target = 0;   ///< a hint came too late to be of full use
   std::uint64_t stall_due_to_fp_resource = 0;   ///< a double precision operation kept both pipes
-  std::uint64_t stall_due_to_ls_contention = 0; ///< loads and stores against DMA
+  std::uint64_t stall_due_to_ls_contention = 0; ///< loads and stores waited for DMA's accesses to local store
   std::uint64_t channel_stall_cycle = 0;        ///< waits for DMA, mailboxes, signals and events
   std::uint64_t stall_due_to_injection = 0;     ///< delays from configured faults
-  // Instructions by unit.
+  // Numbers of issued instructions, by unit.
   std::uint64_t fx2 = 0, fx3 = 0, fxb = 0, fp6 = 0, fp7 = 0, fpd = 0; ///< even pipe
   std::uint64_t ls = 0, shuf = 0, br = 0, hbr = 0, spr = 0;           ///< odd pipe; spr: channel instructions
   std::uint64_t nop = 0;                                              ///< no-ops of both pipes
@@ -120,7 +125,7 @@ struct SpuCycles {
   SpuCycles& operator+=(const SpuCycles& more);
 };
 
-/// All counts and their names.
+/// The members of SpuCycles with their names.
 inline constexpr std::pair<const char*, std::uint64_t SpuCycles::*> kSpuCycleCounts[] = {
     {"total_cycle", &SpuCycles::total_cycle},
     {"single_cycle", &SpuCycles::single_cycle},

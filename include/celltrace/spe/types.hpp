@@ -13,7 +13,7 @@ using ea_t = uint64_t;
 constexpr uint32_t kLocalStoreBytes = 256 * 1024;
 /// Local-store address, on the emulated Cell, of a pointer that does not point into the SPE's local store.
 constexpr uint32_t kOutsideLocalStore = 0xFFFFFFFFu;
-/// Cache line of the EIB: the size at which a DMA transfer is most efficient.
+/// Bytes of a cache line, and of a line of the bus (EIB), at which a DMA transfer is most efficient.
 constexpr uint32_t kLineBytes = 128;
 constexpr uint32_t kMaxDmaBytes = 16 * 1024;
 constexpr uint32_t kMfcTags = 32;
@@ -21,7 +21,8 @@ constexpr uint32_t kMfcQueueEntries = 16;
 constexpr uint32_t kMaxListElements = 2048;
 constexpr uint32_t kInboundMailboxEntries = 4;
 
-/// MFC command opcodes. Suffix b: with barrier, f: with fence, l: the command walks a list in local store.
+/// MFC command opcodes. Suffix b: with barrier; f: with fence; l: the command processes a list in local
+/// store.
 enum class MfcOpcode : uint32_t {
   put = 0x20,
   putb = 0x21,
@@ -90,7 +91,7 @@ enum class Channel : uint32_t {
   wr_out_mbox = 28,
   rd_in_mbox = 29,
   wr_out_intr_mbox = 30,
-  // Channels of measuring tools: marks in a trace, and the start and end of counting.
+  // Channels for measuring tools: a mark in a trace, and the start and end of counting.
   set_bookmark_tag = 69,
   pm_start_event = 70,
   pm_stop_event = 71,
@@ -129,7 +130,7 @@ enum class Signal : uint32_t { one = 1, two = 2 };
 enum class SignalMode : uint32_t { overwrite, logical_or };
 
 /// One element of a DMA list in local store: notify bit and size in the first word, low half of the effective
-/// address in the second. The list is 8-byte aligned; the high half of the address is the command's.
+/// address in the second word; the command has the high half. The list is 8-byte aligned.
 struct ListElement {
   uint32_t notify_and_size;
   uint32_t ea_low;
@@ -138,7 +139,7 @@ struct ListElement {
   static constexpr ListElement make(uint32_t size, ea_t ea, bool notify = false) {
     return {size | (notify ? kNotify : 0u), static_cast<uint32_t>(ea)};
   }
-  /// Returns the bytes of a list of `elements`. If 32 bits cannot hold them, returns a length that no MFC
+  /// Returns the number of bytes of a list of `elements`. If it exceeds 32 bits, returns a length that no MFC
   /// accepts.
   static constexpr uint32_t list_bytes(uint64_t elements) {
     constexpr uint64_t most = 0xFFFFFFFFu / 8;
@@ -147,7 +148,7 @@ struct ListElement {
 };
 static_assert(sizeof(ListElement) == 8, "a list element is 8 bytes");
 
-/// The reason for which a kernel stopped itself; the low bits of the stop-and-signal code.
+/// The reason why a kernel stopped itself: the low bits of the stop-and-signal code.
 enum class HaltCode : uint32_t {
   local_store_exhausted = 1,
   bad_argument = 2,
@@ -156,7 +157,7 @@ enum class HaltCode : uint32_t {
 };
 constexpr HaltCode kLastHaltCode = HaltCode::stale_pointer;
 
-/// Base of the stop-and-signal codes with which a kernel on an SPU halts: kHaltStop + HaltCode.
+/// Base of the stop-and-signal codes with which a kernel on an SPU halts; the code is kHaltStop + HaltCode.
 constexpr uint32_t kHaltStop = 0x1000;
 
 /// Returns the code's text for messages.
@@ -175,8 +176,8 @@ constexpr const char* to_text(HaltCode code) {
 }
 
 /// The addresses of an SPE's problem-state registers and local store in the main storage domain. The signal
-/// and mailbox addresses are those of the 32-bit registers themselves: their low four bits are 0xC, so that
-/// a word that is sent to them lies in the last word of a quadword.
+/// and mailbox addresses are those of 32-bit registers. Their low four bits are 0xC, so that a word to be
+/// sent must be the last word of a quadword in local store.
 struct alignas(16) SpeAddresses {
   ea_t local_store;
   ea_t signal_1;

@@ -19,7 +19,8 @@ namespace {
 
 constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
 
-/// Returns nothing, and sets errno, if a part of the path does not exist or may not be searched.
+/// Returns the path without links. Returns nothing, and sets errno, if a part of the path does not exist or
+/// may not be searched.
 std::optional<std::string> without_links(const std::string& path) {
   const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr), &std::free);
   if (!real) return std::nullopt;
@@ -37,7 +38,7 @@ std::string joined(std::string_view folder, std::string_view name) {
   return path += name;
 }
 
-/// Opens a folder below another one, part by part, following no link.
+/// Opens a folder below the folder `root`, part by part, and follows no link.
 HostDescriptor open_below(const HostDescriptor& root, std::string_view path) {
   HostDescriptor folder(::openat(root.get(), ".", kOpenFolder));
   while (folder && !path.empty()) {
@@ -120,7 +121,7 @@ HostDescriptor AllowedFolders::open(std::string_view name, int host_flags, unsig
 
 HostDescriptor AllowedFolders::open(const Place& place, int host_flags, unsigned mode) const {
   struct stat status;
-  // Opening a device may already have an effect.
+  // Checked before opening, because opening a device may already have an effect.
   if (::fstatat(place.folder.get(), place.name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
       !S_ISLNK(status.st_mode))
     check_kind(status);

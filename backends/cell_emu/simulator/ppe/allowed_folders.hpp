@@ -1,4 +1,4 @@
-// The folders of the host that programs may use; the rest of the host is out of reach.
+// AllowedFolders opens files for programs, and only in folders of the host that programs may use.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/spu_errno.hpp"
@@ -30,33 +30,32 @@ private:
   int fd_ = -1;
 };
 
-/// Looks up the names that programs pass, relative to a current folder, with symbolic links. Names that
-/// lead out of the allowed folders fail with EACCES, whether or not something exists there. Links
-/// that appear during the look-up are not followed. All functions throw CallFailed. Thread safety:
-/// none.
+/// Resolves names that programs pass, relative to a current folder, and follows symbolic links. Names that
+/// lead out of the allowed folders fail with EACCES, whether or not the file exists. Links that are made
+/// during the look-up are not followed. All functions throw CallFailed. Thread safety: none.
 class AllowedFolders {
 public:
-  /// A name in a folder, the arguments of openat() and related calls. The name has no slash and may be ".".
+  /// A name in a folder, for openat() and related calls. The name has no slash and may be ".".
   struct Place {
     HostDescriptor folder;
     std::string name;
-    std::string path; ///< without links, for messages and the current folder
+    std::string path; ///< path without links, for messages and the current folder
   };
   enum class SymlinkPolicy { follow, keep };
 
-  /// Makes the first folder the current one. Without folders, all names fail. Throws InputError for paths
+  /// Makes the first folder the current folder. Without folders, all names fail. Throws InputError for paths
   /// that are no folders.
   explicit AllowedFolders(const std::vector<std::filesystem::path>& folders);
 
   /// Finds the place of a name, whose last part need not exist.
   Place locate(std::string_view name, SymlinkPolicy last = SymlinkPolicy::follow) const;
 
-  /// Opens a file or folder, never a device or a pipe. The mode is for files that are created.
+  /// Open a file or folder, but no device and no pipe. `mode` is for files that are created.
   HostDescriptor open(std::string_view name, int host_flags, unsigned mode) const;
   HostDescriptor open(const Place& place, int host_flags, unsigned mode) const;
 
   void change_to(std::string_view name);
-  /// Returns the current folder. Throws EACCES if there are no folders.
+  /// Returns the current folder. Throws CallFailed with EACCES if there are no folders.
   const std::string& current() const;
 
 private:

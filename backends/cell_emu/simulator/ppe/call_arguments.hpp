@@ -1,8 +1,8 @@
-// The places of a call's arguments and results in local store, and checked access to the data that they point
-// to.
+// Access to a call's arguments and results in local store, and checked access to the data that arguments
+// point to.
 //
-// Arguments are padded to 16 bytes each. The result replaces the first of them: the value in word 0 (words 0
-// and 1 if it has 64 bits), errno in word 3.
+// Arguments are padded to 16 bytes each. The result replaces the first argument: the value is in word 0 (in
+// words 0 and 1 if it has 64 bits), errno in word 3.
 #pragma once
 
 #include "backends/cell_emu/simulator/big_endian.hpp"
@@ -18,8 +18,8 @@
 
 namespace celltrace::cell_emu {
 
-/// The 256 KB that pointers of a program refer to. As on the hardware, bits of an address above the 18th are
-/// ignored; a range beyond the end of local store is refused with EFAULT.
+/// Local store, which a program's pointers refer to. As on the hardware, bits of an address above the 18th
+/// are ignored. A range that crosses the end of local store is refused with EFAULT.
 class LocalStoreView {
 public:
   static constexpr std::uint32_t kBytes = 256 * 1024;
@@ -33,7 +33,7 @@ public:
     if (bytes > kBytes - start) throw CallFailed{SpuErrno::fault};
     return {bytes_ + start, static_cast<std::size_t>(bytes)};
   }
-  /// Returns as much of a range as local store has.
+  /// Returns a range, cut at the end of local store.
   std::span<std::uint8_t> range_up_to(std::uint32_t address, std::uint64_t bytes) const {
     const std::uint32_t start = wrap(address);
     return {bytes_ + start, static_cast<std::size_t>(std::min<std::uint64_t>(bytes, kBytes - start))};
@@ -41,7 +41,7 @@ public:
 
   /// Returns the string up to its terminating zero, which must be in local store.
   std::string_view string(std::uint32_t address) const { return string_up_to(address, kBytes + 1); }
-  /// Returns at most `bytes` characters, which then need no terminating zero.
+  /// As string(), but at most `bytes` characters: if there are as many, no terminating zero is needed.
   std::string_view string_up_to(std::uint32_t address, std::uint64_t bytes) const {
     const auto all = range_up_to(address, bytes);
     const auto* start = reinterpret_cast<const char*>(all.data());
@@ -65,8 +65,8 @@ private:
   std::uint8_t* bytes_;
 };
 
-/// A va_list: the address of the next argument that was in a register, and the caller's frame, which has the
-/// other arguments behind its first 32 bytes.
+/// A va_list: the address of the next argument that was passed in a register, and the caller's stack frame,
+/// which has further arguments behind its first 32 bytes.
 class VariableArguments {
 public:
   VariableArguments(const LocalStoreView& local_store, std::uint32_t next, std::uint32_t caller_frame)
@@ -89,8 +89,8 @@ private:
   std::uint32_t next_, caller_frame_;
 };
 
-/// The arguments of one call, by number from 0. A block that reaches beyond the end of local store goes on at
-/// 0.
+/// The arguments of one call, by number from 0, in a block of local store. A block that crosses the end of
+/// local store continues at address 0.
 class CallArguments {
 public:
   CallArguments(const LocalStoreView& local_store, std::uint32_t block)

@@ -44,7 +44,7 @@ bool EaHeap::reserve() {
   for (std::uint64_t start = kFirst; memory_ == nullptr && start + most_bytes_ <= kEnd; start += kStep) {
     memory_ = map(start, most_bytes_, kOnlyThere);
     if (memory_ == nullptr || address_of(memory_) == start) continue;
-    ::munmap(memory_, static_cast<std::size_t>(most_bytes_)); // an old system, which took a hint only
+    ::munmap(memory_, static_cast<std::size_t>(most_bytes_)); // an old system took the address as a hint only
     memory_ = nullptr;
   }
   if (memory_ == nullptr) memory_ = map(0, most_bytes_, 0);
@@ -56,7 +56,7 @@ std::uint64_t EaHeap::allocate(std::uint64_t bytes, std::uint64_t alignment) {
   if (bytes > most_bytes_ || alignment > most_bytes_ || !reserve()) return 0;
   alignment = std::max(alignment, kAlignment);
   const std::uint64_t reserved = std::max(round_up(bytes, kAlignment), kAlignment);
-  // Find the smallest block that has room wherever it starts.
+  // Find the smallest free range that has room for the block and its alignment, wherever the range starts.
   const auto fitting = free_by_size_.lower_bound({reserved + alignment - kAlignment, 0});
   if (fitting == free_by_size_.end()) return 0;
   const auto [size, start] = *fitting;

@@ -1,4 +1,4 @@
-// Main memory that programs allocate by effective address: malloc_ea() and related calls, and mmap_ea().
+// EaHeap: main memory that programs allocate by malloc_ea() and related calls, and by mmap_ea().
 #pragma once
 
 #include <cstddef>
@@ -10,31 +10,31 @@
 
 namespace celltrace::cell_emu {
 
-/// One block of the host's memory, reserved at the first allocation: if the system has room, below 4 GB,
-/// since programs keep effective addresses in 32 bits unless they are compiled otherwise, and at the same
-/// place in every run. Allocated blocks are kept apart and aligned to 128 bytes, so that each can be
-/// transferred at full speed. All memory is released with the object. Thread safety: none.
+/// A heap in one range of the host's memory, which is reserved at the first allocation. If the system has
+/// room, the range is below 4 GB, because programs by default keep effective addresses in 32 bits, and at the
+/// same address in every run. Blocks take whole lines of 128 bytes, so that they can be transferred at full
+/// speed. All memory is released with the object. Thread safety: none.
 class EaHeap {
 public:
   static constexpr std::uint64_t kAlignment = 128;
 
-  /// @param most_bytes of all blocks together, each rounded up to a multiple of 128
+  /// @param most_bytes limit of all blocks together, each rounded up to a multiple of 128
   explicit EaHeap(std::uint64_t most_bytes);
   ~EaHeap();
   EaHeap(const EaHeap&) = delete;
   EaHeap& operator=(const EaHeap&) = delete;
 
-  /// Returns 0 if there is no room. The contents are indeterminate.
+  /// Returns the address of a new block, whose contents are indeterminate; 0 if there is no room.
   /// @param alignment a power of two
   std::uint64_t allocate(std::uint64_t bytes, std::uint64_t alignment = kAlignment);
 
-  /// Releases a block. Returns whether a block starts there.
+  /// Releases the block that starts at `ea`. Returns false if no block starts there.
   bool release(std::uint64_t ea);
 
-  /// Returns the requested length of the block that starts there.
+  /// Returns the requested length of the block that starts at `ea`; nothing if no block starts there.
   std::optional<std::uint64_t> bytes_at(std::uint64_t ea) const;
 
-  /// Returns the memory of [ea, ea + bytes) if one block holds it, else null.
+  /// Returns the memory of [ea, ea + bytes) if it is within one block, else null.
   std::uint8_t* at(std::uint64_t ea, std::uint64_t bytes) const;
 
 private:
@@ -49,7 +49,7 @@ private:
   std::uint64_t most_bytes_;
   std::uint8_t* memory_ = nullptr;
   std::map<std::uint64_t, Block> used_;
-  std::map<std::uint64_t, std::uint64_t> free_; // bytes by address, no two adjacent
+  std::map<std::uint64_t, std::uint64_t> free_; // free ranges: bytes by address; no two are adjacent
   std::set<std::pair<std::uint64_t, std::uint64_t>> free_by_size_;
 };
 

@@ -1,4 +1,4 @@
-// Common parts of the formats of printf and scanf: reading their text, and lengths of integers.
+// Common parts of printf and scanf: reading a format's text, and lengths of integers.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/call_arguments.hpp"
@@ -11,17 +11,18 @@
 
 namespace celltrace::cell_emu {
 
-/// The length of an argument; `normal` and `word` have 32 bits.
+/// The length of an integer argument, by its length modifier; `normal` and `word` have 32 bits.
 enum class Length { normal, byte, half, two_words, word };
 
-/// A format that is read character by character: a copy, because conversions may overwrite the original.
+/// A format that is read character by character. It is a copy, because conversions may overwrite the original
+/// in local store.
 class FormatText {
 public:
   explicit FormatText(std::string_view text) : text_(text) {}
 
   bool at_end() const { return at_ == text_.size(); }
   std::size_t place() const { return at_; }
-  /// Returns the next character. Not at the end.
+  /// Returns the next character; the text must not be at its end.
   char peek() const { return text_[at_]; }
   char take() { return text_[at_++]; }
   bool skip(char character) {
@@ -29,7 +30,8 @@ public:
     ++at_;
     return true;
   }
-  /// Skips `sign` if it stands before any character but `end`.
+  /// Skips `sign` if it is the next character and is followed by another character than `end`. Returns
+  /// whether it did.
   bool skips_to_another(char sign, char end) {
     return at_ + 1 < text_.size() && text_[at_ + 1] != end && skip(sign);
   }
@@ -37,7 +39,7 @@ public:
   std::string_view since(std::size_t start) const {
     return std::string_view(text_).substr(start, at_ - start);
   }
-  /// Returns the text up to that character, or all that is left.
+  /// Takes the text up to `character`, or to the end, and returns it.
   std::string_view take_until(char character) {
     const std::size_t start = at_;
     at_ = std::min(text_.find(character, at_), text_.size());
@@ -62,7 +64,7 @@ private:
   std::size_t at_ = 0;
 };
 
-/// Stores the low bits of `value`, as many as an integer of that length has.
+/// Stores the low bits of `value`, as many as an integer of `length` has.
 inline void store_integer(const LocalStoreView& local_store, std::uint32_t address, Length length,
                           std::uint64_t value) {
   switch (length) {

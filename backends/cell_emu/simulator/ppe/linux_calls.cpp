@@ -1,5 +1,4 @@
-// System calls of Linux on PowerPC, as far as newlib for the SPU makes them: read_ea() and related calls,
-// getpid.
+// System calls of Linux on PowerPC that newlib for the SPU makes: read_ea() and related calls, and getpid.
 #include "backends/cell_emu/simulator/ppe/ppe_state.hpp"
 
 #include <unistd.h>
@@ -8,7 +7,7 @@ namespace celltrace::cell_emu {
 
 namespace {
 
-/// The arguments: doublewords behind the number.
+/// The arguments of a system call: doublewords behind the call's number.
 class LinuxArguments {
 public:
   LinuxArguments(const LocalStoreView& local_store, std::uint32_t block)
@@ -51,7 +50,8 @@ std::uint64_t transfer_at(PpeState& state, const LinuxArguments& arguments, Dire
   return static_cast<std::uint64_t>(count);
 }
 
-/// Transfers the parts of a list, which lies in main memory, too: doublewords of address and length.
+/// Reads or writes the parts of a list in main memory; each part has a doubleword of address and a doubleword
+/// of length.
 std::uint64_t transfer_list(PpeState& state, const LinuxArguments& arguments, Direction direction) {
   constexpr std::uint64_t kMostParts = 1024;
   OpenFile& target = file(state, arguments[0]);
@@ -84,7 +84,7 @@ std::uint64_t answer(PpeState& state, const LinuxArguments& arguments) {
     return transfer_at(state, arguments, Direction::out);
   case 20: // getpid
   case 207:
-    return 1; // gettid: all SPEs are one process, whose number is the same in every run
+    return 1; // gettid: all SPEs are one process, which has the same number in every run
   default:
     throw CallFailed{SpuErrno::not_implemented};
   }
@@ -97,7 +97,7 @@ void answer_linux_call(PpeState& state, const LocalStoreView& local_store, std::
   try {
     local_store.range(block, kBlockBytes);
   } catch (const CallFailed&) {
-    return; // there is no room for an answer either
+    return; // the block is not in local store, so the result cannot be stored
   }
   std::uint64_t result = 0;
   try {

@@ -1,4 +1,4 @@
-// Main memory by effective address: malloc_ea() and mmap_ea() and related calls.
+// Calls that allocate and map main memory: malloc_ea(), mmap_ea() and related calls.
 #include "backends/cell_emu/simulator/ppe/ppe_state.hpp"
 
 #include <array>
@@ -62,8 +62,8 @@ CallResult answer_realloc(PpeState& state, const Arguments& arguments) {
   return CallResult::wide(reallocate(state, ea, bytes));
 }
 
-/// Answers posix_memalign(), which returns the error instead of setting errno. The pointer in local store has
-/// 32 bits, as the library is compiled, unless these are not enough.
+/// Answers posix_memalign_ea(), which returns the error instead of setting errno. Stores the pointer with 32
+/// bits, as the library is compiled, unless the address needs more.
 CallResult answer_aligned(PpeState& state, const Arguments& arguments) {
   const auto failure = [](SpuErrno error) { return CallResult::number(static_cast<std::int64_t>(error)); };
   const std::uint64_t alignment = arguments.doubleword(1), bytes = arguments.doubleword(2);
@@ -83,7 +83,7 @@ CallResult answer_aligned(PpeState& state, const Arguments& arguments) {
 constexpr std::uint32_t kProtectionWrite = 2, kShared = 1, kFixed = 0x10, kAnonymous = 0x20, kMayMove = 1;
 constexpr std::uint64_t kPageBytes = 4096;
 
-/// Reads a part of a file; bytes behind its end are zero.
+/// Reads a part of a file; bytes behind the file's end are zero.
 void read_file(int descriptor, std::span<std::uint8_t> to, std::int64_t offset) {
   while (!to.empty()) {
     const ssize_t count = ::pread(descriptor, to.data(), to.size(), offset);
@@ -118,7 +118,8 @@ CallResult map_memory(PpeState& state, const Arguments& arguments) {
   if ((flags & kAnonymous) != 0) return CallResult::wide(allocate_zeros(state, bytes, kPageBytes));
 
   const int descriptor = state.files.at(arguments.number(4))->host_descriptor();
-  // The program gets a copy: writes would not reach the file.
+  // Shared writable mappings are refused: the program gets a copy, so that its writes would not reach the
+  // file.
   const bool written = (flags & kShared) != 0 && (protection & kProtectionWrite) != 0;
   if (descriptor < 0 || written) throw CallFailed{SpuErrno::no_device};
   const std::uint64_t ea = allocate_zeros(state, bytes, kPageBytes);

@@ -1,5 +1,5 @@
-// The files that the programs of one machine have open: POSIX descriptors, and the streams of
-// the C library above them.
+// The files that the programs of one machine have open: POSIX descriptors, and streams of the C library,
+// which use descriptors.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/allowed_folders.hpp"
@@ -17,13 +17,13 @@
 
 namespace celltrace::cell_emu {
 
-/// The object that descriptors refer to. All functions throw CallFailed.
+/// An open file, to which several descriptors may refer. All functions throw CallFailed.
 class OpenFile {
 public:
   enum class From { start, here, end };
 
   virtual ~OpenFile() = default;
-  /// Reads and returns the number of bytes, 0 at the end.
+  /// Reads bytes and returns their number, 0 at the end.
   virtual std::size_t read(std::span<std::uint8_t>) { throw CallFailed{SpuErrno::bad_file}; }
   virtual void write(std::string_view) { throw CallFailed{SpuErrno::bad_file}; }
   /// Moves the position and returns it.
@@ -32,8 +32,7 @@ public:
   virtual int host_descriptor() const { return -1; }
 };
 
-/// An input of text that is there from the start, and of pieces that a function returns when it has been
-/// read.
+/// An input: a text, followed by pieces of text that a function returns when all text has been read.
 class InputText final : public OpenFile {
 public:
   InputText(std::string text, std::function<std::string()> more)
@@ -46,7 +45,7 @@ private:
   std::size_t at_ = 0;
 };
 
-/// An output of text that a function receives at once, or that is dropped.
+/// An output, whose text a function receives at once; without a function the text is dropped.
 class OutputText final : public OpenFile {
 public:
   explicit OutputText(std::function<void(std::string_view)> take) : take_(std::move(take)) {}
@@ -72,18 +71,19 @@ private:
   std::string path_;
 };
 
-/// Descriptors from 0: standard input, output and error, then the lowest free ones. Thread safety: none.
+/// Descriptors, by number: 0 to 2 are standard input, output and error; new files get the lowest free number.
+/// Thread safety: none.
 class OpenFiles {
 public:
   explicit OpenFiles(std::size_t most) : files_(most) {}
 
-  /// Returns the file of a descriptor. Throws EBADF.
+  /// Returns the file of a descriptor. Throws CallFailed with EBADF if there is none.
   const std::shared_ptr<OpenFile>& at(std::int32_t descriptor) const;
-  /// Adds a file and returns its descriptor. Throws EMFILE.
+  /// Adds a file and returns its descriptor. Throws CallFailed with EMFILE if all are in use.
   std::int32_t add(std::shared_ptr<OpenFile> file);
-  /// Replaces the file of a descriptor. Throws EBADF for a number out of range.
+  /// Replaces the file of a descriptor. Throws CallFailed with EBADF for a number out of range.
   void set(std::int32_t descriptor, std::shared_ptr<OpenFile> file);
-  /// Closes a descriptor. Throws EBADF.
+  /// Closes a descriptor. Throws CallFailed with EBADF if it is not open.
   void close(std::int32_t descriptor);
 
 private:
@@ -94,7 +94,7 @@ private:
   std::vector<std::shared_ptr<OpenFile>> files_;
 };
 
-/// A FILE. It has no buffer, so that descriptors and streams may be mixed.
+/// A stream (FILE). It has no buffer, so that programs may mix descriptors and streams.
 class Stream final : public CharacterSource {
 public:
   Stream(OpenFiles& files, std::int32_t descriptor, bool reads, bool writes)
@@ -107,7 +107,7 @@ public:
 
   int get() override;
   void unget(int character) override { pushed_back_ += static_cast<char>(character); }
-  /// Pushes a character back, as ungetc(). Throws CallFailed if too much is pushed back.
+  /// Pushes a character back, as ungetc() does. Throws CallFailed if too many characters are pushed back.
   void push_back(int character);
 
   std::size_t read(std::span<std::uint8_t> to);
@@ -122,18 +122,18 @@ private:
   std::int32_t descriptor_;
   bool reads_, writes_;
   bool at_end_ = false, has_error_ = false;
-  std::string pushed_back_; // characters that are read first, from the last one
+  std::string pushed_back_; // characters that are read first, the last of them first
 };
 
-/// Streams by their numbers in programs, from 1: standard input, output and error, then the
-/// lowest free ones. Thread safety: none.
+/// Streams, by their numbers in programs: 1 to 3 are standard input, output and error; new streams get the
+/// lowest free number. Thread safety: none.
 class Streams {
 public:
   explicit Streams(std::size_t most) : streams_(most) {}
 
-  /// Returns a stream. Throws EBADF.
+  /// Returns a stream. Throws CallFailed with EBADF if there is none.
   Stream& at(std::uint32_t number);
-  /// Adds a stream and returns its number. Throws EMFILE.
+  /// Adds a stream and returns its number. Throws CallFailed with EMFILE if all are in use.
   std::uint32_t add(Stream stream);
   void set(std::uint32_t number, Stream stream);
   void remove(std::uint32_t number) { streams_[number - 1].reset(); }

@@ -1,4 +1,4 @@
-// POSIX calls of newlib for the SPU, by the numbers of libspe2.
+// POSIX calls of newlib for the SPU, in the order of libspe2's numbers.
 #include "backends/cell_emu/simulator/ppe/ppe_state.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ int host_descriptor(PpeState& state, std::int32_t descriptor) {
 // --- open files
 // -------------------------------------------------------------------------------------------------
 
-/// Converts the flags of open(), which reach the PPE as those of Linux.
+/// Converts the flags of open() from Linux's values, which programs pass, to the host's.
 int host_flags(std::uint32_t flags) {
   int host = 0;
   switch (flags & 3) {
@@ -113,7 +113,8 @@ CallResult write_bytes(PpeState& state, const Arguments& arguments) {
   return CallResult::number(static_cast<std::int64_t>(from.size()));
 }
 
-/// Returns a file of the host with a position of its own; the standard streams have none.
+/// Returns the host's descriptor of a file with a position. Throws CallFailed for standard streams, which
+/// have no position.
 int positioned(PpeState& state, const Arguments& arguments) {
   const int host = state.files.at(arguments.number(0))->host_descriptor();
   if (host < 0) throw CallFailed{SpuErrno::illegal_seek};
@@ -137,7 +138,8 @@ CallResult write_bytes_at(PpeState& state, const Arguments& arguments) {
   return CallResult::number(count);
 }
 
-/// Calls `transfer` for the parts of readv() and writev(): address and length, of 32 bits each.
+/// Calls `transfer` for each part of a readv() or writev(). A part is an address and a length of 32 bits
+/// each.
 template <class Transfer> CallResult for_each_part(const Arguments& arguments, const Transfer& transfer) {
   constexpr std::int32_t kMostParts = 1024;
   const LocalStoreView& local_store = arguments.local_store();
@@ -180,7 +182,7 @@ CallResult change_mode_of_file(PpeState& state, const Arguments& arguments) {
   return checked(::fchmod(host_descriptor(state, arguments.number(0)), arguments.word(1) & 0777));
 }
 
-/// Succeeds: all SPEs are one process, and a process never waits for its own locks.
+/// Always succeeds, because all SPEs are one process, and a process never waits for its own locks.
 CallResult lock_file(PpeState& state, const Arguments& arguments) {
   host_descriptor(state, arguments.number(0));
   return success();
@@ -257,7 +259,7 @@ CallResult current_folder(PpeState& state, const Arguments& arguments) {
   return CallResult::address(to);
 }
 
-/// Returns the prefix of a template whose last six characters are X.
+/// Returns a template's text in front of its last six characters, which must be X.
 std::string_view template_prefix(const Arguments& arguments) {
   const std::string_view name = arguments.string(0);
   if (!name.ends_with("XXXXXX")) throw CallFailed{SpuErrno::invalid};
@@ -285,7 +287,7 @@ CallResult set_umask(PpeState& state, const Arguments& arguments) {
 // --- status
 // -----------------------------------------------------------------------------------------------------
 
-/// Stores thirteen words, from which the library makes its own struct stat.
+/// Stores thirteen words, from which the program's library makes a struct stat.
 void store_status(const Arguments& arguments, const struct stat& status) {
   if (status.st_size > INT32_MAX) throw CallFailed{SpuErrno::overflow};
   const std::uint64_t fields[] = {static_cast<std::uint64_t>(status.st_dev),
@@ -309,7 +311,7 @@ void store_status(const Arguments& arguments, const struct stat& status) {
 CallResult status_of_file(PpeState& state, const Arguments& arguments) {
   const int host = state.files.at(arguments.number(0))->host_descriptor();
   struct stat status = {};
-  if (host < 0) { // the file looks like a terminal to programs
+  if (host < 0) { // standard streams look like a terminal
     status.st_mode = S_IFCHR | 0620;
     status.st_nlink = 1;
     status.st_blksize = 1024;
@@ -355,7 +357,7 @@ std::unique_ptr<ListedFolder> list_folder(PpeState& state, std::string_view name
   auto listed = std::make_unique<ListedFolder>();
   while (const dirent* entry = ::readdir(listing.get()))
     listed->entries.push_back({static_cast<std::uint32_t>(entry->d_ino), entry->d_name});
-  // Sorted, because the order of the host differs from machine to machine.
+  // Sorted, because hosts list folders in different orders.
   std::ranges::sort(listed->entries, {}, &ListedFolder::Entry::name);
   return listed;
 }
@@ -383,7 +385,7 @@ CallResult close_folder(PpeState& state, const Arguments& arguments) {
   return success();
 }
 
-/// Stores a word of inode and 256 bytes of name.
+/// Stores the next entry of a folder: a word with its inode, and 256 bytes for its name.
 CallResult read_folder(PpeState& state, const Arguments& arguments) {
   constexpr std::size_t kNameBytes = 256;
   ListedFolder& folder = *listed_folder(state, arguments);
@@ -468,7 +470,7 @@ CallResult seconds_of_day(PpeState& state, const Arguments& arguments) {
   return CallResult::number(seconds);
 }
 
-/// Returns at once: only the work of SPUs advances virtual time.
+/// Returns at once, because only the work of SPUs advances virtual time.
 CallResult sleep_for(PpeState& state, const Arguments& arguments) {
   const TimePair wanted = TimePair::load(state, arguments.local_store(), arguments.word(0));
   if (wanted.seconds < 0 || wanted.fraction < 0 || wanted.fraction >= 1000000000)
@@ -512,7 +514,7 @@ CallResult do_nothing(PpeState&, const Arguments&) {
   return success();
 }
 
-/// Refuses calls that would reach beyond the allowed folders, or that need privileges.
+/// Refuses a call that could reach beyond the allowed folders, or needs privileges.
 CallResult refuse(PpeState&, const Arguments&) {
   throw CallFailed{SpuErrno::not_permitted};
 }

@@ -1,4 +1,4 @@
-// Shared state of the answers to calls for help, and the tables of these answers.
+// PpeState, the state of PpeCalls that all calls share, and the tables of functions that execute calls.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/allowed_folders.hpp"
@@ -26,22 +26,23 @@ struct ListedFolder {
   std::size_t next = 0;
 };
 
-/// The state of all files and memory. Thread safety: none; PpeCalls serializes.
+/// Files, folders and main memory of all programs. Thread safety: none; PpeCalls executes one call at a time.
 struct PpeState {
   explicit PpeState(PpeCallsConfig config);
 
   std::chrono::microseconds now() const;
 
-  /// Opens a file of the host. The mode is POSIX's; flags are the host's.
+  /// Opens a file of the host. `host_flags` are the host's flags of open(), `mode` is POSIX's.
   std::shared_ptr<HostFile> open(std::string_view name, int host_flags, unsigned mode) const;
 
-  /// Makes a new file whose name is `prefix` and six characters that end in a number. Throws CallFailed.
+  /// Makes a new file whose name is `prefix` followed by six characters that end in a number. Throws
+  /// CallFailed.
   /// @param name receives the name
   std::shared_ptr<HostFile> make_temporary(std::string_view prefix, std::string& name);
-  /// Returns a name as for make_temporary(), without making the file.
+  /// Returns a name as make_temporary() would use, without making the file.
   std::string temporary_name(std::string_view prefix);
 
-  /// Returns memory that a program may use by effective address. Throws EFAULT.
+  /// Returns the memory of [ea, ea + bytes). Throws CallFailed with EFAULT if a program may not use it.
   std::span<std::uint8_t> effective_memory(std::uint64_t ea, std::uint64_t bytes) const;
 
   PpeCallsConfig config;
@@ -49,12 +50,13 @@ struct PpeState {
   OpenFiles files;
   Streams streams;
   EaHeap ea_heap;
-  std::vector<std::unique_ptr<ListedFolder>> listed_folders; ///< index: the program's number for them, from 1
+  /// Folders that programs list; the folder with the program's number n has index n - 1.
+  std::vector<std::unique_ptr<ListedFolder>> listed_folders;
   unsigned umask = 022;
   unsigned temporary_files = 0; ///< number of files made so far
 };
 
-/// One operation. Its answer may throw CallFailed.
+/// A call, with the function that executes it and may throw CallFailed.
 struct PpeCall {
   enum class OnFailure { minus_one, zero };
 
@@ -62,19 +64,19 @@ struct PpeCall {
   OnFailure on_failure = OnFailure::minus_one;
 };
 
-/// Return the calls by operation; entry 0 is none.
+/// Return the calls by the number of their operation; entry 0 is no call.
 std::span<const PpeCall> c99_calls();
 std::span<const PpeCall> posix_calls();
 std::span<const PpeCall> memory_calls();
 
-/// mmap_ea() and related calls, which are POSIX operations.
+/// Execute mmap_ea() and related calls, which have POSIX operation numbers.
 CallResult map_memory(PpeState&, const CallArguments&);
 CallResult remap_memory(PpeState&, const CallArguments&);
 CallResult synchronize_memory(PpeState&, const CallArguments&);
 CallResult unmap_memory(PpeState&, const CallArguments&);
 
-/// Answers a system call of Linux. Its number and its six arguments are doublewords at `block`; the result
-/// replaces the number: a value, or -errno.
+/// Executes a system call of Linux. Its number and its six arguments are doublewords at `block`. The result,
+/// a value or -errno, replaces the number.
 void answer_linux_call(PpeState& state, const LocalStoreView& local_store, std::uint32_t block);
 
 } // namespace celltrace::cell_emu

@@ -29,12 +29,12 @@ namespace {
 struct Directive {
   bool left = false, plus = false, space = false, alternative = false, zero = false;
   std::uint64_t width = 0;
-  std::int64_t precision = -1; ///< negative: none
+  std::int64_t precision = -1; ///< negative: no precision
   Length length = Length::normal;
   char conversion = 0;
 };
 
-/// The output of a conversion, in order; `zeros` are numbers of zeros.
+/// The output of a conversion, in order; members with `zeros` in their names are numbers of zeros.
 struct Pieces {
   std::string_view sign = {};
   std::uint64_t leading_zeros = 0;
@@ -47,7 +47,7 @@ struct Pieces {
   }
 };
 
-/// Digits that a double can have before or behind the point and that are not zero.
+/// Largest number of digits of a double before, or behind, the point, without zeros at the end.
 constexpr std::int64_t kMostDigits = 1100;
 
 class Formatter {
@@ -320,7 +320,7 @@ private:
     }
   }
 
-  /// Returns the digits, with at most kMostDigits behind the point, since more are zeros anyway.
+  /// Returns the digits, with at most kMostDigits behind the point, because all further digits are zeros.
   std::string_view digits_of(double magnitude, std::chars_format format, std::int64_t precision) {
     const int digits = static_cast<int>(std::min(precision, kMostDigits));
     char* end = std::to_chars(buffer_.data(), buffer_.data() + buffer_.size(), magnitude, format, digits).ptr;
@@ -348,7 +348,7 @@ private:
     put(d, {.sign = sign, .digits = digits, .trailing_zeros = zeros, .suffix = exponent});
   }
 
-  /// Drops zeros at the end for %g; # keeps the point.
+  /// Drops zeros at the end for %g, unless the flag # is set.
   static void finish_fraction(const Directive& d, std::string& digits, std::uint64_t& zeros) {
     const bool general = d.conversion == 'g' || d.conversion == 'G';
     if (general && !d.alternative) {

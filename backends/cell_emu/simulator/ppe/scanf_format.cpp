@@ -62,7 +62,7 @@ private:
   std::uint64_t left_;
 };
 
-/// End the whole call; earlier stores count.
+/// Exceptions that end a call of scan_formatted(); results that were stored before stay.
 struct InputFailed {};
 struct MatchFailed {};
 
@@ -229,7 +229,7 @@ private:
                     saturated(d, value, overflow, negative, is_signed));
   }
 
-  /// Returns the value that strtol() or strtoul() has for numbers that do not fit.
+  /// Returns the value, or, if it does not fit, the limit that strtol() or strtoul() would return.
   static std::uint64_t saturated(const Directive& d, std::uint64_t value, bool overflow, bool negative,
                                  bool is_signed) {
     const std::uint64_t all = d.length == Length::two_words ? ~std::uint64_t{0} : 0xFFFFFFFF;
@@ -349,7 +349,8 @@ private:
     else
       local_store_.store(address, static_cast<std::uint8_t>(c));
     const std::uint32_t next = address + (wide ? 4 : 1);
-    if (LocalStoreView::wrap(next) == 0) throw CallFailed{SpuErrno::fault}; // strings do not wrap to 0
+    if (LocalStoreView::wrap(next) == 0)
+      throw CallFailed{SpuErrno::fault}; // strings must not continue at address 0
     return next;
   }
 

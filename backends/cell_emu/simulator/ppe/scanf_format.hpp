@@ -1,4 +1,4 @@
-// The conversions of the scanf family, into local store.
+// scan_formatted(): the conversions of the scanf family, with results in local store.
 #pragma once
 
 #include "backends/cell_emu/simulator/ppe/call_arguments.hpp"
@@ -15,7 +15,7 @@ public:
   virtual ~CharacterSource() = default;
   /// Returns the next character, 0..255, or -1 at the end.
   virtual int get() = 0;
-  /// Takes the last character back; at most one in a row.
+  /// Takes back the last character that get() returned; at most one in a row.
   virtual void unget(int character) = 0;
 };
 
@@ -30,9 +30,9 @@ private:
   std::size_t at_ = 0;
 };
 
-/// Reads as C99's vscanf() does with 32-bit int, long and pointers, in the "C" locale. Returns the
-/// number of conversions that were stored, or -1 if the input ended before there was one. Throws CallFailed:
-/// EFAULT for places outside local store; EINVAL for conversions that C99 does not have.
+/// Reads as C99's vscanf() does with 32-bit int, long and pointers, in the "C" locale. Returns the number of
+/// stored results, or -1 if the input ended before the first conversion. Throws CallFailed: EFAULT for places
+/// outside local store; EINVAL for conversions that C99 does not have.
 int scan_formatted(CharacterSource& source, std::string_view format, const LocalStoreView& local_store,
                    VariableArguments arguments);
 

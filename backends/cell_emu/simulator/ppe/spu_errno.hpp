@@ -1,4 +1,4 @@
-// The errno of programs for the SPU. Its C library has the numbers of Linux on PowerPC.
+// The values of errno in programs for the SPU: the numbers of Linux on PowerPC.
 #pragma once
 
 #include <cstdint>
@@ -30,18 +30,18 @@ enum class SpuErrno : std::uint32_t {
   illegal_sequence = 84,    ///< EILSEQ
 };
 
-/// Thrown inside the answer to a call, which then reports failure with this errno. Caught by PpeCalls.
+/// Exception by which a call fails with an errno. PpeCalls catches it.
 struct CallFailed {
   SpuErrno error;
 };
 
-/// Returns the SPU's number for an errno of the host; EIO if there is none.
+/// Returns the SPU's number for an errno of the host; EIO if the SPU has no such error.
 SpuErrno spu_errno(int host_errno);
 
-/// Throws CallFailed with the host's errno.
+/// Throws CallFailed with the error in the host's errno.
 [[noreturn]] void fail_with_host_errno();
 
-/// Returns the text that perror() prints for it.
+/// Returns the text that perror() prints for an error.
 std::string_view error_text(std::uint32_t spu_errno);
 
 } // namespace celltrace::cell_emu

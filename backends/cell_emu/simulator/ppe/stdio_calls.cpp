@@ -1,4 +1,4 @@
-// The C library's <stdio.h>, by the numbers that libspe2 and newlib have for its functions.
+// The functions of <stdio.h>, in the order of the numbers that libspe2 and newlib have for them.
 #include "backends/cell_emu/simulator/ppe/ppe_state.hpp"
 #include "backends/cell_emu/simulator/ppe/printf_format.hpp"
 #include "backends/cell_emu/simulator/ppe/scanf_format.hpp"
@@ -37,7 +37,7 @@ std::int64_t offset_of_32_bits(std::int64_t offset) {
 // --- opening and closing
 // ----------------------------------------------------------------------------------------
 
-/// The flags that fopen() makes of "r+" and other modes.
+/// A mode of fopen(), such as "r+".
 struct Mode {
   int host_flags;
   bool reads, writes;
@@ -88,7 +88,9 @@ CallResult reopen_stream(PpeState& state, const Arguments& arguments) {
   const std::uint32_t name = arguments.word(0), number = arguments.word(2);
   const Mode mode = parse_mode(arguments.string(1));
   const std::int32_t descriptor = state.streams.at(number).descriptor();
-  if (name == 0) return CallResult::address(number); // modes do not differ: there are no text files
+  if (name == 0)
+    return CallResult::address(
+        number); // freopen() without a name only changes the mode, and binary and text mode are the same
   std::shared_ptr<HostFile> file;
   try {
     file = state.open(arguments.string(0), mode.host_flags, 0666);
@@ -118,7 +120,7 @@ CallResult open_temporary(PpeState& state, const Arguments&) {
 
 CallResult name_temporary(PpeState& state, const Arguments& arguments) {
   const std::uint32_t to = arguments.word(0);
-  // The library passes a buffer only if it was given one.
+  // Without a buffer there is no place for the name: the program passed none.
   if (to == 0) throw CallFailed{SpuErrno::invalid};
   std::string name = state.temporary_name("tmp");
   name += '\0';
@@ -196,7 +198,7 @@ CallResult rewind_stream(PpeState& state, const Arguments& arguments) {
   return success();
 }
 
-/// Stores the position in an fpos_t of 16 bytes, whose format is free.
+/// Stores the position in the first 8 bytes of a program's fpos_t of 16 bytes.
 CallResult get_position(PpeState& state, const Arguments& arguments) {
   const std::uint32_t to = arguments.word(1);
   arguments.local_store().store(to, static_cast<std::uint64_t>(stream(state, arguments).tell()));
@@ -227,7 +229,8 @@ CallResult get_standard_character(PpeState& state, const Arguments&) {
   return get_from(state.streams.at(kStandardInput));
 }
 
-/// Returns the characters up to and with the next line feed, at most `most`; none at the end.
+/// Returns the characters up to the next line feed, which is included, at most `most`; none at the end of the
+/// file.
 std::string read_line(Stream& from, std::size_t most) {
   std::string line;
   while (line.size() < most && !line.ends_with('\n')) {
@@ -386,7 +389,7 @@ CallResult rename_file(PpeState& state, const Arguments& arguments) {
   return success();
 }
 
-/// Fails: there is no command processor.
+/// Fails for every command, because there is no command processor.
 CallResult run_command(PpeState&, const Arguments& arguments) {
   if (arguments.word(0) != 0) throw CallFailed{SpuErrno::not_implemented};
   return success();
