@@ -12,7 +12,7 @@ if(NOT CELLTRACE_UNITY)
   target_compile_options(celltrace_options INTERFACE -Wshadow)
 elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Sources look like headers, whose classes were to have no member of an anonymous namespace's type.
-  target_compile_options(celltrace_options INTERFACE -Wno-subobject-linkage)
+  target_compile_options(celltrace_options INTERFACE -Wno-subobject-linkage -Wshadow=local)
 endif()
 if(CELLTRACE_WERROR)
   target_compile_options(celltrace_options INTERFACE -Werror)
@@ -56,20 +56,22 @@ set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 target_compile_options(celltrace_options INTERFACE -ftls-model=initial-exec)
 
+# With CELLTRACE_UNITY, compiles a target's sources BATCH at a time, but for those that are APART.
+function(celltrace_unity target)
+  cmake_parse_arguments(UNITY "" "BATCH" "APART" ${ARGN})
+  if(UNITY_APART)
+    set_source_files_properties(${UNITY_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CELLTRACE_UNITY} UNITY_BUILD_BATCH_SIZE ${UNITY_BATCH})
+endfunction()
+
 # A room of the house: a static library celltrace_NAME whose headers are found from the root of src/, backends/ and
 # include/. The project's own warnings do not reach whoever links it. Sources that are APART name what others name, too:
 # they are never compiled together with them.
 function(celltrace_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;APART;LINK" ${ARGN})
   add_library(celltrace_${name} STATIC ${ROOM_SOURCES} ${ROOM_APART})
-  if(ROOM_APART)
-    set_source_files_properties(${ROOM_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  endif()
-  if(CELLTRACE_UNITY)
-    set_target_properties(celltrace_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-  else()
-    set_target_properties(celltrace_${name} PROPERTIES UNITY_BUILD OFF)
-  endif()
+  celltrace_unity(celltrace_${name} BATCH 12 APART ${ROOM_APART})
   target_include_directories(celltrace_${name} PUBLIC
     ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
   target_compile_features(celltrace_${name} PUBLIC cxx_std_20)
