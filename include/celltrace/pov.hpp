@@ -2,9 +2,9 @@
 //
 // Supported: the language itself (directives, macros, loops, strings, arrays, expressions), all cameras
 // except mesh cameras, all light sources and light groups, spheres, boxes, planes, discs, cylinders, cones,
-// tori, quadrics, superellipsoids, polygons, triangles, meshes, unions, CSG of triangles and of all shapes
-// that have an inside (including meshes with inside_vector) with inverse and clipped_by, sky spheres, fogs,
-// rainbows, and all textures of texture.hpp: patterns with maps and lists, normals, layers and finishes.
+// tori, quadrics, superellipsoids, polygons, triangles, meshes, bicubic patches, unions, CSG of triangles and
+// of all shapes that have an inside (including meshes with inside_vector) with inverse and clipped_by, sky
+// spheres, fogs, rainbows, and all textures of texture.hpp: patterns with maps and lists, normals, layers and finishes.
 // Other features of POV-Ray may be declared, but are errors if an object of the scene uses them ("'blob' is
 // not supported yet"): one error for each feature, all in one message. ParseOptions::lenient leaves such
 // features out instead.

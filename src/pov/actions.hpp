@@ -7,6 +7,7 @@
 #include "pov/mesh_actions.hpp"
 #include "pov/missing.hpp"
 #include "pov/object_actions.hpp"
+#include "pov/patches.hpp"
 #include "pov/pattern_changes.hpp"
 #include "pov/settings.hpp"
 #include "pov/texture_actions.hpp"

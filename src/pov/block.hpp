@@ -24,6 +24,7 @@ enum class Block : std::uint8_t {
   light_group,
   object,
   mesh2,
+  bicubic_patch,
   photons,
   pattern, ///< what all kinds of patterns have
   pigment,

@@ -81,6 +81,8 @@ Block block_behind(int terminal) {
     return Block::object;
   case tokens::T_MESH2:
     return Block::mesh2;
+  case tokens::T_BICUBIC_PATCH:
+    return Block::bicubic_patch;
   case tokens::T_PHOTONS:
     return Block::photons;
   case tokens::T_TEXTURE:

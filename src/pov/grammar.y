@@ -87,7 +87,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
 %token OLD_PLUS OLD_MINUS // signs of a new value: before version 1.5 they do not join two values
 
-%token ALBEDO ALTITUDE ANGLE AREA_LIGHT ARRAY ASSUMED_GAMMA BACKGROUND BLUR_SAMPLES BOUNDED_BY CAMERA CHARSET CLIPPED_BY
+%token ALBEDO ALTITUDE ANGLE AREA_LIGHT ARRAY ASSUMED_GAMMA BACKGROUND BICUBIC_PATCH BLUR_SAMPLES BOUNDED_BY CAMERA CHARSET CLIPPED_BY
 %token COLOUR COLOUR_MAP DIFFUSE DIMENSIONS DIMENSION_SIZE FINISH FOG GLOBAL_SETTINGS INSIDE INSIDE_VECTOR INTERIOR
 %token INTERIOR_TEXTURE INVERSE IRID JULIA LIGHT_GROUP LIGHT_SOURCE LOOKS_LIKE MAGNET MATERIAL MATRIX MAX_EXTENT MESH MESH2
 %token MIN_EXTENT NORMAL NORMAL_MAP OBJECT OPEN PHOTONS PIGMENT PIGMENT_MAP PIGMENT_PATTERN PROJECTED_THROUGH RADIOSITY
@@ -150,6 +150,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
+%nterm <std::shared_ptr<PatchDefinition>> patch_head patch_values
 %nterm <std::vector<TexturePtr>> texture_list
 %nterm <std::shared_ptr<TriangleDefinition>> triangle plain_triangle triangle_vertices mapped_triangle
 %nterm <PhotonsDefinition> photons photon_items

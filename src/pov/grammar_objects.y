@@ -76,6 +76,7 @@ object_body
   | CSG '{' OBJECT_ID            { $$ = copy_of(*$3); }
   | MESH '{' OBJECT_ID           { $$ = copy_of(*$3); }
   | MESH2 '{' OBJECT_ID          { $$ = copy_of(*$3); }
+  | BICUBIC_PATCH '{' OBJECT_ID  { $$ = copy_of(*$3); }
   | shape_head                   %prec SHORTER { $$ = shape(session, $1); }
   | shape_head OPEN              { $$ = open_shape(session, $1); }
   | shape_end                    { $$ = shape(session, $1); }
@@ -85,6 +86,7 @@ object_body
   | triangle_vertices            { $$ = lone_triangle(session, $1, @1); }
   | mesh_head                    { $$ = mesh(session, *$1, @1); }
   | mesh2_head                   { $$ = mesh2(session, *$1, @1); }
+  | patch_values                 %prec SHORTER { $$ = patch(session, *$1, @1); }
   | object_body modifier { $$ = $1; modify(session, *$$, $2, @2); }
   | object_body texture          { $$ = $1; add_layer(session, *$$, $2, @2); }
   | object_body PIGMENT '{' { start_part(session, $1, @2); } pigment_body '}' { $$ = dressed(session, *$5); }
@@ -175,6 +177,22 @@ mesh2_head
   | mesh2_head LIST_ITEM counted_list { $$ = $1; apply(session, *$$, $2, $3, @3); }
   | mesh2_head TEXTURE_LIST '{' number texture_list '}' { $$ = $1; set_textures(session, *$$, $4, $5, @2); }
   | mesh2_head INSIDE_VECTOR quantity { $$ = $1; $$->inside_vector = inside_vector(session, $3, @3); }
+  ;
+
+patch_head
+  : BICUBIC_PATCH '{' { $$ = std::make_shared<PatchDefinition>(); }
+  | patch_head item   { $$ = $1; apply(session, *$$, $2); }
+  | patch_head ','    { $$ = $1; }
+  | patch_head UV_VECTORS quantity optional_comma quantity optional_comma quantity optional_comma quantity %prec SHORTER {
+      $$ = $1;
+      set_coordinates(session, *$$, {$3.vec3(), $5.vec3(), $7.vec3(), $9.vec3()}, @2);
+    }
+  ;
+
+patch_values // options of the old form, and control points
+  : patch_head quantity       %prec SHORTER { $$ = $1; add_value(session, *$$, $2, @2); }
+  | patch_values quantity     %prec SHORTER { $$ = $1; add_value(session, *$$, $2, @2); }
+  | patch_values ',' quantity %prec SHORTER { $$ = $1; add_value(session, *$$, $3, @3); }
   ;
 
 texture_list

@@ -37,6 +37,7 @@ const BlockTable kTables[] = {
     {Block::light_group, Block::none, light_group_items},
     {Block::object, Block::none, object_items},
     {Block::mesh2, Block::object, mesh2_items},
+    {Block::bicubic_patch, Block::object, bicubic_patch_items},
     {Block::photons, Block::none, photons_items},
     {Block::pattern, Block::none, pattern_items},
     {Block::pigment, Block::pattern, pigment_items},

@@ -204,6 +204,12 @@ pattern::Inside inside_of(Session& session, const Limit& object, const Location&
 
 void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
            const std::vector<Limit>& added, const Location& where) {
+  const auto* mesh = std::get_if<std::shared_ptr<MeshDefinition>>(&object.shape);
+  if (mesh && (*mesh)->ignores_clips) {
+    if (&list == &object.clipped_by)
+      session.diagnostics.warn_once(where, "'clipped_by' has no effect on a bicubic_patch, as in POV-Ray");
+    return;
+  }
   for (const Limit& limit : added)
     nest(session, object, *limit.object, where);
   list.insert(list.end(), added.begin(), added.end());

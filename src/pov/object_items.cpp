@@ -110,6 +110,26 @@ const ListRow kMesh2Lists[] = {
     {"uv_indices", set_list<&Mesh2Definition::uv_indices, counted>},
 };
 
+const ItemRow<PatchDefinition> kBicubicPatchItems[] = {
+    {"type", Form::value,
+     [](PatchDefinition& patch, const ItemValues& values) {
+       if (values.number() != 0 && values.number() != 1)
+         values.session().diagnostics.warn_once(values.where(),
+                                                "a bicubic_patch has type 0 or 1: 1 is taken");
+       patch.has_type = true;
+     }},
+    {"flatness", Form::value, store<&ItemValues::number, &PatchDefinition::patch, &BicubicPatch::flatness>},
+    {"u_steps", Form::value,
+     [](PatchDefinition& patch, const ItemValues& values) {
+       patch.patch.s_steps = patch_steps(values.number());
+     }},
+    {"v_steps", Form::value,
+     [](PatchDefinition& patch, const ItemValues& values) {
+       patch.patch.q_steps = patch_steps(values.number());
+     }},
+    {"accuracy", Form::value, ignore_number},
+};
+
 } // namespace
 
 std::vector<ItemWord> object_items() {
@@ -135,13 +155,25 @@ std::vector<ItemWord> mesh2_items() {
   return words;
 }
 
+std::vector<ItemWord> bicubic_patch_items() {
+  return words_of(kBicubicPatchItems);
+}
+
 void apply(Session& session, ObjectDefinition& object, const Item& item) {
+  if (item.block() == Block::bicubic_patch)
+    session.fail(item.where, "options of a bicubic_patch stand before its control points");
   if (item.block() == Block::light_source)
     apply(kLightSourceItems, session, object, item);
   else if (item.block() == Block::light_group)
     apply(kLightGroupItems, session, object, item);
   else
     apply(kObjectItems, session, object, item);
+}
+
+void apply(Session& session, PatchDefinition& patch, const Item& item) {
+  if (item.block() != Block::bicubic_patch)
+    session.fail(item.where, "expected an option or a control point of this bicubic_patch");
+  apply(kBicubicPatchItems, session, patch, item);
 }
 
 void apply(Session& session, PhotonsDefinition& photons, const Item& item) {

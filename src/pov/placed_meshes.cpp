@@ -4,6 +4,7 @@
 
 #include "celltrace/error.hpp"
 #include "pov/mesh.hpp"
+#include "pov/patches.hpp"
 #include "pov/scene_builder.hpp"
 #include "pov/token_stream.hpp"
 
@@ -86,11 +87,22 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
   return std::make_shared<const Mesh>(std::move(builder.finish()->mesh));
 }
 
+/// Returns the triangles of a patch that are flat enough at its place.
+std::shared_ptr<const Mesh> SceneBuilder::placed_patch(const BicubicPatch& patch, const Transform& transform,
+                                                       const Location& where) {
+  const auto mesh = make_mesh(patch, transform, [&](std::size_t count) {
+    tokens_.spend(count);
+    count_triangles(count, where);
+  });
+  return std::make_shared<const Mesh>(std::move(mesh->mesh));
+}
+
 /// Returns the mesh of a definition at its place. Instances share one mesh, unless the mesh has textures of
 /// its own that depend on its place.
 std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
                                                       const Transform& transform, bool uv_mapping,
                                                       const Location& where) {
+  if (definition->patch) return placed_patch(*definition->patch, transform, where);
   const std::vector<TexturePtr>& textures = definition->textures;
   const bool is_constant = std::all_of(textures.begin(), textures.end(),
                                        [](const TexturePtr& texture) { return texture->is_constant(); });

@@ -40,6 +40,7 @@ const Word kWords[] = {
     {"array", tokens::T_ARRAY},
     {"assumed_gamma", tokens::T_ASSUMED_GAMMA},
     {"background", tokens::T_BACKGROUND},
+    {"bicubic_patch", tokens::T_BICUBIC_PATCH},
     {"blur_samples", tokens::T_BLUR_SAMPLES},
     {"bounded_by", tokens::T_BOUNDED_BY},
     {"camera", tokens::T_CAMERA},
@@ -217,8 +218,8 @@ const DirectiveWord kDirectives[] = {
 // Words that POV-Ray 3.7 reserves for unsupported features: objects, words with a block in braces of their
 // own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "bicubic_patch", "blob", "height_field", "isosurface", "julia_fractal", "lathe",        "ovus",
-    "parametric",    "poly", "prism",        "quartic",    "sor",           "sphere_sweep", "text",
+    "blob", "height_field", "isosurface", "julia_fractal", "lathe",        "ovus", "parametric",
+    "poly", "prism",        "quartic",    "sor",           "sphere_sweep", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {
@@ -250,7 +251,6 @@ const char* const kUnsupportedArguments[] = {
     "evaluate",
     "expand_thresholds",
     "extinction",
-    "flatness",
     "gather",
     "gif",
     "gray_threshold",
@@ -287,14 +287,11 @@ const char* const kUnsupportedArguments[] = {
     "tiff",
     "tolerance",
     "ttf",
-    "type",
-    "u_steps",
     "use_alpha",
     "use_color",
     "use_colour",
     "use_index",
     "utf8",
-    "v_steps",
     "water_level",
 };
 

@@ -142,6 +142,8 @@ private:
   void check_pattern(const Pattern& pattern, std::size_t entries, const Location& where);
   std::shared_ptr<const Mesh> placed_triangle(const TriangleDefinition& triangle, const Inherited& own,
                                               const Location& where, Vec3& base);
+  std::shared_ptr<const Mesh> placed_patch(const BicubicPatch& patch, const Transform& transform,
+                                           const Location& where);
   std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
                                           const Transform& transform, bool uv_mapping, const Location& where);
   std::shared_ptr<const Mesh> with_inside(const std::shared_ptr<const Mesh>& mesh,
