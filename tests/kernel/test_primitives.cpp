@@ -419,7 +419,7 @@ TEST_CASE("Several packets against an object have the hits and shadows of each o
       const std::uint32_t self = prepared.object_offset(i);
       const ObjectRecord& object = prepared.object(i);
       const std::uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-      const bool is_plain = (object.kind_and_flags & object_flag::csg) == 0 && !is_heavy(kind) &&
+      const bool is_plain = (object.kind_and_flags & object_flag::csg) == 0 && !Primitives::is_heavy(kind) &&
                             kind != kPrimitiveKind<PlanePrimitive>;
       ExtraRecord extra = {};
       if (object.extra != kNoOffset) extra = prepared.record<ExtraRecord>(object.extra);

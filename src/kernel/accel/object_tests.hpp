@@ -289,13 +289,13 @@ private:
       ++tests.counters_.tests[kind];
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
       Spu& spu = tests.scene_.spu();
-      spu.enter_module(is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
+      spu.enter_module(Primitives::is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
       Crossings<S>* const pairs = sequence_.pairs();
-      sequence_.begin(is_heavy(kind)
+      sequence_.begin(Primitives::is_heavy(kind)
                           ? module_heavy::intersect(spu, rays, object, extra, self, request_, pairs)
                           : module_shapes::intersect(spu, rays, object, extra, self, pairs),
                       Primitives::is_incremental(kind));
-      if (!has_edges(kind)) return;
+      if (!Primitives::has_edges(kind)) return;
       spu.enter_module(modules::kPolygons);
       module_polygons::cut_out(tests.scene_, extra, pairs[0]);
     }

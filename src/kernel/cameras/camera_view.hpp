@@ -10,6 +10,13 @@ namespace celltrace::kernel {
 /// The common property of all rays of a camera.
 enum class SharedByRays { origin, direction, nothing };
 
+/// Traits of curved cameras, of which a kind redefines those that differ; see list.hpp.
+struct CurvedCamera {
+  static constexpr bool kIsFlat = false;
+  static constexpr bool kHasUnitAxes = true;
+  static constexpr SharedByRays kShared = SharedByRays::origin;
+};
+
 /// Parameters of a curved camera's picture, from which the kind computes a CameraPicture for the
 /// CameraRecord.
 struct CameraView {

@@ -9,15 +9,11 @@ namespace celltrace::kernel {
 namespace detail {
 
 /// Columns are angles, rows are heights.
-struct StandingCylinder {
-  static constexpr bool kIsFlat = false;
-  static constexpr bool kHasUnitAxes = true;
+struct StandingCylinder : CurvedCamera {
   static constexpr CameraPicture picture(const CameraView& view) { return {view.angle / 2, view.height / 2}; }
 };
 /// Rows are angles, columns are widths.
-struct LyingCylinder {
-  static constexpr bool kIsFlat = false;
-  static constexpr bool kHasUnitAxes = true;
+struct LyingCylinder : CurvedCamera {
   static constexpr CameraPicture picture(const CameraView& view) { return {view.width / 2, view.angle / 2}; }
 };
 
@@ -26,7 +22,6 @@ struct LyingCylinder {
 /// POV-Ray's `cylinder 1`: a standing cylinder seen from a point.
 struct Cylinder1Camera : detail::StandingCylinder {
   static constexpr const char* kName = "cylinder 1";
-  static constexpr SharedByRays kShared = SharedByRays::origin;
 
   template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine, cosine;
@@ -39,7 +34,6 @@ struct Cylinder1Camera : detail::StandingCylinder {
 /// POV-Ray's `cylinder 2`: a lying cylinder seen from a point.
 struct Cylinder2Camera : detail::LyingCylinder {
   static constexpr const char* kName = "cylinder 2";
-  static constexpr SharedByRays kShared = SharedByRays::origin;
 
   template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine, cosine;

@@ -6,11 +6,8 @@
 
 namespace celltrace::kernel {
 
-struct FisheyeCamera {
+struct FisheyeCamera : CurvedCamera {
   static constexpr const char* kName = "fisheye";
-  static constexpr bool kIsFlat = false;
-  static constexpr bool kHasUnitAxes = true;
-  static constexpr SharedByRays kShared = SharedByRays::origin;
 
   static constexpr CameraPicture picture(const CameraView& view) {
     return {view.width, view.height, 0, view.angle / 2};

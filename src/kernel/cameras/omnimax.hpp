@@ -5,11 +5,8 @@
 
 namespace celltrace::kernel {
 
-struct OmnimaxCamera {
+struct OmnimaxCamera : CurvedCamera {
   static constexpr const char* kName = "omnimax";
-  static constexpr bool kIsFlat = false;
-  static constexpr bool kHasUnitAxes = true;
-  static constexpr SharedByRays kShared = SharedByRays::origin;
 
   /// Returns the picture's extent. The circle of radius 1 fits the width, and from an aspect ratio of 1 on
   /// also the top.

@@ -6,11 +6,8 @@
 
 namespace celltrace::kernel {
 
-struct SphericalCamera {
+struct SphericalCamera : CurvedCamera {
   static constexpr const char* kName = "spherical";
-  static constexpr bool kIsFlat = false;
-  static constexpr bool kHasUnitAxes = true;
-  static constexpr SharedByRays kShared = SharedByRays::origin;
 
   static constexpr CameraPicture picture(const CameraView& view) {
     return {view.angle / 2, view.vertical_angle / 2};

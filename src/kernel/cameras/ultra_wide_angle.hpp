@@ -5,11 +5,8 @@
 
 namespace celltrace::kernel {
 
-struct UltraWideAngleCamera {
+struct UltraWideAngleCamera : CurvedCamera {
   static constexpr const char* kName = "ultra_wide_angle";
-  static constexpr bool kIsFlat = false;
-  static constexpr bool kHasUnitAxes = true;
-  static constexpr SharedByRays kShared = SharedByRays::origin;
 
   static constexpr CameraPicture picture(const CameraView& view) {
     return {view.angle / 2, view.width > 0 ? view.angle / 2 * view.height / view.width : 0};

@@ -191,7 +191,8 @@ private:
       break;
     }
     if ((flags & object_flag::opaque) == 0 || cheap_count_ == first_heavy_) return false;
-    const bool takes_long = (flags & object_flag::csg) != 0 || is_heavy(flags & object_flag::kind_mask);
+    const bool takes_long =
+        (flags & object_flag::csg) != 0 || Primitives::is_heavy(flags & object_flag::kind_mask);
     objects_[takes_long ? --first_heavy_ : cheap_count_++] = occluder;
     return true;
   }

@@ -29,20 +29,16 @@ template <class... P> struct PrimitiveList : TypeList<P...> {
   static constexpr bool kSomeAreIncremental = (P::kIsIncremental || ...);
   static_assert(((P::kIsHeavy || !P::kIsIncremental) && ...), "module_heavy::intersect() says what is asked");
   static_assert(((P::kCrossingPairs == 1 || !P::kIsIncremental) && ...), "CrossingSequence takes one pair");
-  static constexpr bool is_incremental(uint32_t kind) {
-    return ((P::kIsIncremental ? kind == TypeList<P...>::template number<P>() : false) || ...);
+  template <class Q> static constexpr bool is(uint32_t kind) {
+    return kind == TypeList<P...>::template number<Q>();
   }
-  static constexpr bool is_heavy(uint32_t kind) {
-    return ((P::kIsHeavy ? kind == TypeList<P...>::template number<P>() : false) || ...);
-  }
-  static constexpr bool has_shadow_test(uint32_t kind) {
-    return ((P::kHasShadowTest ? kind == TypeList<P...>::template number<P>() : false) || ...);
-  }
-  static constexpr bool has_edges(uint32_t kind) {
-    return ((P::kHasEdges ? kind == TypeList<P...>::template number<P>() : false) || ...);
-  }
+  // Tell the traits of the shape of a kind; false for unknown kinds.
+  static constexpr bool is_incremental(uint32_t kind) { return ((P::kIsIncremental && is<P>(kind)) || ...); }
+  static constexpr bool is_heavy(uint32_t kind) { return ((P::kIsHeavy && is<P>(kind)) || ...); }
+  static constexpr bool has_shadow_test(uint32_t kind) { return ((P::kHasShadowTest && is<P>(kind)) || ...); }
+  static constexpr bool has_edges(uint32_t kind) { return ((P::kHasEdges && is<P>(kind)) || ...); }
   static constexpr bool has_heavy_points(uint32_t kind) {
-    return ((P::kHasHeavyPoints ? kind == TypeList<P...>::template number<P>() : false) || ...);
+    return ((P::kHasHeavyPoints && is<P>(kind)) || ...);
   }
 };
 

@@ -40,25 +40,9 @@ template <class Spu>
       });
 }
 
-/// Returns true if crossings with a kind count only inside its edges.
-constexpr bool has_edges(uint32_t kind) {
-  return Primitives::has_edges(kind);
-}
-
 /// Returns true if a kind's geometry is a map to a space of its own.
 constexpr bool is_local(uint32_t kind) {
   return kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>;
-}
-
-/// Returns true if a kind's intersections are in a module of their own; false for unknown kinds.
-constexpr bool is_heavy(uint32_t kind) {
-  return Primitives::is_heavy(kind);
-}
-
-/// Returns true if the code for a kind's normals and inside is in a module of its own; false for unknown
-/// kinds.
-constexpr bool has_heavy_points(uint32_t kind) {
-  return Primitives::has_heavy_points(kind);
 }
 
 /// Returns the unit normals of shapes in a space of their own, of those with heavy points or of the others,
@@ -246,7 +230,7 @@ CELLTRACE_ONE_COPY uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<
   const uint32_t kind = solid.object.kind_and_flags & object_flag::kind_mask;
   if (kind == kPrimitiveKind<SpherePrimitive>)
     return SpherePrimitive::inside<S>(points, solid.object, solid.extra).bits();
-  if (is_heavy(kind)) return inside_heavy<Spu, false>(solid, points);
+  if (Primitives::is_heavy(kind)) return inside_heavy<Spu, false>(solid, points);
   const V3<S> local = to_local<S>(solid.object.geometry, points, 1.0f);
   const LocalParameters<S> parameters = local_parameters<S>(solid.object, solid.extra);
   uint32_t lanes = 0;

@@ -71,7 +71,8 @@ template <class Spu>
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
   uint32_t others = 0, heavy = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
-    if (kind > kPrimitiveKind<PlanePrimitive>) (has_heavy_points(kind) ? heavy : others) |= o.of_kind[kind];
+    if (kind > kPrimitiveKind<PlanePrimitive>)
+      (Primitives::has_heavy_points(kind) ? heavy : others) |= o.of_kind[kind];
   if (spheres != 0) surface_of_spheres<S>(o, along_ray, point, normal);
   const auto add = [&](uint32_t lanes, const V3<S>& p, const V3<S>& n) {
     const auto mask = S::M::from_bits(lanes);
