@@ -8,7 +8,7 @@
 
 namespace celltrace {
 
-/// Returns the record of an object without an interior, by the object's index in the scene.
+/// Returns the index of the record of an object without an interior; `object` is its index in the scene.
 inline Index own_interior(const Scene& scene, std::size_t object) {
   return static_cast<Index>(scene.interiors.size() + object);
 }
