@@ -1,5 +1,5 @@
-// The insides of meshes that CSG tests: the triangles of each, laid out for the kernel, in a grid across the
-// mesh's inside vector.
+// The insides of meshes that CSG tests. The triangles of each mesh are laid out for the kernel in a grid at
+// right angles to the mesh's inside vector.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,7 +11,8 @@
 
 namespace celltrace {
 
-/// The insides of all such meshes of a scene. TableWriter turns indices into offsets in the scene image.
+/// The insides of all meshes that a scene's CSG tests. TableWriter turns indices into offsets in the scene
+/// image.
 class MeshInsides {
 public:
   struct Inside {
@@ -21,10 +22,10 @@ public:
   /// Returns the inside of a mesh that has one. Each mesh is added once, and must outlive this object.
   const Inside& of(const Mesh& mesh);
 
-  /// Returns the grids; `starts` is an index in words().
+  /// Returns the grids, in which `starts` is an index in words().
   const std::vector<kernel::MeshGridRecord>& grids() const { return grids_; }
-  /// Returns for each grid the indices in words() of its lists, followed by the lists, which are indices in
-  /// triangles().
+  /// Returns for each grid the index in words() of each cell's list, followed by the lists, which consist of
+  /// indices in triangles().
   const std::vector<std::uint32_t>& words() const { return words_; }
   const std::vector<kernel::MeshTriangleRecord>& triangles() const { return triangles_; }
 
