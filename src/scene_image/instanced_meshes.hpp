@@ -78,8 +78,7 @@ private:
   const Object* objects_;
   std::vector<SharedMesh> meshes_;
   std::vector<Instance> instances_;
-  std::vector<Index>
-      instance_of_; ///< by object of the scene: index in instances_, or kNoIndex if it is no instance
+  std::vector<Index> instance_of_; ///< index: object of the scene; index in instances_, or kNoIndex
   std::uint32_t object_count_ = 0, extra_count_ = 0, node_count_ = 0;
   std::uint32_t next_number_ = 1;
 };

@@ -256,8 +256,7 @@ private:
 
   void write_normals(const MeshPrototype::Triangle& triangle, ObjectRecord& to) {
     to.kind_and_flags |= object_flag::smooth;
-    RecordTables::change_sides(
-        to, *object_); // undoes the change in head_, as the outside is where the triangle's normals point
+    RecordTables::change_sides(to, *object_); // back: the outside is where the triangle's normals point
     to.extra = tables_.records.offset_of_extra(next_extra_);
     ExtraRecord record{};
     for (int corner = 0; corner < 3; ++corner)
