@@ -7,7 +7,7 @@
 
 namespace celltrace {
 
-/// A bounding box, not always the tightest one: infinite bounds are 1e10 in all directions.
+/// A bounding box, which need not be tight. Infinite bounds are 1e10 in all directions.
 struct Extent {
   Vec3 min{0, 0, 0}, max{0, 0, 0};
 

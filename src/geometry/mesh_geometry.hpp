@@ -1,4 +1,4 @@
-// Queries of triangles and meshes in double precision; shape_geometry.hpp has those of other shapes.
+// Queries of triangles and meshes in double precision; shape_geometry.hpp has queries of other shapes.
 #pragma once
 
 #include "geometry/shape_geometry.hpp"

@@ -46,7 +46,8 @@ template <class Visit> void visit_leaves(const Object& object, const LeafPlace& 
     visit_leaves((*csg)->parts[i], place.part(**csg, i), visit);
 }
 
-/// Returns the object with new leaves where `change(leaf, place)` returns one; nothing if it returns no leaf.
+/// Returns the object with each leaf replaced for which `change(leaf, place)` returns a new leaf; nothing if
+/// there is no new leaf.
 template <class Change>
 std::optional<Object> with_leaves_changed(const Object& object, const LeafPlace& around, Change& change) {
   const LeafPlace place = around.within(object);

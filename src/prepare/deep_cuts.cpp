@@ -63,7 +63,7 @@ private:
     Vec3 normal;
   };
 
-  /// Returns whether a leaf is subtracted and has ends, which may lie slightly beyond those of the object.
+  /// Returns whether a leaf is subtracted and has ends, which may lie slightly beyond the object's ends.
   static bool cuts(const Object& leaf, bool inverse) {
     return inverse &&
            (std::holds_alternative<Box>(leaf.shape) || std::holds_alternative<Cylinder>(leaf.shape) ||

@@ -31,7 +31,8 @@ struct PassContext {
 /// A pass over a scene: returns the changed scene, or nothing if it changes nothing.
 using Pass = std::optional<Scene> (*)(const Scene& scene, const PassContext& context);
 
-/// Returns the scene with new objects where `change(object)` returns one; nothing if it returns no object.
+/// Returns the scene with each object replaced for which `change(object)` returns a new object; nothing if
+/// there is no new object.
 template <class Change> std::optional<Scene> with_objects_changed(const Scene& scene, const Change& change) {
   std::optional<Scene> copy;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

@@ -15,7 +15,7 @@ namespace celltrace {
 /// container.
 class BvhRefit {
 public:
-  /// Forgets the BVH; call it before refit() gets another one.
+  /// Forgets the BVH. Call it before refit() gets another BVH.
   void forget();
   /// Updates the bounds in the nodes of the BVH in the image at `base` to the present bounds of its objects,
   /// in up to `threads` threads. The number of threads does not change the result.

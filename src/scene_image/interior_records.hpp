@@ -1,5 +1,5 @@
 // Indices of the interior records of objects. Rays tell objects apart by these records, so that an object
-// without an interior has a record of its own, behind those of the scene's interiors.
+// without an interior has a record of its own, behind the records of the scene's interiors.
 #pragma once
 
 #include "celltrace/scene.hpp"

@@ -19,7 +19,8 @@ public:
     std::uint32_t grid;      ///< index in grids()
     Transform to_grid_space; ///< map from the mesh's own space
   };
-  /// Returns the inside of a mesh that has one. Each mesh is added once, and must outlive this object.
+  /// Returns the inside of a mesh, which must have an inside vector. Adds a mesh only once; it must outlive
+  /// this object.
   const Inside& of(const Mesh& mesh);
 
   /// Returns the grids, in which `starts` is an index in words().

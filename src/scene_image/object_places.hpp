@@ -43,7 +43,7 @@ public:
   NewPlaces(const SceneObjects& objects, bool copies, AlignedBlock& work, unsigned threads);
 
   ObjectPlaces places() const;
-  /// Returns the place of each object, or kNoPlace for those that cannot be hit.
+  /// Returns the place of each object, or kNoPlace for an object that cannot be hit.
   std::vector<std::uint32_t> by_object() const;
   std::vector<std::uint32_t> take_groups() { return std::move(groups_); }
 

@@ -111,7 +111,7 @@ public:
     const std::size_t record = (offset - first) / sizeof(kernel::ObjectRecord);
     return offset >= first && record < owners_.size() ? owners_[record] : kNoIndex;
   }
-  /// Returns the owner of each record: first the owners of unbounded objects, then those of all others.
+  /// Returns the owner of each record: first the owners of unbounded objects, then of all other objects.
   std::span<const Index> owners() const { return owners_; }
   /// Returns the offsets of the accelerator's table and lists, multiples of 128; valid after
   /// reserve_accelerator().
