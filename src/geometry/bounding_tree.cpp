@@ -48,7 +48,7 @@ double area(const float (&low)[3], const float (&high)[3]) {
   return static_cast<double>(x * (y + z) + y * z);
 }
 
-/// Returns where a ray enters a box, at least 0; nothing if it misses the box.
+/// Returns the distance, at least 0, at which a ray enters a box; nothing if the ray misses the box.
 std::optional<double> entry(const float (&low)[3], const float (&size)[3], const geometry::Ray& ray) {
   double enter = 0, leave = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
@@ -70,7 +70,7 @@ std::optional<double> entry(const float (&low)[3], const float (&size)[3], const
 
 BoundingTree::BoundingTree(const std::vector<Extent>& objects, std::size_t lights) {
   constexpr std::size_t kFewest = 3;
-  constexpr double kLongest = 1e6; // longer objects have no box
+  constexpr double kLongest = 1e6; // objects that are longer have no box in the tree
   is_list_ = objects.size() + lights < kFewest;
   std::vector<std::size_t> finite;
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -108,7 +108,8 @@ BoundingTree::Box BoundingTree::around(const Box& a, const Box& b) {
   return box;
 }
 
-/// Builds the tree level by level: the parents of all nodes of a level are appended after its last node.
+/// Builds the tree level by level: the parents of all nodes of a level are appended after the level's last
+/// node.
 void BoundingTree::build(std::vector<std::size_t>& nodes) {
   for (std::size_t first = 0, last = nodes.size();; first = last, last = nodes.size()) {
     std::vector<std::pair<std::size_t, std::size_t>> parts = {{first, last}};
@@ -138,7 +139,7 @@ void BoundingTree::add_parent(std::vector<std::size_t>& nodes, std::size_t first
   nodes_.push_back(std::move(parent));
 }
 
-/// Sorts [first, last) and returns where to cut it in two; `last` if all get one parent.
+/// Sorts [first, last) and returns where to cut this range in two; `last` if all nodes get one parent.
 std::size_t BoundingTree::sort_and_cut(std::vector<std::size_t>& nodes, std::size_t first,
                                        std::size_t last) const {
   constexpr std::size_t kMostOfNode = 4;
@@ -146,7 +147,7 @@ std::size_t BoundingTree::sort_and_cut(std::vector<std::size_t>& nodes, std::siz
   const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(first);
   const auto end = nodes.begin() + static_cast<std::ptrdiff_t>(last);
   // Sorts along the longest axis. As in POV-Ray, the far end of the range is the low side of the box that
-  // reached beyond all boxes before it, which need not be the true end.
+  // reached beyond all boxes before it, which need not be the true end of the range.
   int axis = 0;
   float longest = -std::numeric_limits<float>::infinity();
   for (int candidate = 0; candidate < 3; ++candidate) {
@@ -165,7 +166,7 @@ std::size_t BoundingTree::sort_and_cut(std::vector<std::size_t>& nodes, std::siz
     const Box &left = nodes_[a].box, &right = nodes_[b].box;
     return 2 * left.low[axis] + left.size[axis] < 2 * right.low[axis] + right.size[axis];
   });
-  // The areas of the boxes around all nodes up to each place, and around all nodes after it.
+  // Areas of the boxes around all nodes up to each place, and around all nodes from each place on.
   std::vector<double> left(count), right(count);
   const auto fill = [&](std::vector<double>& areas, bool backwards) {
     float low[3], high[3];
@@ -182,7 +183,7 @@ std::size_t BoundingTree::sort_and_cut(std::vector<std::size_t>& nodes, std::siz
   fill(left, false);
   fill(right, true);
   double best = right[0] * (static_cast<double>(count) - 3);
-  std::size_t after = count; // not cut
+  std::size_t after = count; // count: no cut
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double cost =
         static_cast<double>(i + 1) * left[i] + static_cast<double>(count - 1 - i) * right[i + 1];

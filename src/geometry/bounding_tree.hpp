@@ -1,5 +1,5 @@
-// The tree of boxes that POV-Ray puts around a scene's objects: it decides which of two surfaces at one place
-// is visible, namely the one tested first.
+// The tree of boxes that POV-Ray puts around a scene's objects. It decides which of two coinciding surfaces
+// is visible: the surface that is tested first.
 #pragma once
 
 #include "geometry/extent.hpp"
@@ -10,20 +10,20 @@
 
 namespace celltrace {
 
-/// A tree that is built as POV-Ray builds it, in the same order and precision. Thread safety: as a standard
-/// container.
+/// A tree that is built as POV-Ray builds its tree, in the same order and precision. Thread safety: as a
+/// standard container.
 class BoundingTree {
 public:
-  /// Builds the tree of objects in the order of the scene. `lights` is the number of lights, which count as
-  /// objects, too.
+  /// Builds the tree of objects in the order of the scene. `lights` is the number of lights, which POV-Ray
+  /// counts as objects.
   BoundingTree(const std::vector<Extent>& objects, std::size_t lights);
 
-  /// Returns whether a ray that hits both objects at the same distance is tested for `a` first, if no other
-  /// object lies before them.
+  /// Returns whether a ray that hits both objects at the same distance is tested against `a` first, if no
+  /// other object lies before them.
   bool tests_first(std::size_t a, std::size_t b, const geometry::Ray& ray) const;
 
-  /// Returns the index of an object's leaf, from left to right: of two objects that a ray reaches at the same
-  /// distance, the one of lower rank is mostly tested first.
+  /// Returns the rank of an object's leaf, from left to right. If a ray reaches two objects at the same
+  /// distance, the object of lower rank is mostly tested first.
   std::size_t rank(std::size_t object) const { return ranks_[object]; }
 
 private:
@@ -41,10 +41,10 @@ private:
   void add_parent(std::vector<std::size_t>& nodes, std::size_t first, std::size_t last);
   static Box around(const Box& a, const Box& b);
 
-  std::vector<Node> nodes_;        ///< the last one is the root
+  std::vector<Node> nodes_;        ///< the root is the last node
   std::vector<std::size_t> ranks_; ///< index: object
   std::vector<bool> is_infinite_;
-  bool is_list_; ///< true: there are so few objects that there is no tree
+  bool is_list_; ///< true if there are so few objects that there is no tree
 };
 
 } // namespace celltrace

@@ -24,13 +24,13 @@ struct Plan {
   FunctionValue operands[4] = {};
 };
 
-/// Returns whether a step can do this operation together with another one.
+/// Returns whether a step can do this operation together with another operation.
 bool is_fusible(FunctionOp op) {
   return op == FunctionOp::add || op == FunctionOp::subtract || op == FunctionOp::multiply;
 }
 
-/// Returns the fused operation that applies `second` to the result of `first`, as its left operand or, if
-/// `is_right`, its right one.
+/// Returns the fused operation that applies `second` to the result of `first`. This result is the left
+/// operand of `second` or, if `is_right` is true, the right operand.
 FunctionOp fused(FunctionOp first, FunctionOp second, bool is_right) {
   // Numbers follow the order of CELLTRACE_FUSED_OPERATIONS.
   const auto number = [](FunctionOp op) {
@@ -66,7 +66,7 @@ public:
 private:
   // ---- Which values are needed ----
 
-  /// Returns the value in whose registers `value` is: for a component the call that it belongs to, otherwise
+  /// Returns the value that has the registers of `value`: the call to which a component belongs, otherwise
   /// `value` itself.
   FunctionValue holder(FunctionValue value) const {
     const FunctionNode& node = graph_.nodes[value];
@@ -120,10 +120,10 @@ private:
   // ---- Which operations become one step ----
 
   enum Inner : std::uint8_t {
-    left = 1,     ///< its left operand is computed in its step
-    right = 2,    ///< its right operand is computed in its step
-    absorbed = 4, ///< computed in another value's step
-    placed = 8    ///< shares the register of the select of which it is a result
+    left = 1,     ///< the left operand is computed in this value's step
+    right = 2,    ///< the right operand is computed in this value's step
+    absorbed = 4, ///< the value is computed in another value's step
+    placed = 8    ///< the value shares the register of the select that has it as a result
   };
 
   bool is_step(FunctionValue value) const { return uses_[value] > 0 && (inner_[value] & absorbed) == 0; }
@@ -139,7 +139,7 @@ private:
     const FunctionBlock& block = graph_.blocks[number];
     for (const FunctionValue value : block.values) {
       const FunctionNode& node = graph_.nodes[value];
-      home_[value] = number + 1; // nodes in no block stay 0
+      home_[value] = number + 1; // values that are in no block keep 0
       if (node.kind == Kind::operation && is_fusible(node.op))
         fuse(value, node, number + 1);
       else if (node.kind == Kind::select)
@@ -183,7 +183,7 @@ private:
     const FunctionNode& node = graph_.nodes[inner];
     return {fused(node.op, op, is_right), 3, {node.a, node.b, other}};
   }
-  /// Returns the step that adds the result of a loop's body to the loop's own value.
+  /// Returns the step that combines the result of a loop's body with the loop's own value.
   Plan plan_of_sum(FunctionValue loop) const {
     const FunctionNode& node = graph_.nodes[loop];
     const FunctionValue result = graph_.blocks[node.c].result;
@@ -255,7 +255,7 @@ private:
     touch(plan_of_sum(value));
     touch(node.b);
     touch(block.counter);
-    // Values that the body reads from outside are needed until the last iteration.
+    // Values that the body reads from outside of the loop are needed until the last iteration.
     Loop loop = std::move(loops_.back());
     loops_.pop_back();
     for (const FunctionValue used : loop.used)
@@ -277,7 +277,7 @@ private:
       program_.constants.push_back(graph_.constants[graph_.nodes[value].a]);
     }
   }
-  /// Sorts the values that need registers for a time by their last use.
+  /// Sorts the values that need registers for some time by their last use.
   void find_expiries() {
     for (FunctionValue value = 0; value < graph_.nodes.size(); ++value) {
       const Kind kind = graph_.nodes[value].kind;
@@ -297,7 +297,7 @@ private:
     next_ += count;
     return static_cast<Register>(next_ - count);
   }
-  /// Returns the register of a value, which gets a new one unless it shares a select's.
+  /// Returns the register of a value; takes a new register unless the value shares that of a select.
   Register new_register(FunctionValue value) {
     if ((inner_[value] & placed) == 0) register_[value] = take_register();
     return register_[value];
@@ -307,7 +307,7 @@ private:
     if (node.kind == Kind::component) return static_cast<Register>(register_[node.a] + node.b);
     return register_[value];
   }
-  /// Ends a position and frees the registers of values that were last used there.
+  /// Ends a position, and frees the registers of values whose last use was there.
   void advance() {
     for (; expired_ < expiries_.size() && last_use_[expiries_[expired_]] <= position_; ++expired_) {
       const FunctionValue value = expiries_[expired_];
@@ -427,7 +427,7 @@ private:
   const FunctionGraph& graph_;
   FunctionProgram program_;
   // By value:
-  std::vector<std::uint32_t> uses_, home_; ///< home: 1 + the block that computes it
+  std::vector<std::uint32_t> uses_, home_; ///< home: 1 + number of the value's block
   std::vector<std::uint8_t> inner_;        ///< bits of Inner
   std::vector<std::uint32_t> born_, last_use_;
   std::vector<Register> register_;

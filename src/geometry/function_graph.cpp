@@ -12,10 +12,11 @@ namespace {
 
 using Kind = FunctionNode::Kind;
 
-/// Larger functions are called instead of inlined, and a function that has become larger calls all others.
+/// Functions of more values are called instead of inlined; a function of more values than the second limit
+/// calls all functions.
 constexpr std::size_t kMostInlinedValues = 128;
 constexpr std::size_t kMostValuesWithInlined = 2048;
-/// The size of branches that take less time than a mispredicted jump.
+/// Limit on values of a branch that takes less time than a mispredicted jump.
 constexpr std::size_t kMostCheapValues = 3;
 
 bool is_cheap(FunctionOp op) {
@@ -74,7 +75,7 @@ FunctionBuilder::FunctionBuilder(std::uint32_t parameters) {
 }
 
 FunctionValue FunctionBuilder::constant(double number) {
-  // Constants are equal if their bits are: 0 and -0 differ.
+  // Constants are equal if they have the same bits: 0 and -0 differ.
   const auto bits = std::bit_cast<std::uint64_t>(number);
   const FunctionNode key{Kind::constant, FunctionOp::add, static_cast<std::uint32_t>(bits),
                          static_cast<std::uint32_t>(bits >> 32), 1};
@@ -98,7 +99,7 @@ FunctionValue FunctionBuilder::add(const FunctionNode& node, std::size_t level) 
   case Kind::loop:
     open_[level].block.values.push_back(value);
     break;
-  default: // takes no step
+  default: // other kinds take no step
     break;
   }
   return value;
@@ -113,8 +114,8 @@ FunctionValue FunctionBuilder::find_or_add(const FunctionNode& node, std::size_t
   return value;
 }
 
-/// Returns the level for a value whose operands have at most level `least`: outside of all loops in which it
-/// does not change.
+/// Returns the level of the block for a value whose operands have at most level `least`: outside of all loops
+/// in which the value does not change.
 std::size_t FunctionBuilder::outermost_level(std::size_t least) const {
   std::size_t result = level();
   while (open_[result].is_loop && least < result)
@@ -215,7 +216,7 @@ FunctionGraph FunctionBuilder::finish(FunctionValue result) {
   return std::move(graph_);
 }
 
-/// Adds the graph of a function to the builder's.
+/// Adds the graph of a function to the builder's graph.
 class FunctionBuilder::Inliner {
 public:
   Inliner(FunctionBuilder& builder, const FunctionGraph& graph, std::span<const FunctionValue> arguments)
@@ -254,7 +255,7 @@ private:
     }
     case Kind::select:
       return copy_select(node);
-    default: // a loop
+    default: // loop
       return copy_loop(node);
     }
   }

@@ -1,5 +1,5 @@
-// Functions of numbers as graphs of values, each of which is computed once. The reader builds them, functions
-// that call them inline them, and programs are compiled from them.
+// Graphs of functions of numbers. Each value in a graph is computed once. The parser builds graphs, functions
+// inline the graphs of other functions, and programs are compiled from graphs.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace celltrace {
 
-using FunctionValue = std::uint32_t; ///< the number of a node
+using FunctionValue = std::uint32_t; ///< index of a node
 
-/// A value. Fields that a kind does not use are 0.
+/// The node of a value. Fields that a kind of value does not use are 0.
 struct FunctionNode {
   enum class Kind : std::uint16_t {
-    parameter, ///< number a
+    parameter, ///< parameter of number a
     constant,  ///< constants[a]
     counter,   ///< counter of the loop whose body the value is in
     operation, ///< op applied to the values a, b and c
@@ -34,8 +34,8 @@ struct FunctionNode {
 };
 inline constexpr FunctionValue kNoValue = ~FunctionValue{0};
 
-/// Values that are computed together: those of the function itself, of a branch of a select, or of a loop's
-/// body. A block reads its own values and those of enclosing blocks.
+/// Values that are computed together: the values of the function itself, of a branch of a select, or of a
+/// loop's body. A block reads its own values and the values of enclosing blocks.
 struct FunctionBlock {
   std::vector<FunctionValue> values; ///< values in the order in which they are computed
   FunctionValue result = 0;
@@ -43,8 +43,9 @@ struct FunctionBlock {
   FunctionValue start = kNoValue;   ///< loops only: the constant that the result begins with
 };
 
-/// The blocks of a select: the first is chosen for a number below 0. With two blocks, the second is chosen
-/// otherwise; with three, the second is chosen for 0 only, and the third otherwise.
+/// The blocks of a select. The first block is chosen for a number below 0. If there are two blocks, the
+/// second is chosen otherwise; if there are three, the second is chosen for 0 and the third for greater
+/// numbers and NaN.
 struct FunctionBranches {
   std::uint32_t count = 0;
   std::uint32_t blocks[3] = {};
@@ -60,15 +61,15 @@ struct FunctionGraph {
   std::vector<double> constants;
   std::vector<FunctionBlock> blocks;
   std::vector<FunctionBranches> branches;
-  std::uint32_t body = 0; ///< the function's own block
+  std::uint32_t body = 0; ///< index of the function's own block
   std::vector<FunctionCallee> callees;
 
   std::size_t bytes() const;
 };
 
-/// Builds a graph, value by value. Equal values become one, operations on constants are folded, a loop's body
-/// keeps only what its counter changes, and calls of functions are replaced by their graphs as long as these
-/// and the result are small.
+/// Builds a graph, value by value. Equal values become one value, operations on constants are folded, a
+/// loop's body keeps only values that its counter changes, and calls of functions are replaced by the
+/// functions' graphs as long as these and the result are small.
 class FunctionBuilder {
 public:
   explicit FunctionBuilder(std::uint32_t parameters);
@@ -80,14 +81,14 @@ public:
   FunctionValue call(const FunctionCallee& callee, std::span<const FunctionValue> arguments);
   FunctionValue component(FunctionValue call, std::uint32_t which);
 
-  /// Begins a branch, to which values belong until close().
+  /// Begins a branch: values belong to it until close().
   void open_branch() { open(false); }
-  /// Begins the body of a loop, to which values belong until close(), and returns the loop's counter.
+  /// Begins the body of a loop: values belong to it until close(). Returns the loop's counter.
   FunctionValue open_loop();
-  /// Ends a block and returns its number.
+  /// Ends the current block and returns its number.
   std::uint32_t close(FunctionValue result);
   FunctionValue select(FunctionValue chooser, const FunctionBranches& branches);
-  /// Returns the sum or product (`op`) of a loop's block.
+  /// Returns the sum or product (`op`) of the results of a loop's block.
   FunctionValue loop(FunctionOp op, FunctionValue first, FunctionValue last, std::uint32_t block);
 
   /// Returns whether there are more values than a program may have.
@@ -103,14 +104,15 @@ private:
   struct OpenBlock {
     FunctionBlock block;
     bool is_loop = false;
-    std::vector<FunctionNode> added; ///< nodes added to the table
+    std::vector<FunctionNode> added; ///< nodes that this block has added to table_
   };
   class Inliner;
 
   void open(bool is_loop);
   std::size_t level() const { return open_.size() - 1; }
   FunctionValue add(const FunctionNode& node, std::size_t level);
-  /// Returns an equal value, or adds one; the value goes to the outermost loop in which it does not change.
+  /// Returns an equal value or, if there is none, adds the value outside of all loops in which it does not
+  /// change.
   FunctionValue find_or_add(const FunctionNode& node, std::size_t level);
   std::size_t outermost_level(std::size_t least) const;
   std::size_t level_of_arguments(FunctionValue last) const;
@@ -119,17 +121,18 @@ private:
   }
   double number(FunctionValue value) const { return graph_.constants[graph_.nodes[value].a]; }
   bool is_cheap(const FunctionBlock& block) const;
-  /// Moves the values of a closed block to the current block.
+  /// Moves the values of a closed block to the current block. Returns the closed block's result.
   FunctionValue unfold(std::uint32_t block);
   std::uint32_t callee_number(const FunctionCallee& callee);
 
   FunctionGraph graph_;
   std::vector<OpenBlock> open_;
-  std::vector<std::uint16_t> levels_; ///< index: node; number of blocks around the node's own
+  std::vector<std::uint16_t> levels_; ///< number of blocks around a node's own block; index: node
   std::unordered_map<FunctionNode, FunctionValue, Hash> table_;
 };
 
-/// Returns the program that computes a graph's result. Throws FunctionFault if it needs too many registers.
+/// Returns the program that computes a graph's result. Throws FunctionFault if the program needs too many
+/// registers.
 FunctionProgram compile(const FunctionGraph& graph);
 
 } // namespace celltrace

@@ -15,17 +15,17 @@ constexpr std::uint64_t kMostSteps = 1'000'000'000;
 
 constexpr std::size_t kMostMemoParameters = 8;
 constexpr std::size_t kFirstMemoSlots = 64, kMostMemoSlots = 4096;
-/// The largest size in bytes of all memos that grow.
+/// Limit on the size of all memos that grow, in bytes.
 constexpr std::uint64_t kMostMemoBytes = 64u << 20;
 
 } // namespace
 
-/// Remembered values of a function, in a table in which each set of arguments has one slot.
+/// A memo of a function's values: a table in which each set of arguments has one slot.
 class FunctionMachine::Memo {
 public:
   explicit Memo(std::size_t parameters) : parameters_(parameters) {}
 
-  /// Returns the value for the same bits of arguments; null if there is none.
+  /// Returns the value for arguments with the same bits; null if the memo has no such value.
   const double* find(const double* arguments, std::uint64_t epoch) {
     if (epoch != epoch_ || slots_ == 0) return nullptr;
     const std::size_t slot = slot_of(arguments);
@@ -69,7 +69,7 @@ private:
   std::size_t parameters_, slots_ = 0;
   std::uint64_t epoch_ = 0, evictions_ = 0;
   std::vector<std::uint8_t> is_used_;
-  std::vector<double> entries_; ///< arguments and value of each slot
+  std::vector<double> entries_; ///< arguments and value, slot by slot
 };
 
 struct FunctionCode::State {
@@ -92,7 +92,7 @@ FunctionCode::State& FunctionCode::state() const {
   return *state_;
 }
 
-/// The place where a caller continues.
+/// The place where a calling function continues.
 struct FunctionMachine::Return {
   FunctionCode::State* caller;
   const FunctionStep* call;

@@ -1,4 +1,4 @@
-// The machine that runs function programs, and the state that it keeps for each function.
+// The machine that runs programs of functions, and the state that it keeps for each function.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace celltrace {
 
-/// A function that others can inline or call, and a machine can run. Its program is compiled at the first
-/// run. Belongs to one thread.
+/// A function that other functions can inline or call, and that a machine can run. Its program is compiled
+/// when it is first run. Belongs to one thread.
 class FunctionCode {
 public:
   explicit FunctionCode(FunctionGraph graph);
@@ -30,9 +30,9 @@ private:
   mutable std::unique_ptr<State> state_;
 };
 
-/// Runs one program at a time, without recursion: functions only call functions that were declared before, so
-/// that each function needs one set of registers. The results of functions that are not inlined are
-/// remembered for recent arguments.
+/// Runs one program at a time, without recursion: functions call only functions that were declared before
+/// them, so that each function needs one set of registers. Remembers the results of functions that are
+/// called, for recent arguments.
 class FunctionMachine {
 public:
   FunctionMachine();

@@ -1,5 +1,5 @@
-// The operations of function programs, with POV-Ray's results also if an operand is NaN, infinite, or outside
-// of an operation's domain.
+// The operations of functions. Results are POV-Ray's even if an operand is NaN, infinite, or outside of an
+// operation's domain.
 #pragma once
 
 #include <cmath>
@@ -102,8 +102,8 @@ inline double multiply(double a, double b) {
 inline double divide(double a, double b) {
   return a / b;
 }
-// Comparisons in functions are exact. As in POV-Ray, "greater" means "not less or equal", so that it is true
-// if an operand is NaN.
+// Comparisons in functions are exact. As in POV-Ray, "greater" means "not less or equal", so that "greater"
+// is true if an operand is NaN.
 inline double less(double a, double b) {
   return a < b ? 1 : 0;
 }
@@ -128,7 +128,7 @@ inline double both(double a, double b) {
 inline double either(double a, double b) {
   return a != 0 || b != 0 ? 1 : 0;
 }
-// If an operand is NaN, the first operand is the maximum and the second one the minimum.
+// If an operand is NaN, maximum() returns the first operand and minimum() the second.
 inline double maximum(double a, double b) {
   return b > a ? b : a;
 }
@@ -157,13 +157,13 @@ inline double pick_zero(double a, double b, double c) {
 
 } // namespace operations
 
-/// Returns the number of operands of an operation that is neither fused nor of control.
+/// Returns the number of operands of an operation; not for fused operations and control steps.
 inline unsigned operand_count(FunctionOp op) {
   if (op < FunctionOp::add) return 1;
   return op < FunctionOp::pick_negative ? 2 : 3;
 }
 
-/// Returns the result of an operation that is neither fused nor of control.
+/// Returns the result of an operation; not for fused operations and control steps.
 double result_of(FunctionOp op, double a, double b, double c);
 
 } // namespace celltrace

@@ -1,5 +1,5 @@
-// A function of numbers as a flat program for a machine with registers. A program is plain data: it knows
-// neither the parser nor the place in a scene where it was written.
+// A function of numbers as a flat program for a machine with registers. A program is plain data: it contains
+// nothing of the parser or of the place where it was written.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@ namespace celltrace {
 
 class FunctionCode;
 
-/// Limit on parameters of a function, which is POV-Ray's.
+/// Limit on parameters of a function, as in POV-Ray.
 inline constexpr std::size_t kMostParameters = 56;
 
-/// Operations on numbers, as lists for the compiler, the machine and the folding of constants. Each gives the
-/// same bits wherever function_operations.hpp is compiled.
+/// Operations on numbers, as lists for the compiler, the machine and the folding of constants. Each operation
+/// gives the same bits wherever function_operations.hpp is compiled.
 #define CELLTRACE_UNARY_OPERATIONS(X)                                                                        \
   X(negate)                                                                                                  \
   X(invert)                                                                                                  \
@@ -63,8 +63,8 @@ inline constexpr std::size_t kMostParameters = 56;
 #define CELLTRACE_TERNARY_OPERATIONS(X)                                                                      \
   X(pick_negative)                                                                                           \
   X(pick_zero)
-/// Two operations in one step: X(first, second) applies `second` to c and the result of `first` for a and b.
-/// `subtract_from` subtracts that result from c.
+/// Two operations in one step: X(first, second) computes `first` of a and b, and `second` of this result and
+/// c. `subtract_from` subtracts this result from c.
 #define CELLTRACE_FUSED_OPERATIONS(X)                                                                        \
   X(add, add)                                                                                                \
   X(add, subtract)                                                                                           \
@@ -82,7 +82,7 @@ inline constexpr std::size_t kMostParameters = 56;
 enum class FunctionOp : std::uint16_t {
 #define CELLTRACE_NAME(name) name,
 #define CELLTRACE_FUSED_NAME(first, second) first##_##second,
-  // Operations of function_operations.hpp; registers a, b, c -> result.
+  // Operations of function_operations.hpp, on the registers a, b and c; they write the register `result`.
   CELLTRACE_UNARY_OPERATIONS(CELLTRACE_NAME) CELLTRACE_BINARY_OPERATIONS(CELLTRACE_NAME)
       CELLTRACE_TERNARY_OPERATIONS(CELLTRACE_NAME) CELLTRACE_FUSED_OPERATIONS(CELLTRACE_FUSED_NAME)
 #undef CELLTRACE_NAME
@@ -96,8 +96,8 @@ enum class FunctionOp : std::uint16_t {
   jump_unless_negative, ///< continues at the target unless a < 0
   jump_unless_zero,     ///< continues at the target unless a = 0
   enter_loop,           ///< continues at the target unless a <= b
-  repeat,               ///< adds 1 to a; continues at the target if a <= b then
-  call_code,   ///< calls callees[a]; its arguments are in the registers of `operands` from index target on
+  repeat,               ///< adds 1 to a, then continues at the target if a <= b
+  call_code,   ///< calls callees[a] with the registers in `operands` from index target on as arguments
   call_native, ///< calls a native function in this way; its results go to `result` and the following
                ///< registers
   finish,      ///< returns a
@@ -122,21 +122,21 @@ struct FunctionContext {
   bool operator==(const FunctionContext&) const = default;
 };
 
-/// Thrown if a function cannot be evaluated, or takes too long.
+/// Thrown if a function cannot be evaluated or takes too long.
 struct FunctionFault {
   std::string what;
 };
 
-/// A function without a program: a spline, a pigment, or a POV-Ray internal function.
+/// A function that has no program: a spline, a pigment, or an internal function of POV-Ray.
 class NativeFunction {
 public:
   static constexpr std::size_t kMostResults = 5;
 
   virtual ~NativeFunction() = default;
 
-  /// Evaluates the function: reads as many arguments as it has parameters, and writes its results. If there
-  /// are several, `results` has kMostResults places, and those that are left become 0. Equal arguments and
-  /// context give equal results. Throws FunctionFault.
+  /// Evaluates the function: reads as many arguments as the function has parameters, and writes its results.
+  /// If there are several results, `results` has kMostResults places, and the remaining places become 0.
+  /// Equal arguments and context give equal results. Throws FunctionFault.
   virtual void evaluate(const double* arguments, const FunctionContext& context, double* results) const = 0;
 
   std::size_t parameters() const { return parameters_; }

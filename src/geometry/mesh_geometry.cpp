@@ -11,8 +11,8 @@ namespace celltrace::geometry {
 
 namespace {
 
-/// The place where a ray crosses a triangle: the first corner plus u times the side to the second and v times
-/// the side to the third.
+/// The place where a ray crosses a triangle, t times the ray's direction away: the first corner plus u times
+/// the side to the second corner and v times the side to the third.
 struct Place {
   double t, u, v;
 };

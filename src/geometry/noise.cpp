@@ -16,7 +16,7 @@ using kernel::noise::kHash;
 using kernel::noise::kLattice;
 using kernel::noise::kPeriod;
 
-/// The largest coordinate for which POV-Ray's lattice numbers do not overflow.
+/// Limit on coordinates: POV-Ray's lattice numbers overflow above it.
 constexpr double kFarthestInteger = 2147483647.0;
 
 double near_enough(double coordinate) {
@@ -44,14 +44,14 @@ struct Cell {
   }
 };
 
-/// Returns the index in the table of the numbers at a corner of the cell.
+/// Returns the index in table() of the first number for a corner of the cell.
 std::uint32_t place(const Cell& cell, int x, int y, int z) {
   const std::uint32_t in_row = kHash.entry[cell.lattice[0][x]];
   const std::uint32_t in_column = kHash.entry[in_row ^ cell.lattice[1][y]];
   return kHash.entry[in_column ^ cell.lattice[2][z]] & 255u;
 }
 
-/// Returns a number of kLattice, which has six significant digits, rounded as a decimal in double precision.
+/// Returns a number of kLattice as the double nearest to its decimal, which has six significant digits.
 double table_value(std::uint32_t entry) {
   const double value = kLattice[entry];
   if (value == 0) return 0;

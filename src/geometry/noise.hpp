@@ -7,10 +7,10 @@ namespace celltrace {
 
 /// Returns noise with three components, distributed about 0.
 Vec3 noise_vector(const Vec3& p);
-/// Returns the sum of octaves of such noise, each `lambda` times finer and `omega` times weaker than the one
-/// before.
+/// Returns the sum of octaves of noise_vector(), each `lambda` times finer and `omega` times weaker than the
+/// octave before.
 Vec3 turbulence_vector(const Vec3& p, int octaves, double lambda, double omega);
-/// Returns noise from 0 to 1. Generators 1 and 2 are POV-Ray's, and so is generator 3, its gradient noise.
+/// Returns noise from 0 to 1 of one of POV-Ray's generators 1 to 3; generator 3 is gradient noise.
 double noise_value(const Vec3& p, int generator);
 
 } // namespace celltrace

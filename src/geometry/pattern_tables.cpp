@@ -19,7 +19,7 @@ namespace {
 class ShortRandom {
 public:
   explicit ShortRandom(std::uint32_t seed) : state_(seed) {}
-  /// Returns 15 bits.
+  /// Returns a random number of 15 bits.
   std::uint32_t operator()() {
     state_ = state_ * 1812433253u + 12345u;
     return state_ >> 16 & 0x7FFF;

@@ -10,7 +10,7 @@
 
 namespace celltrace {
 
-/// The scale of the vectors of noise generator 3, and the vectors.
+/// Factor of the vectors of noise generator 3.
 constexpr double kGradientStrength = 0.795;
 struct GradientTables {
   std::array<Vec3, kernel::kGradients> gradient; ///< unit vectors
@@ -19,7 +19,7 @@ struct GradientTables {
 const GradientTables& gradient_tables();
 
 std::vector<kernel::FeatureRecord> make_features();
-/// Returns the vectors of gradient_tables() times their scale.
+/// Returns the vectors of gradient_tables() times kGradientStrength.
 std::vector<kernel::GradientRecord> make_gradients();
 std::vector<kernel::WaveRecord> make_waves(int count);
 

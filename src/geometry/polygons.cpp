@@ -21,8 +21,8 @@ template <class Visit> void for_each_point(const Polygon& polygon, Visit visit) 
       visit(point);
 }
 
-/// Returns the normal of the first corner that is not flat, compared with the polygon's size; zero if there
-/// is none.
+/// Returns the normal of the first corner that is not flat, compared with the polygon's size; zero if all
+/// corners are flat.
 Vec3 normal_of(const Polygon& polygon) {
   constexpr double kFlat = 1e-12;
   std::optional<Vec3> start;
@@ -72,8 +72,8 @@ std::optional<Transform> frame_of(const Polygon& polygon) {
 }
 
 Mesh triangles_of(const Polygon& polygon, const Transform& to_world) {
-  // Limits the corners: rays that test the thin triangles around one of many corners miss more often than
-  // rays that test a polygon.
+  // Limits the corners: triangles around one of many corners are thin, so that rays that are tested against
+  // them miss more often than rays that are tested against the polygon.
   constexpr std::size_t kMostCorners = 8;
   constexpr double kFlat = 1e-6; // as a share of the extent
   if (polygon.loops.size() != 1 || polygon.loops[0].size() < 3 || polygon.loops[0].size() > kMostCorners)

@@ -20,8 +20,9 @@ namespace celltrace::geometry {
 
 namespace {
 
-/// Returns POV-Ray's box of a round shape: the box of a box around the shape, along the shape's own axes,
-/// after placing it. The way those axes are turned about the shape's axis is POV-Ray's.
+/// Returns POV-Ray's bounding box of a round shape: transforms a box around the shape, along the shape's own
+/// axes, and returns the bounding box of that. Its axes are turned about the shape's axis as POV-Ray turns
+/// them.
 Extent round_extent(const Vec3& base, const Vec3& cap, double radius, const Transform& transform) {
   const Vec3 d = glm::normalize(cap - base);
   const double square = d.x * d.x + d.y * d.y;
@@ -41,7 +42,8 @@ Extent round_extent(const Vec3& base, const Vec3& cap, double radius, const Tran
   return Extent::around(corners);
 }
 
-// Overloads of cross(), contains() and extent() for each shape; round shapes have an extent in their place.
+// Overloads of cross(), contains() and extent() for each shape. A round shape's extent() also transforms the
+// shape.
 
 void cross(const Sphere& s, const Ray& ray, Crossings& found) {
   const Vec3 o = ray.origin - s.centre;
@@ -250,7 +252,7 @@ void cross(const Quadric& q, const Ray& ray, Crossings& found) {
 bool contains(const Quadric& q, const Vec3& p) {
   return quadric_value(q, p) < 0;
 }
-/// Returns the box of an ellipsoid along the axes; other quadrics are infinite.
+/// Returns the box of an ellipsoid whose axes are the coordinate axes; infinite for any other quadric.
 Extent extent(const Quadric& q) {
   const bool is_ellipsoid = q.mixed == Vec3(0) && q.square.x > 0 && q.square.y > 0 && q.square.z > 0;
   if (!is_ellipsoid) return Extent::everywhere();
@@ -391,8 +393,8 @@ Extent extent(const std::shared_ptr<const Csg>&) {
   return Extent::everywhere();
 }
 
-/// Returns the tightest box of a sphere that is only turned and scaled along its axes; nothing for other
-/// transformations.
+/// Returns the tightest box of a sphere that is only turned and scaled along its axes; nothing for any other
+/// transformation.
 std::optional<Extent> ellipsoid_extent(const Sphere& sphere, const Transform& transform) {
   const Vec3* rows = transform.rows;
   Vec3 column[3];

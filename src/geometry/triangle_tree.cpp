@@ -11,7 +11,7 @@ namespace celltrace::geometry {
 namespace {
 
 constexpr std::uint32_t kMostOfLeaf = 4;
-/// The distance, relative to the largest number, by which rounding may move a crossing beyond the edge of its
+/// Distance, relative to the largest coordinate, by which rounding may move a crossing beyond the edge of its
 /// triangle.
 constexpr double kRounding = 1e-9;
 
@@ -40,7 +40,7 @@ bool hits(const Vec3f& min, const Vec3f& max, double padding, const Ray& ray) {
 
 TriangleTree::TriangleTree(const Mesh& mesh) : order_(mesh.triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
-  std::vector<Vec3> centres; // times three
+  std::vector<Vec3> centres; // sums of the corners: centres times three
   for (const Mesh::Triangle& triangle : mesh.triangles)
     centres.push_back(Vec3(mesh.vertices[triangle.vertex[0]]) + Vec3(mesh.vertices[triangle.vertex[1]]) +
                       Vec3(mesh.vertices[triangle.vertex[2]]));
@@ -50,8 +50,8 @@ TriangleTree::TriangleTree(const Mesh& mesh) : order_(mesh.triangles.size()) {
   if (!order_.empty()) build(mesh, centres, 0, static_cast<std::uint32_t>(order_.size()));
 }
 
-/// Divides triangles in halves along the axis in which their centres are farthest apart. Returns the node's
-/// index.
+/// Builds the node of the triangles [begin, end) and the nodes below it. Halves the triangles along the axis
+/// in which their centres are farthest apart. Returns the node's index.
 std::uint32_t TriangleTree::build(const Mesh& mesh, const std::vector<Vec3>& centres, std::uint32_t begin,
                                   std::uint32_t end) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());

@@ -23,14 +23,14 @@ private:
   struct Node {
     Vec3f min, max;
     std::uint32_t begin, end; ///< range of a leaf, as indices in order_
-    std::uint32_t right;      ///< index of the right child, the left one is next; 0: a leaf
+    std::uint32_t right;      ///< index of the right child, 0 for a leaf; the left child is the next node
   };
 
   std::uint32_t build(const Mesh& mesh, const std::vector<Vec3>& centres, std::uint32_t begin,
                       std::uint32_t end);
 
   std::vector<std::uint32_t> order_; ///< all triangles, leaf by leaf
-  std::vector<Node> nodes_;          ///< the first one is the root
+  std::vector<Node> nodes_;          ///< the root is the first node
   double size_ = 0;                  ///< largest coordinate
 };
 

@@ -15,9 +15,9 @@
 
 namespace celltrace {
 
-/// Returns the greatest magnitude of a coordinate; not finite if one of them is not. The loop goes over
-/// words, so that it can be vectorised: the bits of magnitudes are ordered as the numbers are, with infinity
-/// and NaN above them.
+/// Returns the greatest magnitude of a coordinate; not finite if a coordinate is not finite. The loop goes
+/// over words, so that it can be vectorised: the bits of magnitudes are ordered as the numbers are, with
+/// infinity and NaN above all numbers.
 inline float greatest_magnitude(std::span<const Vec3f> vectors) {
   static_assert(sizeof(Vec3f) == 3 * sizeof(std::int32_t));
   constexpr std::int32_t kMagnitude = 0x7FFFFFFF;
@@ -53,16 +53,15 @@ inline bool is_smooth(const Mesh::Triangle& triangle) {
   return triangle.normal[0] != kNoIndex && !same(triangle.normal);
 }
 
-/// Returns a normal of unit length; one without a direction becomes some unit vector.
+/// Returns a normal of unit length; a normal without a direction becomes some unit vector.
 inline Vec3 unit_normal(const Vec3f& normal) {
   const Vec3 n(normal);
   const double length = glm::length(n);
   return length > 0 ? n / length : Vec3(0, 0, 1);
 }
 
-/// Transforms unit normals of a mesh to the world by the inverse transpose, which is computed once. Normals
-/// have unit length before, but not after this, since a triangle's normals are interpolated in the mesh's own
-/// space.
+/// Transforms unit normals of a mesh to the world by the inverse transpose, which is computed once. Results
+/// do not have unit length, since a triangle's normals are interpolated in the mesh's own space.
 class NormalTransform {
 public:
   explicit NormalTransform(const Transform& transform)

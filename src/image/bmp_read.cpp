@@ -10,7 +10,7 @@ namespace celltrace::image {
 namespace {
 
 constexpr std::size_t kBmpHeader = 54,
-                      kAlphaMask = 66; ///< with the header of version 3; place of the mask in version 4
+                      kAlphaMask = 66; ///< end of version 3's masks; offset of version 4's alpha mask
 
 std::int64_t number_at(const std::uint8_t* bytes, int count) {
   std::int64_t number = 0;
@@ -20,7 +20,7 @@ std::int64_t number_at(const std::uint8_t* bytes, int count) {
 }
 
 struct BmpHeader {
-  std::int64_t first; ///< offset of the pixels
+  std::int64_t first; ///< offset of the pixels in bytes
   int width, height;
   bool from_the_top;
   std::size_t pixel_bytes;

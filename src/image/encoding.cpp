@@ -41,7 +41,7 @@ void Encoding::encode(const float* rgba, std::size_t pixels, Channel* out, Alpha
     double alpha = kept == Alpha::kept ? clipped(static_cast<double>(pixel[3])) : 1;
     double share = 1;
     if (alpha < 1) {
-      // Luminance that is NaN leaves alpha unchanged.
+      // A luminance that is NaN leaves alpha unchanged.
       if (const double bright = std::min(luminance(pixel), 1.0); bright > alpha) alpha = bright;
       if (alpha > 0) share = 1 / alpha;
     }

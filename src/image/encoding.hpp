@@ -1,4 +1,4 @@
-// Encodes colours as rays brought them for files.
+// Converts the colours that rays bring to the encoded values of files.
 #pragma once
 
 #include "celltrace/image.hpp"
@@ -17,8 +17,8 @@ enum class Alpha {
 /// Encodes colours for files of 8 or 16 bits a channel.
 class Encoding {
 public:
-  /// Makes an encoding. `colour_gamma` as ColourImage::gamma; colours that are for display as they are ignore
-  /// `file`.
+  /// Makes an encoding. `colour_gamma` is as ColourImage::gamma; if it is empty, colours are for display
+  /// already, and `file` is ignored.
   explicit Encoding(std::optional<double> colour_gamma, const FileGamma& file = {})
       : colour_gamma_(colour_gamma), power_(file.power) {}
 
@@ -36,7 +36,7 @@ private:
 /// Returns the light, 0 to 1, that an encoded value from 0 to 1 stands for.
 double decoded(double value, const FileGamma& gamma);
 
-/// Makes the colours of `pixels` pixels linear, in place. `gamma` as ColourImage::gamma.
+/// Makes the colours of `pixels` pixels linear, in place. `gamma` is as ColourImage::gamma.
 void make_linear(float* rgba, std::size_t pixels, std::optional<double> gamma);
 
 } // namespace celltrace::image

@@ -1,4 +1,4 @@
-// Writes OpenEXR by its library, whose errors are converted here.
+// Writes OpenEXR with the format's library, and converts the library's errors to InputErrors.
 #include "image/format_table.hpp"
 #include "image/rows.hpp"
 #include "image/seekable.hpp"
@@ -117,7 +117,8 @@ private:
     row_ += count;
   }
 
-  /// Adds a channel. `first` is of the next row; the library counts from the picture's first row.
+  /// Adds a channel. `first` points to the next row; the library expects a pointer to the picture's first
+  /// row.
   template <class Number>
   void add(Imf::FrameBuffer& frame, const Channel& channel, const Number* first, std::size_t stride) const {
     const std::size_t row_bytes = stride * sizeof(Number) * width();

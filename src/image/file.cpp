@@ -53,8 +53,8 @@ void check_permission(const fs::path& file, const struct stat& status) {
   if (!is_writable(file)) fail(errno);
 }
 
-/// Gives a new file the mode and the owner of the one that it is to replace. Returns false if that is not
-/// possible, or if replacing would lose more than these.
+/// Gives a new file the mode and the owner of the file that it is to replace. Returns false if that is not
+/// possible, or if the old file has other properties that would be lost.
 bool takes_after(int descriptor, const fs::path& path, const struct stat& old) {
   struct stat status;
   if (old.st_nlink > 1 || fstat(descriptor, &status) != 0) return false;
@@ -65,7 +65,7 @@ bool takes_after(int descriptor, const fs::path& path, const struct stat& old) {
   return fchmod(descriptor, old.st_mode & 07777) == 0;
 }
 
-/// Gives a file the bytes of another one.
+/// Replaces the contents of a file by those of another file.
 void copy_into(const fs::path& target, int source) {
   struct Descriptor {
     int number;

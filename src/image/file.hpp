@@ -16,10 +16,11 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 /// Opens a regular file for reading. Throws InputError without the path ("cannot be opened: ...").
 File open_for_reading(const std::filesystem::path& path);
 
-/// Returns the target of a path after symbolic links, also if it does not exist yet.
+/// Returns the target of a path after symbolic links, even if the target does not exist yet.
 std::filesystem::path follow_links(std::filesystem::path path);
 
-/// Returns the descriptor of this process that a path such as /dev/stdout or /dev/fd/3 names; -1: none.
+/// Returns the descriptor of this process that a path such as /dev/stdout or /dev/fd/3 names; -1 if the path
+/// names none.
 int descriptor_named(const std::filesystem::path& path);
 
 /// Returns true if a path names an open descriptor, or something that exists and is neither a regular file
@@ -29,11 +30,11 @@ bool is_stream(const std::filesystem::path& path);
 /// Throws the InputError that an OutputFile for this path would throw. Nothing is written.
 void check_output(const std::filesystem::path& path);
 
-/// A file that becomes complete when it takes the name `path`, on commit(); without commit() nothing happens.
-/// It is written under another name in the same folder and renamed. An existing file keeps its mode, its
-/// owner and its other names (hard links): if renaming would change them, or the folder cannot be written,
-/// the bytes are copied into it. Links are followed; streams are written to directly. Not thread safe;
-/// several objects for the same path may exist, the last commit() wins.
+/// A file that appears under the name `path`, complete, on commit(); without commit() nothing changes there.
+/// It is written under another name in the same folder and then renamed. An existing file keeps its mode, its
+/// owner and its other names (hard links): if renaming would change these, or the folder cannot be written,
+/// the bytes are copied into the existing file. Symbolic links are followed; streams are written to directly.
+/// Not thread safe; several objects for the same path may exist, and the last commit() wins.
 class OutputFile {
 public:
   /// Throws InputError if the path cannot be written: a file without a permission to write is protected
@@ -50,12 +51,12 @@ public:
 private:
   void take_name();
 
-  std::filesystem::path target_;    ///< empty: a stream
-  std::filesystem::path temporary_; ///< empty: a nameless file is copied
+  std::filesystem::path target_;    ///< empty for a stream
+  std::filesystem::path temporary_; ///< empty if a nameless file is copied
   File file_;
 };
 
-/// Removes files that killed processes have left of an OutputFile for one of these paths.
+/// Removes the temporary files that killed processes have left of OutputFiles for these paths.
 void remove_abandoned_parts(const std::set<std::filesystem::path>& paths);
 
 } // namespace celltrace::image

@@ -11,7 +11,7 @@ namespace celltrace::image {
 
 namespace {
 
-constexpr std::int64_t kMostPixels = 1 << 28; // a side: a row has at most 2^31 bytes
+constexpr std::int64_t kMostPixels = 1 << 28; // pixels of a side: a row has at most 2^31 bytes
 constexpr std::uint64_t kAnySize = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t k32Bits = std::numeric_limits<std::uint32_t>::max();
 

@@ -21,12 +21,12 @@ enum class Pixels {
 struct FormatChannels {
   Pixels pixels;
   std::vector<int> bits; ///< bits a channel, the usual number first
-  bool grey, alpha;      ///< whether the format has these
+  bool grey, alpha;      ///< true if the format can have this
 };
 
 struct FormatLimits {
-  std::int64_t side;   ///< pixels
-  std::uint64_t bytes; ///< bytes of a file
+  std::int64_t side;   ///< largest width and height, in pixels
+  std::uint64_t bytes; ///< largest size of a file
 };
 
 /// A picture format.
@@ -36,13 +36,13 @@ struct FormatRow {
   std::vector<std::string_view> extensions; ///< lower case, without their dot; POV-Ray's first
   FormatChannels holds;
   FormatLimits limits;
-  /// Null: the format is not written by rows.
+  /// Opens a writer of rows; null if the format is not written by rows.
   std::unique_ptr<RowWriter> (*open)(std::FILE*, const RowFormat&);
-  const char* absent = nullptr; ///< library that this build lacks for the format; null: none
+  const char* absent = nullptr; ///< library that this build lacks for the format; null if none
 };
 
 const FormatRow& row_of(ImageFormat format);
-/// Returns the format of an extension in upper or lower case, with its dot; null if there is none.
+/// Returns the format of an extension in upper or lower case, with its dot; null for an unknown extension.
 const FormatRow* find_format(const std::string& extension);
 /// Returns one extension of each format: ".png, .ppm and .dds".
 std::string extensions();

@@ -12,7 +12,7 @@ Image read_png(std::FILE* file, std::uintmax_t file_bytes);
 Image read_ppm(std::FILE* file, std::uintmax_t file_bytes);
 Image read_tga(std::FILE* file, std::uintmax_t file_bytes);
 Image read_bmp(std::FILE* file, std::uintmax_t file_bytes);
-/// Reads a JPEG. Throws InputError if the build has no libjpeg, too.
+/// Reads a JPEG. Throws InputError also if the build has no libjpeg.
 Image read_jpeg(std::FILE* file, std::uintmax_t file_bytes);
 /// Returns whether the file ends as a TGA does, and goes back to its first byte.
 bool is_tga(std::FILE* file, std::uintmax_t file_bytes);

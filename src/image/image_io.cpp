@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the format by the extension, unless the caller knows it.
+/// Returns `known`, or the format of the path's extension if `known` is empty.
 const image::FormatRow& format_of(const fs::path& path, std::optional<ImageFormat> known) {
   const image::FormatRow* const row =
       known ? &image::row_of(*known) : image::find_format(path.extension().string());
@@ -113,7 +113,7 @@ void flush(std::FILE* file) {
     throw InputError("cannot be written: " + std::generic_category().message(errno));
 }
 
-/// The formats that can be read, and the bytes that they begin with.
+/// A format that can be read, and the bytes with which its files begin.
 struct Reader {
   std::string_view magic;
   Image (*read)(std::FILE*, std::uintmax_t);

@@ -5,8 +5,8 @@
 
 namespace celltrace::image {
 
-/// Throws unless 1 <= width, height <= kMaxImageSide and width * height <= kMaxImagePixels. Any values up to
-/// 2^31 are safe.
+/// Throws unless 1 <= width, height <= kMaxImageSide and width * height <= kMaxImagePixels. Does not overflow
+/// for values up to 2^31.
 void check_size(std::int64_t width, std::int64_t height);
 
 /// Calls check_size(), and throws unless there are four channels a pixel.

@@ -43,7 +43,7 @@ struct Reader {
   throw InputError(std::string("is damaged: ") + (message.text[0] ? message.text : "unknown error"));
 }
 
-/// Reads up to the pixels and selects 8-bit RGBA.
+/// Reads the file up to the pixels, and selects 8-bit RGBA.
 bool read_header(png_structp png, png_infop info, std::FILE* file) {
   if (setjmp(png_jmpbuf(png))) return false;
   // check_size() reports sizes; libpng's own limits would give a worse message.

@@ -94,7 +94,7 @@ public:
   virtual ~Compressor() = default;
   /// Returns the place for `count` more bytes.
   virtual std::uint8_t* next(std::size_t count) = 0;
-  /// Takes the bytes at that place.
+  /// Compresses the bytes that the caller has written to the place of next().
   virtual void take(std::FILE* file) = 0;
   virtual void finish(std::FILE* file) = 0;
 };

@@ -1,4 +1,4 @@
-// Reads binary PPM (P6), and writes PGM (P5), too, as netpbm's manual defines them.
+// Reads and writes binary PPM (P6), and writes PGM (P5), as netpbm's manual defines them.
 #include "image/format_table.hpp"
 #include "image/formats.hpp"
 #include "image/limits.hpp"

@@ -16,7 +16,7 @@ struct RowFormat {
   std::int64_t width = 0;
   std::int64_t height = 0;
   /// Channels of the file: 1 (grey), 2 (grey and alpha), 3 (red, green, blue), 4 (and alpha). Formats without
-  /// alpha leave it out.
+  /// alpha leave alpha out.
   int channels = 3;
   /// Bits a channel of the file: 8 or 16; for OpenEXR 16 or 32, which are floats.
   int bits = 8;
@@ -24,8 +24,8 @@ struct RowFormat {
   std::optional<double> colour_gamma = 1.0;
   FileGamma gamma;          ///< the encoding of files of 8 and 16 bits
   int jpeg_quality = 85;    ///< 0 to 100
-  bool run_lengths = false; ///< true: TGA is compressed
-  bool first_hits = false;  ///< true: OpenEXR has channels of first hits
+  bool run_lengths = false; ///< true if a TGA is compressed
+  bool first_hits = false;  ///< true if an OpenEXR has channels of first hits
 };
 
 /// Rows of FirstHits: for each pixel a depth, three numbers of a normal and the number of an object.

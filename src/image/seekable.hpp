@@ -26,8 +26,8 @@ public:
 
 private:
   std::FILE* target_;
-  std::int64_t origin_ = -1; ///< position in the target; -1: bytes are kept elsewhere
-  File spool_;               ///< null: bytes are kept in memory
+  std::int64_t origin_ = -1; ///< position in the target; -1 if bytes are kept elsewhere
+  File spool_;               ///< null if bytes are kept in memory
   std::vector<std::uint8_t> memory_;
   std::uint64_t position_ = 0, end_ = 0;
 };

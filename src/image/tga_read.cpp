@@ -79,7 +79,7 @@ Image read_tga(std::FILE* file, std::uintmax_t file_bytes) {
   if (std::fread(bytes, 1, kTgaHeader, file) != kTgaHeader) throw InputError("is truncated");
   const TgaHeader header = header_of(bytes);
   check_size(header.width, header.height);
-  // A packet of at most 128 pixels has at least 2 bytes.
+  // Rejects files that are too short: a packet of at most 128 pixels has at least 2 bytes.
   const auto pixels = static_cast<std::uintmax_t>(header.width) * static_cast<std::uintmax_t>(header.height);
   if ((header.has_runs ? pixels / 64 : pixels * header.pixel_bytes) > file_bytes)
     throw InputError("is too short for the size it declares");

@@ -44,7 +44,7 @@ public:
     if (claim()) end_unbegun();
   }
 
-  /// Waits until no function of the options is called any more, unless one of them calls this.
+  /// Waits until no function of the options is called any more, unless such a function calls this one.
   void wait_for_silence() {
     {
       std::unique_lock lock(mutex_);
@@ -91,7 +91,7 @@ private:
 
   bool is_over() const { return progress_.phase == JobPhase::over; }
 
-  /// Makes this thread the worker. Returns false if there is or was one.
+  /// Makes this thread the worker. Returns false if another thread is or was the worker.
   bool claim() {
     const std::lock_guard lock(mutex_);
     if (std::exchange(is_claimed_, true)) return false;
@@ -187,12 +187,12 @@ private:
   }
   bool is_cancelled_in(JobPhase phase) {
     if (!cancelled_.load(std::memory_order_relaxed)) return false;
-    // There will be no picture for certain; waiting threads need not wait until all memory is released.
+    // There will certainly be no picture, so that waiting threads need not wait until all memory is released.
     if (phase != JobPhase::rendering) publish(std::make_exception_ptr(Cancelled()));
     return true;
   }
 
-  // Sets the result; the first one counts.
+  // Set the result; only the first call has an effect.
   void publish(RenderResult result) {
     const std::lock_guard lock(mutex_);
     if (is_over()) return;

@@ -11,7 +11,8 @@ namespace {
 
 using Reader = Scene (*)(const std::filesystem::path&, const ParseOptions&);
 
-/// The reader of a format, by an extension in lower case. Another format is one more row.
+/// A row of the table of formats: an extension in lower case, and the function that reads such files. Add a
+/// row for each further format.
 struct Format {
   const char* extension;
   Reader read;

@@ -23,7 +23,8 @@ void AlignedBlock::Free::operator()(std::byte* bytes) const noexcept {
 }
 
 AlignedBlock AlignedBlock::uninitialised(std::size_t bytes, Pages pages) {
-  // Huge pages pay from half of one on: filling takes a fifth of the time of as many normal pages.
+  // Huge pages pay for at least half a huge page: filling one takes a fifth of the time of as many normal
+  // pages.
   const bool large = pages == Pages::huge && bytes >= kHugePage / 2;
   const std::size_t unit = large ? kHugePage : kLine;
   const std::size_t whole = round_up(bytes == 0 ? 1 : bytes, unit);
@@ -41,7 +42,7 @@ AlignedBlock::AlignedBlock(std::size_t bytes) : AlignedBlock(uninitialised(bytes
 
 void AlignedBlock::reserve(std::size_t bytes) {
   if (bytes <= size_) return;
-  *this = AlignedBlock(); // never two blocks at a time
+  *this = AlignedBlock(); // frees the old block before it takes the new one
   *this = uninitialised(bytes);
 }
 

@@ -7,8 +7,8 @@
 namespace celltrace {
 
 /// The pages of a block. Huge pages, if the system has them, are for data that rays access in random order.
-/// Pictures gain nothing from them: the host of a virtual machine may have to provide them first, which takes
-/// ten times as long as to fill normal ones.
+/// Pictures gain nothing from huge pages: the host of a virtual machine may have to provide them first, which
+/// takes ten times as long as filling normal pages.
 enum class Pages { normal, huge };
 
 /// A block that starts on a 128-byte boundary.

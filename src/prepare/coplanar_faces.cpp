@@ -20,18 +20,18 @@ namespace celltrace {
 namespace {
 
 constexpr std::size_t kMostObjects = most_of(PictureLimit::coplanar_objects);
-/// Limit on overlapping pairs; more would take too long.
+/// Limit on overlapping pairs of faces; more pairs would take too long.
 constexpr std::size_t kMostOverlaps = most_of(PictureLimit::coplanar_pairs);
 /// Limit on steps by which faces of one plane are moved apart.
 constexpr int kMostSteps = most_of(PictureLimit::coplanar_layers);
-/// The number of steps that certainly move a face out of a solid on whose boundary it was; solids are
+/// Number of steps that certainly move a face out of a solid on whose boundary the face was: solids are
 /// slightly enlarged.
 constexpr int kStepsOut = 3;
 
 class CoplanarFaces {
 public:
-  /// Collects the faces. `eye` and `start`, which belong to an Eye, are null if any face may be visible.
-  /// Objects after the first kMostObjects are left out.
+  /// Collects the faces of the first kMostObjects objects. `eye` and `start`, which belong to an Eye, are
+  /// null if any face may be visible.
   CoplanarFaces(const Scene& scene, const PassContext& context, const Vec3* eye, const Vec3* start)
       : scene_(scene), context_(context), list_(scene, context.material_flags, eye, kMostObjects), eye_(eye),
         start_(start) {}
@@ -41,7 +41,7 @@ public:
     list_.for_each_plane([this](std::size_t first, std::size_t last) { settle(first, last); });
     return any_moves_;
   }
-  /// Returns whether there are two faces that may have to be moved, wherever the eye is.
+  /// Returns whether there are two faces that may have to be moved for some location of the eye.
   bool any_overlap() {
     bool any = false;
     list_.for_each_plane([&](std::size_t first, std::size_t last) {
@@ -53,8 +53,8 @@ public:
     return any;
   }
 
-  /// Returns whether the picture depends on which of two faces is visible, wherever the eye is. If there are
-  /// too many pairs, only the first ones are examined.
+  /// Returns whether the picture depends, for some location of the eye, on which of two faces is visible. If
+  /// there are too many pairs, only the first pairs are examined.
   bool any_matters() {
     bool any = false;
     list_.for_each_plane([&](std::size_t first, std::size_t last) {
@@ -100,8 +100,8 @@ public:
   }
 
 private:
-  /// Returns the vector by which a face is moved: farther than rounding may move it, and much less than can
-  /// be seen.
+  /// Returns the vector by which a face is moved. It is longer than rounding errors, and too short to be
+  /// seen.
   Vec3 way(const Face& face) const {
     constexpr double kStep = 5e-7;
     const Vec3& eye = *start_;
@@ -125,7 +125,7 @@ private:
     const Vec3 axis = solid.cap - solid.base;
     (side != 0 ? solid.cap : solid.base) += axis * along(transform.direction(axis), face);
   }
-  /// Returns how far to go along a direction, in lengths of it, until the face is in its new plane.
+  /// Returns the distance along a direction, in lengths of the direction, to the face's new plane.
   double along(const Vec3& direction, const Face& face) const {
     return glm::dot(way(face), face.normal) / glm::dot(direction, face.normal);
   }
@@ -134,8 +134,8 @@ private:
   /// is never visible. Ends of cylinders and cones are rounded differently from other faces, in POV-Ray too:
   /// they are only ordered if something transparent stands on an opaque face.
   bool can_differ(const Face& a, const Face& b) const {
-    // Subtracted objects often share faces with the object they are cut out of: these stay, except for the
-    // ground of a room.
+    // Subtracted objects often share faces with the object that they are cut out of. Such faces stay, except
+    // for the ground of a room.
     if (a.is_inverse && b.is_inverse) return false;
     if (a.is_inverse || b.is_inverse) {
       const Face &ground = a.is_inverse ? a : b, &other = a.is_inverse ? b : a;
@@ -147,7 +147,8 @@ private:
     return !are_opaque || (a.faces_up == b.faces_up && a.material != b.material);
   }
 
-  /// Returns whether the choice may be visible from some location; can_differ() also uses the eye.
+  /// Returns whether the picture may depend, from some location, on which face is hit; can_differ() also uses
+  /// the eye.
   bool may_differ(const Face& a, const Face& b) const {
     const bool are_opaque = list_.is_opaque(a) && list_.is_opaque(b);
     if (a.is_inverse || b.is_inverse) return a.is_inverse != b.is_inverse && !are_opaque;
@@ -155,14 +156,14 @@ private:
     return are_merged(a, b) || !are_opaque || (a.faces_up == b.faces_up && a.material != b.material);
   }
 
-  /// The order of two faces in one plane: `near` has to be nearer to the eye, by `steps`.
+  /// The order of two faces in one plane: `near` has to be nearer to the eye than `far`, by `steps`.
   struct Order {
     Face* near;
     Face* far;
     int steps = 1;
   };
 
-  /// The operation in which two faces of one object are in different parts, and these parts.
+  /// The operation of a CSG that has two faces in different parts, and the indices of these parts.
   struct Fork {
     Csg::Operation operation;
     std::size_t part[2];
@@ -176,17 +177,16 @@ private:
     if (level == std::min(of_a.size(), of_b.size())) return std::nullopt;
     return Fork{of_a[level].csg->operation, {of_a[level].part, of_b[level].part}};
   }
-  /// Returns whether the faces are of parts of a merge, each inside of the other part. Depending on rounding,
-  /// POV-Ray shows both or neither at a point, which makes specks or a hole.
+  /// Returns whether the faces belong to parts of a merge, so that each is inside of the other part.
+  /// Depending on rounding, POV-Ray shows both or neither face at a point, which makes specks or a hole.
   bool are_merged(const Face& a, const Face& b) const {
     const std::optional<Fork> fork = fork_of(a, b);
     return fork && fork->operation == Csg::Operation::merge;
   }
 
-  /// Returns the order of two faces of one object that look the same way, if they are of parts of an
-  /// intersection or a merge. POV-Ray shows the last part of an intersection: the other faces are moved out,
-  /// where they are outside of the other parts. One face of a merge has to be visible, with the others behind
-  /// it.
+  /// Returns the order of two faces of one object if both look the same way and belong to parts of an
+  /// intersection or a merge. POV-Ray shows the last part of an intersection: faces of other parts are moved
+  /// out of that part. One face of a merge has to be visible, with the others behind it.
   std::optional<Order> order_of_parts(Face& a, Face& b) const {
     const std::optional<Fork> fork = fork_of(a, b);
     if (!fork || a.faces_up != b.faces_up) return std::nullopt;
@@ -197,7 +197,7 @@ private:
     return Order{&in, &out, kStepsOut};
   }
 
-  /// Returns the order of faces of two objects: the one that POV-Ray shows is nearer.
+  /// Returns the order of faces of two objects: the face that POV-Ray shows is nearer.
   Order order_of_objects(Face& a, Face& b) {
     if (a.is_round) return {&b, &a};
     if (b.is_round) return {&a, &b};
@@ -220,8 +220,8 @@ private:
     if (orders.empty()) return;
     any_moves_ = true;
     if (stack(orders)) return;
-    // The orders contain a cycle: which face is visible depends on the ray, so that no order of all faces is
-    // right everywhere. The rank in the tree is right for most rays.
+    // The orders contain a cycle: which face is visible depends on the ray, so that no order is right
+    // everywhere. The objects' ranks in the tree are right for most rays.
     for (Order& order : orders)
       if (tree_ && tree_->rank(order.far->object) < tree_->rank(order.near->object))
         std::swap(order.near, order.far);
@@ -230,7 +230,7 @@ private:
       list_.faces()[i].steps = 0;
     context_.pass(PictureLimit::coplanar_layers);
   }
-  /// Reports that the faces [first, last) of one plane have too many pairs, unless all of them look the same.
+  /// Reports that the faces [first, last) of one plane have too many pairs, unless all faces look the same.
   void pass_pairs(std::size_t first, std::size_t last) {
     if (overlaps_ > kMostOverlaps) return context_.pass(PictureLimit::coplanar_pairs);
     const Face& one = list_.faces()[first];
@@ -239,11 +239,11 @@ private:
         return context_.pass(PictureLimit::coplanar_comparisons);
   }
 
-  /// Gives the faces their steps. Returns false if these would be too many.
+  /// Sets the steps of the faces. Returns false if a face would need too many steps.
   static bool stack(const std::vector<Order>& orders) {
     for (const Order& order : orders)
       order.near->steps = order.far->steps = 0;
-    // Without cycles, each round settles at least one more step.
+    // Without cycles, each round settles the faces with one more step.
     for (int round = 0; round <= kMostSteps + 1; ++round) {
       bool has_changed = false;
       for (const Order& order : orders) {
@@ -257,7 +257,7 @@ private:
     return false;
   }
 
-  /// Returns whether POV-Ray shows `a` where the two faces overlap.
+  /// Returns whether POV-Ray shows `a` where two faces overlap.
   bool is_seen(const Face& a, const Face& b) {
     if (!tree_) {
       std::vector<Extent> extents;

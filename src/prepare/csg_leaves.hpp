@@ -1,4 +1,4 @@
-// Visits objects, or the leaves of their CSG.
+// Visits an object or, if it is a CSG, the CSG's leaves.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,8 +11,7 @@
 
 namespace celltrace {
 
-/// The place of a leaf of an object's CSG: its transformation to the scene, and whether the object is made of
-/// the leaf's outside.
+/// The place of a leaf of an object's CSG. `inverse` is true if the object consists of the leaf's outside.
 struct LeafPlace {
   Transform transform;
   bool inverse = false;
@@ -25,8 +24,8 @@ struct LeafPlace {
   }
 };
 
-/// Returns whether `predicate(leaf, whether the object is made of the leaf's outside)` is true for an object
-/// that is no CSG, or for any leaf of one. Rare properties are found this way without computing places.
+/// Returns whether `predicate(leaf, inverse)` is true for an object that is no CSG, or for any leaf of a CSG;
+/// `inverse` is as in LeafPlace. Finds rare properties without computing places.
 template <class Ask> bool has_leaf(const Object& object, bool inverse, const Ask& predicate) {
   const bool is_inverse = inverse != object.inverse;
   const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
@@ -37,8 +36,8 @@ template <class Ask> bool has_leaf(const Object& object, bool inverse, const Ask
   return false;
 }
 
-/// Calls `visit(leaf, place)` for an object that is no CSG, or for all leaves of one in their order. Objects
-/// that clip are skipped.
+/// Calls `visit(leaf, place)` for an object that is no CSG, or for all leaves of a CSG in their order. Skips
+/// objects that clip.
 template <class Visit> void visit_leaves(const Object& object, const LeafPlace& around, Visit& visit) {
   const LeafPlace place = around.within(object);
   const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
@@ -47,8 +46,8 @@ template <class Visit> void visit_leaves(const Object& object, const LeafPlace& 
     visit_leaves((*csg)->parts[i], place.part(**csg, i), visit);
 }
 
-/// Returns the object with those leaves replaced for which `change(leaf, place)` returns a new leaf; nothing
-/// if it returns none.
+/// Returns the object with each leaf replaced for which `change(leaf, place)` returns a new leaf; nothing if
+/// there is no new leaf.
 template <class Change>
 std::optional<Object> with_leaves_changed(const Object& object, const LeafPlace& around, Change& change) {
   const LeafPlace place = around.within(object);

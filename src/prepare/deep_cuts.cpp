@@ -19,8 +19,8 @@ namespace {
 /// Limit on comparisons of faces in a scene.
 constexpr std::size_t kMostComparisons = most_of(PictureLimit::shallow_cuts);
 
-/// A face of a shape in the scene. `ends` has the faces of a box by axis, the lower one of each first; of a
-/// cylinder or cone, the base first.
+/// A face of a shape in the scene. `end` numbers the faces of a box by axis, the lower face of each axis
+/// first, and the ends of a cylinder or cone, the base first.
 struct EndFace {
   Vec3 normal; ///< points outwards
   double distance;
@@ -34,7 +34,7 @@ class DeepCuts {
 public:
   explicit DeepCuts(const PassContext& context) : context_(context), eye_(context.eye) {}
 
-  /// Returns the object with deeper cuts; nothing if it needs none.
+  /// Returns the object with deeper cuts and thicker plates; nothing if it needs no change.
   std::optional<Object> changed(const Object& object) {
     if (!std::holds_alternative<std::shared_ptr<const Csg>>(object.shape)) return {};
     const bool may_be_thin = limits_parts(object, 0) && has_leaf(object, false, is_thin);
@@ -59,18 +59,18 @@ private:
   struct Move {
     std::size_t leaf;
     int end;
-    double way; ///< distance along the normal
+    double way; ///< distance by which the end moves along the normal
     Vec3 normal;
   };
 
-  /// Returns whether a leaf is subtracted and has ends that may lie slightly beyond those of the object.
+  /// Returns whether a leaf is subtracted and has ends, which may lie slightly beyond the object's ends.
   static bool cuts(const Object& leaf, bool inverse) {
     return inverse &&
            (std::holds_alternative<Box>(leaf.shape) || std::holds_alternative<Cylinder>(leaf.shape) ||
             std::holds_alternative<Cone>(leaf.shape));
   }
 
-  /// Returns whether a leaf is a plate of the object that may be too thin for a point to be found inside.
+  /// Returns whether a leaf is a plate of the object, maybe so thin that no point is found inside of it.
   static bool is_thin(const Object& leaf, bool inverse) {
     constexpr double kThin = 1e-4;
     const auto* const box = std::get_if<Box>(&leaf.shape);
@@ -127,14 +127,14 @@ private:
     return (box.corner[0][axis] > box.corner[1][axis]) != (end % 2 != 0);
   }
 
-  /// The depth of a cut as a share of size_at(), on which the precision of a face's points depends.
-  static constexpr double kDeepEnough = 2e-6; // single precision is wrong by up to a tenth of this
+  /// Least depth of a cut as a share of size_at(), on which the precision of a face's points depends.
+  static constexpr double kDeepEnough = 2e-6; // single precision has errors of up to a tenth of this
   double size_at(const Vec3& point) const {
     const Vec3 eye = eye_.start();
     return glm::length(eye) + glm::length(point) + glm::length(point - eye);
   }
 
-  /// Thickens plates on the side away from the eye, so that objects on the other side are inside of them.
+  /// Thickens plates on the side away from the eye, so that objects on that side are inside of the plates.
   void find_thin() {
     for (std::size_t i = 0; i + 1 < kept_.size(); ++i) {
       const EndFace &a = kept_[i], &b = kept_[i + 1];
@@ -166,7 +166,7 @@ private:
     }
   }
 
-  /// Returns how much longer a leaf becomes along one of its axes so that its end moves by `move`.
+  /// Returns the length by which a leaf has to grow along its axis `outward` so that its end moves by `move`.
   static double growth(const Move& move, const Vec3& outward, const LeafPlace& place) {
     return move.way / glm::dot(place.transform.direction(outward), move.normal);
   }

@@ -10,7 +10,7 @@ namespace celltrace {
 
 namespace {
 
-/// Turns the normal, which points outwards, to the side that Face requires.
+/// Turns the normal, which points outwards, to the direction that Face requires. Sets faces_up.
 void turn(Face& face) {
   constexpr double kNone = 1e-9;
   int axis = 0;
@@ -22,7 +22,7 @@ void turn(Face& face) {
   face.distance = -face.distance;
 }
 
-/// Returns a face of a solid; `outward` is normal to it.
+/// Returns a face of a solid; `outward` is its normal in the solid's space.
 Face face_of(const Vec3 (&corners)[4], const Vec3& outward, const Transform& transform) {
   Face face{};
   face.normal = glm::normalize(transform.normal(outward));
@@ -35,8 +35,8 @@ Face face_of(const Vec3 (&corners)[4], const Vec3& outward, const Transform& tra
   return face;
 }
 
-/// Returns false for faces of a singular transformation, or of a box as wide as numbers reach: such objects
-/// are rejected elsewhere.
+/// Returns false for faces of a singular transformation, or of a box that reaches to the largest numbers;
+/// such objects are rejected elsewhere.
 bool is_usable(const Face& face) {
   constexpr double kFarthest = 1e12;
   const Vec3 reach = glm::max(glm::abs(face.extent.min), glm::abs(face.extent.max));
@@ -92,7 +92,7 @@ void FaceList::add_plane(std::size_t object, const Plane& plane) {
 
 void FaceList::add(std::size_t object, std::size_t number, const Box& box, const Transform& transform,
                    Index material, const CsgPath& path, bool is_inverse) {
-  const bool has_order = !path.empty() && !is_inverse; // compared with other faces of its CSG
+  const bool has_order = !path.empty() && !is_inverse; // is compared with other faces of its CSG
   if (has_order) paths_.push_back(path);
   const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
   const bool is_seen_inside =
@@ -112,8 +112,8 @@ void FaceList::add(std::size_t object, std::size_t number, const Box& box, const
     face.material = material;
     face.is_inverse = is_inverse;
     face.faces_up = face.faces_up != is_seen_inside;
-    // Opaque back faces are visible only through transparent objects and in mirrors: they are skipped, since
-    // there may be many.
+    // Skips opaque back faces, since there may be many: they are visible only through transparent objects and
+    // in mirrors.
     if (eye_ != nullptr && is_opaque(face) && !faces_camera(face)) continue;
     face.object = object;
     face.solid = number;
@@ -164,7 +164,7 @@ bool FaceList::are_in_one_plane(const Face& a, const Face& b) {
 
 void FaceList::sort() {
   struct Key {
-    std::int32_t normal[3]; ///< rounded
+    std::int32_t normal[3]; ///< rounded to a millionth
     std::uint32_t face;
     double distance;
   };

@@ -20,34 +20,34 @@
 
 namespace celltrace {
 
-/// A step on the path from an object's CSG down to a solid: a CSG and its part.
+/// A step on the path from an object's CSG down to a solid: a CSG, and the index of its part.
 struct PathStep {
   const Csg* csg;
   std::size_t part;
 };
 using CsgPath = std::vector<PathStep>;
 
-/// A face, in a plane whose normal points in the direction in which its first nonzero coordinate grows.
+/// A face in a plane. The first nonzero coordinate of the plane's normal is positive.
 struct Face {
   Vec3 normal;
   double distance; ///< distance of the plane from the origin, along the normal
   Extent extent;
   std::size_t object;
-  std::size_t solid; ///< kPlane: the object is a plane
-  int side;          ///< boxes: axis * 2, plus 1 for the larger coordinate; other solids: 1 for the cap
-  bool is_round;     ///< an end of a cylinder or a cone
-  bool is_inverse;   ///< true: the face of a box that is subtracted
-  bool faces_up;     ///< the outside is in the direction of the normal
+  std::size_t solid; ///< index of the solid; kPlane if the object is a plane
+  int side; ///< box: axis * 2, plus 1 for the larger coordinate; other solid: 0 for the base, 1 for the cap
+  bool is_round;   ///< true for an end of a cylinder or a cone
+  bool is_inverse; ///< true for a face of a subtracted box
+  bool faces_up;   ///< true if the solid's outside is in the direction of the normal
   Index material;
-  std::uint32_t path = 0; ///< the path's number; 0: none
-  int steps = 0;          ///< number of steps to move it toward the eye
+  std::uint32_t path = 0; ///< number of the path, from 1 on; 0 if there is no path
+  int steps = 0;          ///< number of steps by which the face is moved toward the eye
 
   static constexpr std::size_t kPlane = ~std::size_t{0};
 };
 
 /// Calls `visit(solid, transform, material, path, inversions)` for the boxes, cylinders and cones of an
-/// object, including those in its CSG. `inversions` is how often a solid is inverted or subtracted. If the
-/// object may be changed, CSGs are copied for it.
+/// object, including those in its CSG. `inversions` tells how often a solid is inverted or subtracted. If
+/// `object` is not const, copies its CSGs, so that `visit` may change solids.
 template <class AnyObject, class Visit>
 void visit_solids(AnyObject& object, const Transform& around, int inversions, CsgPath& path, Visit& visit) {
   const Transform transform = object.transform.then(around);
@@ -82,22 +82,23 @@ template <class AnyObject, class Visit> void visit_solids(AnyObject& object, Vis
   visit_solids(object, Transform(), 0, path, visit);
 }
 
-/// The faces of a scene's boxes, cylinders, cones and planes that may be visible in one plane with others.
+/// The faces of a scene's boxes, cylinders, cones and planes that may be visible where several lie in one
+/// plane.
 class FaceList {
 public:
-  /// Collects faces. `scene` and `material_flags` must not change while this object lives. `eye` is null if
-  /// any face may be visible. Objects after the first `most` are left out.
+  /// Collects faces of the first `most` objects. `scene` and `material_flags` must not change while this
+  /// object lives. `eye` is null if any face may be visible.
   FaceList(const Scene& scene, std::span<const std::uint32_t> material_flags, const Vec3* eye,
            std::size_t most);
 
   std::vector<Face>& faces() { return faces_; }
   const std::vector<Face>& faces() const { return faces_; }
-  /// Returns the path to a face's box; the face must have one.
+  /// Returns the path to a face's box; face.path must not be 0.
   const CsgPath& path_of(const Face& face) const { return paths_[face.path - 1]; }
-  /// Returns the number of boxes, cylinders and cones, which are numbered in the order of visit_solids().
+  /// Returns the number of boxes, cylinders and cones. Solids are numbered in the order of visit_solids().
   std::size_t solid_count() const { return solid_count_; }
 
-  /// Returns whether two faces of one plane share more than edges.
+  /// Returns whether the extents of two faces of one plane overlap in more than edges.
   static bool overlap(const Extent& a, const Extent& b) {
     int wide = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -108,7 +109,7 @@ public:
     }
     return wide >= 2;
   }
-  /// Returns whether an object on the face can be seen to stand on it.
+  /// Returns whether the eye can see that an object stands on the face.
   bool is_ground(const Face& face) const { return is_opaque(face) && faces_camera(face); }
   bool is_opaque(const Face& face) const {
     return (material_flags_[face.material] & kernel::object_flag::opaque) != 0;
@@ -117,7 +118,7 @@ public:
   /// Returns whether the eye is on the side of the normal.
   bool is_seen_from_above(const Face& face) const { return glm::dot(*eye_, face.normal) > face.distance; }
 
-  /// Calls `visit(first, last)` for the faces [first, last) of each plane with more than one.
+  /// Calls `visit(first, last)` for each plane with several faces, which are [first, last).
   template <class Visit> void for_each_plane(Visit visit) {
     sort();
     for (std::size_t first = 0, last = 1; first < faces_.size(); first = last++) {
@@ -126,8 +127,8 @@ public:
       if (last - first > 1) visit(first, last);
     }
   }
-  /// Calls `visit(a, b)` for pairs of [first, last) whose extents meet along x, until it returns false.
-  /// Returns false if a call did, or if there are too many pairs.
+  /// Calls `visit(a, b)` for pairs of [first, last) whose extents meet along x, until a call returns false.
+  /// Returns false if a call returned false, or if there are too many pairs.
   template <class Visit> bool for_each_pair(std::size_t first, std::size_t last, Visit visit) {
     std::sort(faces_.begin() + static_cast<std::ptrdiff_t>(first),
               faces_.begin() + static_cast<std::ptrdiff_t>(last),
@@ -143,8 +144,8 @@ public:
 
 private:
   void add_plane(std::size_t object, const Plane& plane);
-  /// Adds the faces of a box. The inside is visible if the box is inverse, as a room that is subtracted from
-  /// something, or if the eye is in it.
+  /// Adds the faces of a box. The inside is visible if the box is inverse, such as a room that is subtracted
+  /// from an object, or if the eye is in the box.
   void add(std::size_t object, std::size_t number, const Box& box, const Transform& transform, Index material,
            const CsgPath& path, bool is_inverse);
   bool holds_eye(const Vec3& low, const Vec3& high, const Transform& transform) const;
@@ -152,11 +153,11 @@ private:
   template <class Round>
   void add(std::size_t object, std::size_t number, const Round& solid, const Transform& transform,
            Index material, const CsgPath&, bool is_inverse);
-  /// Sorts the faces so that those of one plane are neighbours.
+  /// Sorts the faces so that the faces of one plane are neighbours.
   void sort();
   static bool are_in_one_plane(const Face& a, const Face& b);
 
-  /// Limit on pairs; more would take too long.
+  /// Limit on pairs of faces; more pairs would take too long.
   static constexpr std::size_t kMostPairs = most_of(PictureLimit::coplanar_comparisons);
 
   const Scene& scene_;

@@ -14,7 +14,8 @@ namespace celltrace {
 
 namespace {
 
-/// Limit on quadrics: they have no bounds, so that each ray is tested against all of them.
+/// Limit on quadrics in place of spheres: they have no bounds, so that each ray is tested against all of
+/// them.
 constexpr std::size_t kMostSpheres = most_of(PictureLimit::large_spheres);
 
 class LargeSpheres {
@@ -22,7 +23,7 @@ public:
   explicit LargeSpheres(const PassContext& context)
       : context_(context), eye_(context.eye), material_flags_(context.material_flags) {}
 
-  /// Returns the object with large spheres replaced, also in its parts; nothing if there are none.
+  /// Returns the object with large spheres replaced, also in its parts; nothing if it has no large sphere.
   std::optional<Object> changed(const Object& object) {
     const auto is_sphere = [](const Object& leaf, bool) {
       return std::holds_alternative<Sphere>(leaf.shape);

@@ -16,11 +16,11 @@ namespace celltrace {
 
 using PassedLimits = std::set<PictureLimit>;
 
-/// The inputs of passes besides the scene, and the set to which they add limits.
+/// The inputs of passes besides the scene, and the set to which passes add limits.
 struct PassContext {
   const Eye& eye;
   std::span<const std::uint32_t> material_flags; ///< index: material; flags of objects that consist of it
-  PassedLimits* limits = nullptr;                ///< null: not needed
+  PassedLimits* limits = nullptr;                ///< null if limits are not needed
 
   /// Records that the scene passes a limit.
   void pass(PictureLimit limit) const {
@@ -28,11 +28,11 @@ struct PassContext {
   }
 };
 
-/// A pass returns the changed scene, or nothing if it changes nothing.
+/// A pass over a scene: returns the changed scene, or nothing if it changes nothing.
 using Pass = std::optional<Scene> (*)(const Scene& scene, const PassContext& context);
 
-/// Returns the scene with those objects replaced for which `change(object)` returns a new object; nothing if
-/// it returns none.
+/// Returns the scene with each object replaced for which `change(object)` returns a new object; nothing if
+/// there is no new object.
 template <class Change> std::optional<Scene> with_objects_changed(const Scene& scene, const Change& change) {
   std::optional<Scene> copy;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

@@ -11,15 +11,15 @@ namespace celltrace {
 
 std::span<const Pass> passes() {
   static constexpr Pass kPasses[] = {
-      // Faces are compared where they end up: a shallow cut is moved by more than faces of one plane are, and
-      // may come to lie in the plane of another object's face, or leave it.
+      // Comes first, because faces are compared where they end up: a shallow cut is moved farther than faces
+      // of one plane are, and may come to lie in the plane of another object's face, or leave that plane.
       deepen_cuts,
       move_faces_apart,
-      // Spheres have no faces, so that this pass could also come before the ones above. Passes after it find
-      // quadrics in place of some spheres.
+      // Spheres have no faces, so that this pass could also come earlier. Later passes find quadrics in place
+      // of some spheres.
       centre_large_spheres,
-      // Projectors are invisible to rays: no other pass should spend time on them, or move faces because of
-      // them.
+      // Comes last: rays do not see projectors, so that other passes should neither spend time on projectors
+      // nor move faces because of them.
       add_projectors,
   };
   return kPasses;

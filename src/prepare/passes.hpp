@@ -20,7 +20,7 @@ public:
   PreparedScene(const Scene& scene, const PassContext& context);
 
   const Scene& scene() const { return changed_ ? *changed_ : given_; }
-  /// Returns how many objects are the scene's own; the objects after them are projectors.
+  /// Returns the number of the given scene's own objects; the objects after them are projectors.
   std::size_t own_objects() const { return given_.objects.size(); }
 
 private:

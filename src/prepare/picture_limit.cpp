@@ -4,7 +4,7 @@ namespace celltrace {
 
 namespace {
 
-/// The name and the message of a limit; `before` and `after` surround the number.
+/// The name and the message of a limit. The message has the number between `before` and `after`.
 struct LimitText {
   const char* name;
   const char* before;

@@ -16,7 +16,7 @@ namespace celltrace {
 
 namespace {
 
-/// Limit on objects, and on vertices of a mesh, that are examined: more take time and hardly
+/// Limit on objects, and on vertices of a mesh, that are examined. Examining more would take time and hardly
 /// move the median.
 constexpr std::size_t kMostExamined = 256;
 
@@ -28,7 +28,7 @@ std::size_t stride(std::size_t count) {
   return count / kMostExamined + 1;
 }
 
-/// A box that has no points at first.
+/// A box, at first without points.
 struct Bounds {
   Extent box;
   bool is_empty = true;
@@ -76,14 +76,14 @@ void add_extent(const Object& object, const Transform& around, int depth, Bounds
   std::visit([&](const auto& shape) { add_extent(shape, transform, depth, bounds); }, object.shape);
 }
 
-/// Returns the median; the lower one of the two in the middle of an even number.
+/// Returns the median; if the number of values is even, the lower one of the two middle values.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// Moves the parts of a scene; maps that several materials share stay shared.
+/// Moves the parts of a scene. Maps that several materials share stay shared.
 class Mover {
 public:
   explicit Mover(const Vec3& origin) : move_(Transform::translate(-origin)) {}
@@ -123,7 +123,8 @@ public:
   }
 
 private:
-  /// Patterns inside of a map are in the space of the map's pattern, so that they are not moved.
+  /// Moves the pattern of a map. Patterns inside of a map are in the space of this pattern, so that they move
+  /// with it.
   template <class T> PatternMap<T> moved(PatternMap<T> map) {
     move(map.pattern);
     return map;
@@ -156,10 +157,10 @@ namespace {
 
 struct Middle {
   Vec3 place{0, 0, 0}; ///< middle of most objects
-  double size = 0;     ///< distance from `place` within which most objects lie; 0: there are no objects
+  double size = 0;     ///< distance from `place` within which most objects lie; 0 if there are no objects
 };
 
-/// Adds the places to which objects without bounds have been moved.
+/// Adds the places and sizes of objects that have been moved, for scenes in which no object has bounds.
 void add_moved(const Scene& scene, std::vector<Vec3>& places, std::vector<double>& sizes) {
   for (const Object& object : scene.objects) {
     const Transform& transform = object.transform;
@@ -197,8 +198,8 @@ Middle middle_of(const Scene& scene) {
   return middle;
 }
 
-/// The distance, in sizes of the scene, from which on the scene gets an origin of its own: at that distance
-/// single precision still resolves a 65,536th of the scene's size.
+/// Least distance, in sizes of the scene, at which the scene gets an origin of its own: there single
+/// precision still resolves a 65,536th of the scene's size.
 constexpr double kFar = 256;
 
 } // namespace
@@ -206,7 +207,7 @@ constexpr double kFar = 256;
 Vec3 origin_for(const Scene& scene) {
   const Middle middle = middle_of(scene);
   if (!(middle.size > 0) || largest(middle.place) <= kFar * middle.size) return Vec3(0);
-  // An origin with few digits, so that coordinates relative to it lose none of theirs.
+  // Returns an origin with few digits, so that coordinates relative to it lose no digits.
   const double step = std::exp2(std::floor(std::log2(middle.size)));
   return glm::round(middle.place / step) * step;
 }

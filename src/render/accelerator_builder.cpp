@@ -17,22 +17,23 @@ using namespace kernel;
 
 namespace {
 
-/// The share of building a BVH that comes before the first treelet: the nodes above the treelets.
+/// Share of a BVH's building time before the first treelet, in which the nodes above the treelets are built.
 constexpr double kBeforeTreelets = 0.15;
-/// The largest work memory that is kept between frames, in bytes; larger blocks are freed.
+/// Limit on a block of work memory that is kept between frames, in bytes; larger blocks are freed.
 constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
 
-/// The number of changed lines, as a multiple of those in a cache, from which on hardly any cached line is
-/// worth keeping: SPEs then skip the list and discard all lines.
+/// Limit on changed lines, as a multiple of the lines in a cache. If there are more, hardly any cached line
+/// is worth keeping: SPEs get no list and discard all lines.
 constexpr std::uint64_t kLinesWorthMarking = 16;
 
-/// Watches the work memory of a BVH while the BVH is built.
+/// Reports the progress of building a BVH, which it reads in the BVH's work memory.
 class BvhProgress {
 public:
   BvhProgress(const AlignedBlock& work, const Progress& go_on)
       : team_(*reinterpret_cast<bvh::TeamRecord*>(work.data())), go_on_(go_on) {}
 
-  /// Asks whether to go on; if not, makes the SPEs take and copy no more treelets.
+  /// Reports progress; if the caller ends the build, makes the SPEs take and copy no more treelets.
+  /// `treelets` tells whether the build has come to the treelets.
   void poll(bool treelets) {
     if (stopped() || go_on_.report(treelets ? fraction() : 0)) return;
     if (!treelets) return;
@@ -140,7 +141,7 @@ bool AcceleratorBuilder::build_bvh(const Progress& go_on) {
   frame_.far_nodes = machine_.direct_memory() && objects > tuning::kMostObjectsOfNearNodes;
   enter_work_memory(work.pairs());
   frame_.image = to_ea(image_.base());
-  // The builder follows pointers through main memory, so that it runs on the host if SPEs cannot do that.
+  // The builder follows pointers through main memory, so that it runs on the host if SPEs cannot.
   if (!machine_.direct_memory()) return build_bvh_for_spes(go_on);
   const bool built = build_bvh_on(team_, frame_, machine_.spe_count(), go_on);
   frame_.bvh.node_count = reports_[0].list_entries;

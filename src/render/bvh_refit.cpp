@@ -18,7 +18,7 @@ using LaneAabb = bvh::LaneAabb<Simd>;
 
 /// Least number of objects per thread; with fewer, starting threads takes longer than they save.
 constexpr std::uint32_t kObjectsAThread = 65536;
-/// The number of objects that are prefetched while one is read.
+/// Number of objects by which prefetching is ahead of reading.
 constexpr std::size_t kAhead = 16;
 constexpr std::uint32_t kChildren = bvh::kChildren;
 
@@ -35,8 +35,8 @@ void store(const LaneAabb& bounds, bvh::Reference& to) {
   bounds.max.store(to.max);
 }
 
-/// Returns the sum over a node's children of their area times the number of tests for a ray that hits the
-/// child.
+/// Returns the sum, over a node's children, of a child's area times the number of tests that a ray needs if
+/// it hits the child.
 double cost_of(const NodeRecord& node, const float* tests) {
   using F4 = Simd::F4;
   const auto extent = [&](int axis) {
@@ -83,7 +83,7 @@ void BvhRefit::find_nodes(const std::byte* base, const BvhRecord& bvh) {
   members_.clear();
   tests_.clear();
   first_cost_ = 0;
-  place_of[0] = 0; // the root has none
+  place_of[0] = 0; // any number but kGap: the root has no place
   for (std::uint32_t number = 0; number < bvh.node_count; ++number) {
     ProgressMonitor::check_cancelled(number);
     if (place_of[number] == kGap) continue;
@@ -126,7 +126,8 @@ std::span<const BvhRefit::Member> BvhRefit::members_of(unsigned part, unsigned p
   return {members_.data() + begin, whole_leaf(mine.end) - begin};
 }
 
-/// A single loop over all members: the branch at the end of a loop for each leaf would be mispredicted.
+/// Computes the bounds of leaves in a single loop over all members: the end of a loop for each leaf would be
+/// mispredicted.
 void BvhRefit::bound_leaves(const std::byte* base, std::span<const Member> members) {
   bvh::Reference* const all = bounds_.data();
   for (std::size_t i = 0; i < members.size(); ++i) {

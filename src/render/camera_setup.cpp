@@ -28,8 +28,8 @@ double middle_y(const PictureOnGrid& picture) {
   return picture.top + 0.5 * picture.height - 0.5;
 }
 
-/// Returns how many rows below the middle the horizon of a perspective picture is, which is the horizon of
-/// floors if up is nearly the y axis; 0 if the picture shows none.
+/// Returns the number of rows from the middle of a perspective picture down to its horizon, or 0 if the
+/// picture shows no horizon. This is the horizon of floors if up is nearly the y axis.
 double horizon_row(const Vec3& middle, const Vec3& row, double height) {
   int up = 0;
   for (int axis = 1; axis < 3; ++axis)
@@ -42,8 +42,8 @@ void set_flat(CameraRecord& record, const Camera& camera, const PictureOnGrid& p
   record.sheaf = static_cast<std::uint32_t>(parallel ? RaySheaf::parallel : RaySheaf::pinhole);
   const Vec3 row = -camera.up / picture.height;
   Vec3 base = parallel ? camera.location : camera.direction;
-  // Rows are counted from the horizon: the precision of the difference of two directions decides how far away
-  // rays hit a floor, and on which of its squares.
+  // Rows are counted from the horizon, because the precision of the difference of two directions decides how
+  // far away rays hit a floor, and on which of its squares.
   const double first_row = parallel ? 0 : horizon_row(base, row, picture.height);
   base += row * first_row;
   copy(parallel ? camera.direction : camera.location, record.origin);
@@ -81,7 +81,7 @@ void set_curved(CameraRecord& record, const Camera& camera, const PictureOnGrid&
   record.bend = static_cast<float>(picture.bend);
 }
 
-/// Returns a record whose rays start that far ahead of the camera.
+/// Returns a record whose rays start ahead of the camera, by `start` lengths of the camera's direction.
 CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double start) {
   const double length = glm::length(camera.direction);
   CameraRecord record{};
@@ -104,7 +104,7 @@ CameraRecord far_record(Camera camera, const PictureOnGrid& picture, double star
       record.step_x = record.step_y = 1;
     } else {
       if (std::is_same_v<Kind, SphericalCamera>) {
-        // Uses the axes about which the camera turns its rays, which are not always its own.
+        // Uses the axes about which the camera turns its rays, which may differ from the camera's own axes.
         const Vec3 forward = unit(camera.direction), right = unit(camera.right), up = unit(camera.up);
         camera.right = glm::cross(up, forward) * glm::length(camera.right);
         camera.up = glm::cross(forward, right) * glm::length(camera.up);

@@ -24,7 +24,7 @@ struct ViewExtent {
   double across = 0, across_growth = 0, up = 0, up_growth = 0;
 };
 
-/// Returns nothing if the picture may go all around.
+/// Returns the extent of a camera's view; nothing if the picture may go all around.
 std::optional<ViewExtent> view_extent_of(const Camera& camera) {
   constexpr double kRadiansPerDegree = std::numbers::pi / 180, kWidest = 0.5;
   const double right = glm::length(camera.right), up = glm::length(camera.up);
@@ -33,7 +33,7 @@ std::optional<ViewExtent> view_extent_of(const Camera& camera) {
   if (camera.kind == Kind::perspective) return ViewExtent{0, 0.5, 0, 0.5};
   if (camera.kind == Kind::orthographic) return ViewExtent{0.5, 0, 0.5, 0};
   if (!(angle < kWidest)) return std::nullopt;
-  // All kinds but these two have axes of unit length.
+  // All kinds but the two above have axes of unit length.
   switch (camera.kind) {
   case Kind::spherical: {
     const double height = camera.vertical_angle * kRadiansPerDegree / 2;
@@ -113,7 +113,7 @@ struct Range {
   }
 };
 
-/// A surface in its own space, or the box around several.
+/// The surface of an object in its own space, or a box around one or several objects.
 struct Obstacle {
   enum class Kind { box, plane, quadric } kind;
   double map[3][4];
@@ -167,7 +167,8 @@ const ExtraRecord& extra_of(const ObjectRecord& object, const SceneImage& image)
   return *reinterpret_cast<const ExtraRecord*>(image.base() + object.extra);
 }
 
-/// Returns the surface of an object that the camera may be inside of, or else its box.
+/// Returns the surface of a plane, quadric or sphere, which the camera may be inside of; the box of any other
+/// object.
 Obstacle obstacle_of(const ObjectRecord& object, const SceneImage& image) {
   const std::uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
   Obstacle obstacle{Obstacle::Kind::plane, {}};
@@ -199,8 +200,8 @@ bool is_instance(const ObjectRecord& object) {
   return (object.kind_and_flags & object_flag::kind_mask) == kInstanceKind;
 }
 
-/// Returns the distance, from `from` on, up to which no obstacle is in the view; `to` if there is none
-/// before.
+/// Returns the distance, at least `from`, up to which no obstacle is in the view; `to` if there is no
+/// obstacle before `to`.
 double first_meeting(const Obstacle& obstacle, const View& view, double from, double to, int depth = 0) {
   constexpr int kDeepest = 48;
   if (obstacle.is_outside(view, from, to)) return to;
@@ -232,7 +233,7 @@ double start_of_rays(const Camera& camera, double margin, const SceneImage& imag
   const View view(camera, *reach, margin);
   if (!view.is_valid()) return 0;
   const ImageHeader& header = image.header();
-  // The crossings of a mesh without an inside that CSG shows depend on where rays start.
+  // Crossings with a mesh that CSG shows and that has no inside vector depend on where rays start.
   if (header.crossed_mesh_count != 0) return 0;
   const auto is_far = [&](double start) { return start > kFar * view.half_size(start); };
   const double farthest = double{kMaxHitDistance} / glm::length(camera.direction);

@@ -11,7 +11,7 @@
 
 namespace celltrace {
 
-/// The pixels of a result, and the place of the first of them on the grid in memory.
+/// The pixels of a result, and the place of the first pixel on the grid in memory.
 struct GridAtPicture {
   PictureRegion region;
   std::uint32_t first_column, first_row;

@@ -1,5 +1,5 @@
-// The fields of the frame block and the records beside it, for SPEs of another byte order:
-// celltrace/spe/byte_order.hpp.
+// Lists the fields of the frame block and the records beside it, so that celltrace/spe/byte_order.hpp can
+// convert them for SPEs of another byte order.
 #pragma once
 
 #include "celltrace/spe/byte_order.hpp"

@@ -20,13 +20,13 @@ std::uint32_t FramePlan::line_of(std::uint32_t bundle_row) const {
 
 void FramePlan::plan(const RowRange& rows) {
   BundleRows grid = grid_rows_of(rows);
-  // If these rows follow earlier ones, the points between them are in memory.
+  // If these rows follow earlier rows, the points on the border between them are in memory.
   const bool goes_on = traced_.begin <= grid.begin && grid.begin < traced_.end && traced_.end < grid.end;
   if (goes_on) grid.begin = traced_.end;
   picture_.begin_at(rows, goes_on ? line_of(grid.begin) : 0);
   if (planned_ == rows && planned_grid_ == grid) return;
   const unsigned spes = machine_.spe_count();
-  // Columns are computed: the frame block has those of the last plan that was used, which may be a plan of
+  // Computes the columns: the frame block has those of the last plan that was used, which may be a plan of
   // samples.
   const std::uint32_t edge = bundle_edge(machine_.direct_memory());
   grid_plan_ = std::make_unique<WorkPlan>(options_.balance, (frame_.packet_columns + edge - 1) / edge,

@@ -12,11 +12,10 @@
 
 namespace celltrace {
 
-/// The plans of a picture. They are kept, with the costs that were measured, as long as the rows are the
-/// same.
+/// The plans of a picture. They are kept, with their measured costs, as long as the rows stay the same.
 class FramePlan {
 public:
-  /// Refers to all arguments, which must outlive this object; each call uses `options` as they are then.
+  /// Refers to all arguments, which must outlive this object; each call uses the current `options`.
   FramePlan(const RenderOptions& options, const Machine& machine, const kernel::FrameBlock& frame,
             PictureMemory& picture)
       : options_(options), machine_(machine), frame_(frame), picture_(picture) {}
@@ -24,7 +23,7 @@ public:
   /// Makes plans for these rows, and makes the picture's memory begin with them. Points of the grid that are
   /// in memory from earlier rows are not traced again.
   void plan(const RowRange& rows);
-  /// Makes the next call build all plans anew, since pictures have another size or kind.
+  /// Makes the next call build all plans anew, because pictures will have another size or kind.
   void forget() { planned_ = {0, 0}; }
 
   /// Records that all points of the grid in these rows are in memory, until forget_points().

@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint32_t kPictureFeatures = light_feature::alpha | light_feature::first_hits;
 
 /// Returns the voxels per unit of length for which a box holds `wanted` cubes. An axis too short for more
-/// than one layer is ignored: the others share all cubes.
+/// than one layer is ignored: the other axes share all cubes.
 double voxels_per_unit(std::array<double, 3> extent, double wanted) {
   std::sort(extent.begin(), extent.end(), std::greater<>());
   double per_unit = 0;
@@ -129,7 +129,8 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.fog_offset = header.fog_offset;
   frame.fog_count = header.fog_count;
   frame.light_features = header.light_features | (frame.light_features & kPictureFeatures);
-  // Stages of other models cannot walk through surfaces within POV-Ray's tolerance: these dim the light, too.
+  // Stages of other models cannot step over surfaces within POV-Ray's tolerance, so that these surfaces dim
+  // light, too.
   if (options.model != Model::shared)
     frame.light_features &= ~(light_feature::near_surfaces | light_feature::restarts);
   constexpr double kVersionOfTransparency = 3.7;
@@ -165,7 +166,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
 }
 
 GridRecord choose_grid(const ImageHeader& header) {
-  // About eight voxels per object: more cost memory and steps, fewer cost intersection tests.
+  // About eight voxels per object: more voxels cost memory and steps, fewer voxels cost intersection tests.
   constexpr double kVoxelsPerObject = 8;
   constexpr double kMaxCellsPerAxis = 512;
   constexpr double kMaxCells = 1 << 24;

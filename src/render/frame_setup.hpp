@@ -1,4 +1,4 @@
-// Fills the frame block that the SPEs read from a Scene and options.
+// Fills the frame block, which the SPEs read, from a Scene and options.
 #pragma once
 
 #include "celltrace/render.hpp"

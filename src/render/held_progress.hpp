@@ -8,7 +8,7 @@
 
 namespace celltrace {
 
-/// The time to wait for SPEs that may have no message: short if somebody may ask to stop, long if nobody can.
+/// Longest times to wait for messages of SPEs: short if the caller may end the work, else long.
 constexpr std::chrono::milliseconds kCancellablePollInterval(5), kPollInterval(50);
 
 /// Calls the caller's function, and holds its exception until the SPEs are idle.
@@ -28,7 +28,7 @@ public:
     }
     return !stopped_;
   }
-  /// Calls another function of the caller's; an exception stops the work as one of report() does.
+  /// Calls another function of the caller's; its exception stops the work as an exception in report() does.
   template <class Function> void call(Function function) {
     if (stopped_) return;
     try {

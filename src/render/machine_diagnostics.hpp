@@ -20,7 +20,7 @@ public:
   /// Returns the machine's diagnostics since the last call, after passing them to the caller's function.
   std::vector<Diagnostic> take();
 
-  /// Calls work(). If it throws, reports the diagnostics up to then; a failed allocation becomes OutOfMemory.
+  /// Calls work(). If it throws, reports the diagnostics so far; a failed allocation becomes OutOfMemory.
   template <class Work> std::invoke_result_t<Work> reporting_failures(Work work) {
     try {
       return work();

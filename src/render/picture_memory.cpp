@@ -17,16 +17,17 @@ using namespace kernel;
 
 namespace {
 
-/// Returns a block that a DMA list can address, which has to lie in one region of 4 GB.
+/// Returns a block that lies in one region of 4 GB, so that a DMA list can address it.
 AlignedBlock make_list_target(std::size_t bytes) {
   AlignedBlock block = AlignedBlock::uninitialised(bytes, Pages::normal);
   const auto region = [](const std::byte* at) { return reinterpret_cast<std::uintptr_t>(at) >> 31 >> 1; };
-  // A block that straddles a border is kept until another one is made, which therefore lies elsewhere.
+  // A block that straddles a border lives until the next block is made, so that the next block lies
+  // elsewhere.
   if (region(block.data()) != region(block.data() + bytes - 1)) return make_list_target(bytes);
   return block;
 }
 
-/// Returns the number of rows of packets that render_rows() may need at a time: those of whole bundles.
+/// Returns the number of rows of packets that render_rows() may need at a time: the rows of whole bundles.
 std::uint32_t rows_in_memory(const RenderOptions& options, const FrameBlock& frame,
                              std::uint32_t bundle_edge) {
   if (options.rows_at_once == 0) return frame.packet_rows;

@@ -30,25 +30,25 @@ public:
   PictureMemory(const RenderOptions& options, kernel::FrameBlock& frame, std::endian order)
       : options_(options), frame_(frame), order_(order) {}
 
-  /// Allocates the memory that the options need, and sets its place in the frame block. Its contents are
+  /// Allocates the memory that the options need, and sets its place in the frame block. Pixels in memory are
   /// lost.
   void make_room(unsigned spes, std::uint32_t bundle_edge);
   /// Makes the memory begin with these rows, if it has room for a part of the picture only. Keeps points of
-  /// the grid from these rows to line `kept` (excluded), if there are any.
+  /// the grid from these rows to line `kept` (excluded), if any are in memory.
   void begin_at(const RowRange& rows, std::uint32_t kept);
   /// Returns all rows of the picture.
   RowRange rows() const;
   /// Clears points from this line of the grid on to transparent black, and all colours. A line before the
-  /// memory's first one counts as the first one.
+  /// memory's first line counts as the first line.
   void clear_from(std::uint32_t line);
   /// Returns the place of this frame's blocks in the picture.
   BlockGrid blocks(std::uint32_t bundle_edge) const;
   /// Calls RenderOptions::finished_block for each region.
   void report_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const;
-  /// Turns the colours of the grid's points into those of pixels, if the options ask for colours; in the
-  /// SPEs' byte order.
+  /// Turns the colours of the grid's points into the colours of pixels, in the SPEs' byte order, if the
+  /// options ask for colours.
   void keep_colours(const RowRange& rows);
-  /// Copies to the result what the options ask for.
+  /// Copies the picture to the result, in each form that the options ask for.
   void copy(const RowRange& rows, const SceneImage& image, RenderResult& result);
 
 private:

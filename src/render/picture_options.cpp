@@ -15,8 +15,8 @@ using namespace kernel;
 
 namespace {
 
-/// The largest cache: a program of this size leaves 112 KB of a local store, of which the ray stack and the
-/// packets take 39 KB.
+/// Limit on the cache's size in bytes: the program leaves 112 KB of a local store, of which the ray stack and
+/// the packets take 39 KB.
 constexpr std::uint32_t kMaxCacheBytes = 70 * 1024;
 
 void check(const Antialiasing& antialiasing, Model model) {

@@ -6,11 +6,11 @@ namespace celltrace {
 
 namespace {
 
-/// The highest quality at which surfaces have only the colour of their pigment; 0 is the same.
+/// Highest quality at which surfaces have only the colour of their pigment; quality 0 is the same as 1.
 constexpr int kColoursOnly = 1;
 constexpr int kNoShadows = 3;
 constexpr int kNoAreas = 4;
-constexpr int kAllSurfaces = 8; ///< all surfaces and all lights
+constexpr int kAllSurfaces = 8; ///< lowest quality with complete surfaces and all lights
 
 /// Reduces the quality of textures. Maps that textures share stay shared.
 class Reducer {

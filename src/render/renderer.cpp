@@ -39,8 +39,8 @@ MachineConfig machine_config(const RenderOptions& options) {
   config.spes = machine_spes(options);
   config.simd = options.simd;
   config.emulation = options.emulation;
-  // Commands and doorbells are combined by OR, so that they do not replace earlier ones that have not been
-  // read.
+  // Commands and doorbells are combined by OR, so that a new one does not replace an earlier one that has not
+  // been read.
   config.signal_mode[0] = SignalMode::logical_or;
   config.signal_mode[1] = SignalMode::logical_or;
   return config;
@@ -55,13 +55,13 @@ public:
   explicit Impl(const RenderOptions& options) : Impl(options, make_machine(machine_config(options))) {}
   ~Impl() {
     scene_.retire_queries();
-    // Some rules are only checked at the end of a program.
+    // Ends the programs, because some rules are only checked at the end of a program.
     team_.reset();
     diagnostics_.take();
   }
 
   /// Returns a function that reports a call's progress, and ends the call after RenderOptions::most_seconds.
-  /// The caller's function must outlive it.
+  /// `progress` must outlive this function.
   Progress within_time(const Progress& progress) const {
     if (options_.most_seconds == 0) return progress;
     return [&progress, watch = Stopwatch(), most = options_.most_seconds](double fraction) {
@@ -73,7 +73,7 @@ public:
     if (!prepare(scene, progress)) return no_frame();
     return diagnostics_.reporting_failures([&] { return render_frame(picture_.rows(), progress); });
   }
-  /// Prepares a scene; `progress` may end this.
+  /// Prepares a scene. Returns false if `progress` ended the preparation.
   bool prepare(const Scene& scene, const Progress& progress) {
     plan_.forget_points();
     return scene_.prepare(scene, progress);
@@ -108,7 +108,7 @@ public:
     make_room_for_picture();
     scene_.follow_picture();
     plan_.forget_points();
-    // Another picture may take more or less of the SPEs' local stores.
+    // Another picture may need more or less of the SPEs' local stores.
     if (!stages_) team_->synchronize({});
   }
   RayQueries ray_queries() {
@@ -179,7 +179,7 @@ private:
     RenderStatistics statistics = scene_.take_statistics();
     plan_.plan(rows);
     plan_.forget_points();
-    // Clears the picture only for a frame that can be ended: any other leaves no pixel out.
+    // Clears the picture only for a frame that can be ended: any other frame writes all pixels.
     if (progress) picture_.clear_from(plan_.kept_lines());
     const Stopwatch render;
     const SpeMeter meter(*machine_);
@@ -221,7 +221,8 @@ private:
     return result;
   }
 
-  /// Renders a pass on the SPEs. Returns false if `progress` ended it. Adds to `reports`, by SPE.
+  /// Renders a pass on the SPEs, and adds each SPE's report to `reports`. Returns false if `progress` ended
+  /// the pass.
   bool render_pass(WorkPlan& plan, const Progress& progress, std::span<ReportRecord> reports) {
     reports_.clear();
     ++frame_.epoch;

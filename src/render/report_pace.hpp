@@ -7,7 +7,7 @@
 namespace celltrace {
 
 /// Chooses the number of progress messages. Each message wakes the PPE's thread, which takes some 20 us of an
-/// SPE's time: 64 of them are a tenth of a frame of 10 ms. Passes that have taken long get more messages.
+/// SPE's time: 64 messages take a tenth of a frame of 10 ms. Passes that have taken long get more messages.
 class ReportPace {
 public:
   /// Returns the number of units of work between two messages.

@@ -91,7 +91,7 @@ void ScenePreparation::retire_queries() noexcept {
 }
 
 /// Calls work(scene, go_on), where `scene` is reduced to the picture's quality and moved to its origin, and
-/// `go_on` reports progress. Returns false if that has ended the work: there is no scene then.
+/// `go_on` reports progress. Returns false if the caller has ended the work; then there is no scene.
 template <class Work>
 bool ScenePreparation::while_wanted(const Progress& progress, const Scene& scene, Work work) {
   return while_building(progress, [&](const Progress& go_on) {
@@ -108,7 +108,7 @@ bool ScenePreparation::while_wanted(const Progress& progress, const Scene& scene
   });
 }
 
-/// Calls work(go_on) in the same way.
+/// Calls work(go_on) with the same `go_on` and result as while_wanted().
 template <class Work> bool ScenePreparation::while_building(const Progress& progress, Work work) {
   Progress go_on;
   if (options_.build_progress || progress)
@@ -137,7 +137,7 @@ void ScenePreparation::forget_scene() {
   kept_.reset();
 }
 
-/// Builds the image and the accelerator. Returns false if `go_on` cancelled it.
+/// Builds the image and the accelerator. Returns false if `go_on` cancelled the build.
 bool ScenePreparation::prepare_scene(const Scene& scene, const Progress& go_on) {
   prepared_ = RenderStatistics();
   const Stopwatch build;
@@ -160,7 +160,7 @@ bool ScenePreparation::prepare_scene(const Scene& scene, const Progress& go_on) 
   return true;
 }
 
-/// Prepares the scene as prepare_scene() does, at the cost of the changes.
+/// Prepares the scene with the result of prepare_scene(), but does only the work that the changes require.
 bool ScenePreparation::prepare_changes(const Scene& scene, const SceneChanges& changes,
                                        const Progress& go_on) {
   if (!has_scene_ || stages_) return prepare_scene(scene, go_on);
@@ -199,7 +199,7 @@ void ScenePreparation::enter_preparation(const std::vector<SpeStatistics>& spes)
     prepared_.prepare += spe.cycles;
 }
 
-/// Sets another camera for the current scene. Returns false, and changes nothing, if there is no scene, or
+/// Sets another camera for the current scene. Returns false, and changes nothing, if there is no scene, or if
 /// its image is not for that camera.
 bool ScenePreparation::enter_moved_camera(const Camera& given) {
   validate(given);
@@ -210,7 +210,7 @@ bool ScenePreparation::enter_moved_camera(const Camera& given) {
   return true;
 }
 
-/// Builds the image of the kept scene for another camera. The scene is kept even if that is cancelled.
+/// Builds the image of the kept scene for another camera. Keeps the scene even if `progress` ends the build.
 bool ScenePreparation::prepare_for_eye(const Camera& camera, const Progress& progress) {
   is_edited_ = true; // further cameras are likely to follow
   const std::shared_ptr<Scene> scene = kept_;
@@ -234,7 +234,7 @@ void ScenePreparation::enter_camera(const Camera& camera) {
   camera_limits_ = set_camera(frame_, camera, picture_on_grid(options_), media_, image_);
 }
 
-/// Describes a scene whose image is complete in the frame block.
+/// Describes a scene in the frame block; the scene's image must be complete.
 void ScenePreparation::enter_scene(const Scene& scene) {
   set_scene(frame_, scene, options_, image_);
   // Each level of a ray tree adds the nodes that its surfaces push, except the node that is processed next;
@@ -244,8 +244,7 @@ void ScenePreparation::enter_scene(const Scene& scene) {
   const std::uint64_t levels = std::uint64_t{frame_.max_trace_level} + kLevelsOfStraight;
   const std::uint64_t wanted = levels * std::max(image_.header().surface_nodes, 2u) - levels;
   const auto most = std::max<std::uint64_t>(levels, kMostBytesOfSpe / kRayNodeBytes);
-  // No node stays in local store if lights have areas or shadow rays go step by step; with direct memory,
-  // none ever does.
+  // No node stays in local store if lights have areas, if shadow rays go step by step, or with direct memory.
   const bool has_resident = !machine_.direct_memory() && !has_areas(frame_) && !walks_shadows(frame_);
   const std::uint32_t nodes =
       static_cast<std::uint32_t>(std::min(wanted, most)) + (has_resident ? 0 : kResidentNodes);

@@ -27,7 +27,7 @@ Progress part_of(const Progress& progress, double begin, double end);
 /// the next frame. SPEs read them, so that this object must outlive the machine's programs.
 class ScenePreparation {
 public:
-  /// Refers to all arguments, which must outlive this object. Each call uses `options` as they are then.
+  /// Refers to all arguments, which must outlive this object. Each call uses the current `options`.
   ScenePreparation(const RenderOptions& options, Machine& machine, kernel::FrameBlock& frame,
                    SharedRecords<kernel::ReportRecord>& reports, MachineDiagnostics& diagnostics)
       : options_(options), machine_(machine), frame_(frame), reports_(reports), diagnostics_(diagnostics) {}
@@ -35,19 +35,19 @@ public:
   ScenePreparation(const ScenePreparation&) = delete;
   ScenePreparation& operator=(const ScenePreparation&) = delete;
 
-  /// Sets the SPEs that build accelerators; called first. `stages` are SPEs that run other programs; null if
-  /// there are none.
+  /// Sets the SPEs that build accelerators; call it before any other function. `stages` are SPEs that run
+  /// other programs; null if there are none.
   void set_teams(SpeTeam& team, StageTeam* stages);
-  /// Says that the next frame is the last one.
+  /// Tells this object that the next frame is the last one.
   void expect_last_frame() { is_last_frame_ = true; }
 
-  /// Prepares a scene. Returns false if `progress`, or RenderOptions::build_progress, has ended it: there is
-  /// no scene then.
+  /// Prepares a scene. Returns false if `progress`, or RenderOptions::build_progress, has ended the
+  /// preparation; then there is no scene.
   bool prepare(const Scene& scene, const Progress& progress);
   /// Prepares a scene that differs from the last one in `changes` only.
   bool prepare(const Scene& scene, const SceneChanges& changes, const Progress& progress);
-  /// Prepares the current scene for another camera. A kept scene stays available even if `progress` ends
-  /// this.
+  /// Prepares the current scene for another camera. A kept scene stays available even if `progress` ends the
+  /// preparation.
   bool prepare(const Camera& camera, const Progress& progress);
   /// Adapts the camera to another picture in the options.
   void follow_picture() {
@@ -55,10 +55,10 @@ public:
   }
 
   bool has_scene() const { return has_scene_; }
-  /// Returns whether there is a scene, or one that can be prepared without being given again.
+  /// Returns whether there is a prepared scene, or a kept scene that can be prepared again.
   bool knows_scene() const { return has_scene_ || kept_ != nullptr; }
   const SceneImage& image() const { return image_; }
-  /// Frees the image's memory; there is no scene then, not even a kept one.
+  /// Frees the image's memory; then there is no scene, not even a kept one.
   void release_image();
   RayQueries ray_queries();
   /// Retires the ray queries, since their scene is about to be replaced.
@@ -90,8 +90,8 @@ private:
   StageTeam* stages_ = nullptr;
   SceneImage image_;
   std::vector<Medium> media_;
-  std::shared_ptr<RayQueryScene> query_scene_; ///< null: no queries of this scene were requested
-  bool has_scene_ = false;                     ///< true: there is a scene with an accelerator
+  std::shared_ptr<RayQueryScene> query_scene_; ///< null if no queries of this scene were requested
+  bool has_scene_ = false;                     ///< true if there is a scene with an accelerator
   Vec3 origin_ =
       Vec3(0); ///< origin of the image, in the scene's coordinates, to which the members below are relative
   Camera camera_; ///< camera of the next frame
@@ -101,7 +101,7 @@ private:
   AlignedBlock ray_stack_;      ///< memory for the ray stacks of all SPEs
   std::unique_ptr<AcceleratorBuilder> builder_;
   bool is_last_frame_ = false;
-  bool is_edited_ = false; ///< later scenes come with a list of changes
+  bool is_edited_ = false; ///< true if later scenes come with a list of changes
 };
 
 } // namespace celltrace

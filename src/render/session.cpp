@@ -91,13 +91,13 @@ public:
       return !cancelled_.load(std::memory_order_relaxed) && (!progress || progress(fraction));
     };
     RenderResult result = renderer_.render(scene_, changes_, unless_cancelled);
-    // A scene whose accelerator was not finished does not exist; the renderer knows that.
+    // No changes are left: if the accelerator was not finished, the renderer knows that it has no scene.
     changes_ = {false, false};
     if (wants_floats()) copy_floats(result);
     return result;
   }
 
-  /// Returns the options for the renderer, whose functions come here first.
+  /// Returns options for the renderer, in which functions of this object stand for the caller's functions.
   RenderOptions own_options(const RenderOptions& options) {
     RenderOptions own = options;
     own.build_progress = [this](double fraction) {
@@ -160,7 +160,7 @@ public:
   std::optional<Framebuffer> framebuffer_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<std::uint64_t> generation_ = 0;
-  Renderer renderer_; ///< last member: calls the others
+  Renderer renderer_; ///< last member, since it calls functions that use the others
 };
 
 Session::Session(Scene scene, const RenderOptions& options)

@@ -29,7 +29,7 @@ struct Reference {
   std::uint32_t index; ///< offset of the triangle, or index of the list's first entry
   bool is_triangle;
 
-  /// Returns twice the middle along an axis.
+  /// Returns twice the middle of the box along an axis.
   float middle(int axis) const { return box.min[axis] + box.max[axis]; }
 };
 using References = std::span<Reference>;
@@ -72,11 +72,11 @@ private:
     float cost = kInfinity;
     std::size_t left = 0; ///< number of references to the left
     int axis = 0;
-    float middle = 0; ///< references with a lower middle go to the left; twice the place
+    float middle = 0; ///< twice the place of the split: references with a lower middle go to the left
   };
 
-  /// The number of levels below which nodes are split into equal halves, so that the stack of a traversal is
-  /// bounded.
+  /// Limit on levels at which nodes are split by cost. Below, nodes are split into equal halves, so that the
+  /// stack of a traversal is bounded.
   static constexpr int kFreeLevels = 32;
   static constexpr std::size_t kBins = 32;
 
@@ -109,7 +109,7 @@ private:
         bvh_.others_.push_back(offset);
         continue;
       }
-      // Each reference has only the part of a triangle that is in its leaf.
+      // A reference's box has only the part of a triangle that is in the reference's leaf.
       Aabb part = TrianglePrimitive::bounds(record<ObjectRecord>(offset), {});
       for (int axis = 0; axis < 3; ++axis) {
         part.min[axis] = std::max(part.min[axis], box.min[axis]);
@@ -133,7 +133,7 @@ private:
            (references.size() <= kBlock && std::all_of(references.begin(), references.end(),
                                                        [](const Reference& r) { return r.is_triangle; }));
   }
-  /// Returns the cost of testing this many triangles, in blocks.
+  /// Returns the cost of testing this many triangles: the number of their blocks.
   static float blocks(std::size_t count) { return static_cast<float>((count + kBlock - 1) / kBlock); }
 
   /// Finds the best split by the surface area heuristic, among places between bins of equal width along each
@@ -158,7 +158,7 @@ private:
         grow(bounds[bin], reference.box);
         ++counts[bin];
       }
-      std::array<float, kBins> right{}; // cost of the bins from this one on
+      std::array<float, kBins> right{}; // cost of each bin together with the bins after it
       Aabb box = empty_box();
       std::size_t count = 0;
       for (std::size_t bin = kBins; bin-- > 1;) {
@@ -194,7 +194,7 @@ private:
     return {{first, box_of(first)}, {second, box_of(second)}};
   }
 
-  /// Divides the largest part of a node as long as there is room for another one.
+  /// Divides the largest part of a node as long as the node has room for another part.
   void fill_node(std::uint32_t index, References references, int level) {
     std::array<Part, QueryNode::kWidth> parts;
     parts[0] = {references, box_of(references)};
@@ -260,7 +260,7 @@ private:
 SingleRayBvh::SingleRayBvh(const SceneImage& image, std::uint32_t root) {
   nodes_.reserve(image.header().object_count / 8 + 1);
   blocks_.reserve(image.header().object_count / 2 + 1);
-  // Rays access the tables at random.
+  // Rays access these tables in random order.
   use_huge_pages(nodes_.data(), nodes_.capacity() * sizeof(QueryNode));
   use_huge_pages(blocks_.data(), blocks_.capacity() * sizeof(TriangleBlock));
   Builder(*this, image).build(root);

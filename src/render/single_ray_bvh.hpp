@@ -11,7 +11,7 @@ namespace celltrace {
 
 class SingleRayBvh {
 public:
-  /// Builds the BVH from that of `image`, whose root is at `root`.
+  /// Builds the BVH from the BVH of `image`, whose root is at `root`.
   SingleRayBvh(const SceneImage& image, std::uint32_t root);
   /// Returns pointers that are valid as long as this object lives and is not moved.
   kernel::QueryBvh get() const { return {nodes_.data(), blocks_.data(), others_.data()}; }

@@ -10,7 +10,8 @@ namespace celltrace {
 
 nlohmann::ordered_json cycles_json(const SpuCycles& cycles);
 
-/// Returns a diagnostic without the addresses in its text: addresses of main memory differ from run to run.
+/// Returns a diagnostic. Removes addresses from its text, because addresses of main memory differ from run to
+/// run.
 nlohmann::ordered_json diagnostic_json(const Diagnostic& diagnostic);
 
 } // namespace celltrace

@@ -98,7 +98,7 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress, const Un
       // Only an idle SPE has no request under way.
       if (kind == ReportKind::idle) tally.report(member.spe, count);
     });
-    // Holds 1 back for the finished frame.
+    // Reports less than 1, which is for the finished frame.
     go_on = held.report(std::min(static_cast<double>(units_completed()) / tally.units(), 0.999));
   }
   end_frame(go_on);
@@ -154,11 +154,11 @@ void SpeTeam::end_frame(bool complete) {
   };
   send_over();
   while (!all_answered()) {
-    // In the middle of a frame a mailbox may be full of neighbours' messages, or lose ours to one of them:
-    // repeat it.
+    // Repeats the message, because in the middle of a frame a mailbox may be full of neighbours' messages, or
+    // a neighbour's message may replace this one.
     if (!receive_answers(ReportKind::finished) && !complete) send_over();
   }
-  if (!complete) synchronize({}); // cached lines are as valid as before
+  if (!complete) synchronize({}); // keeps cached lines, which are still valid
 }
 
 void SpeTeam::throw_if_stopped() {

@@ -23,7 +23,8 @@ void add_cache(RenderStatistics::Cache& cache, const ReportRecord& report, DataK
   cache.misses += report.cache_misses[static_cast<int>(kind)];
 }
 
-/// Returns the work of an SPE in a frame, without waiting for others. Host time also depends on the host.
+/// Returns an SPE's share of the work in a frame: in lockstep its cycles without waiting, else its rays,
+/// since cycles then depend on the host.
 std::uint64_t load(const RenderStatistics::Spe& spe, Schedule schedule) {
   if (schedule != Schedule::lockstep) return spe.rays;
   // Stages of a pipeline report no busy ticks: they wait for rays, not for units of work.

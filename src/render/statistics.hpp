@@ -17,8 +17,8 @@ public:
   /// Starts the measurement.
   explicit SpeMeter(const Machine& machine);
 
-  /// Returns the statistics since the start, by SPE. The local store's peak is that since the machine was
-  /// made.
+  /// Returns the statistics since the start, by SPE. The local store's peak is the highest since the machine
+  /// was made.
   std::vector<SpeStatistics> read() const;
 
 private:

@@ -16,9 +16,10 @@ namespace {
 /// The number of units per strip: a unit should be a small part of an SPE's work, as strips may differ by
 /// one.
 constexpr std::uint32_t kUnitsPerStrip = 512;
-/// The longest unit where bundles have been cheap, as a multiple of the mean: the next picture may differ.
+/// Limit on a unit's length where bundles have been cheap, as a multiple of the mean length: the next picture
+/// may differ.
 constexpr std::uint32_t kLongestUnit = 8;
-/// The number of pieces per strip in the first frame, of which no costs are known: pieces from all over the
+/// The number of pieces per strip in the first frame, for which no costs are known: pieces from all over the
 /// picture leave less to exchange.
 constexpr std::uint32_t kPiecesPerStrip = 16;
 /// The edge of the tiles that are dealt at random, in bundles.
@@ -35,7 +36,7 @@ WorkPlan::WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, s
                    std::endian spe_order, std::uint32_t first_row)
     : balance_(balance), columns_(columns), rows_(rows), first_row_(first_row), spes_(spes),
       unit_records_(0, spe_order), strip_records_(0, spe_order), cost_records_(0, spe_order) {
-  // The number of wanted units; cuts by cost may have an eighth more, plus one.
+  // Limit on wanted units; cuts by cost may make an eighth more, plus one.
   constexpr std::uint32_t kMostUnits = strip_word::kMaxUnits / 9 * 8 - 8;
   wanted_units_ = std::min({kMostUnits, kUnitsPerStrip * spes, columns * rows});
   if (balance == Balance::scatter)

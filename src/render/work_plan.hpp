@@ -25,7 +25,7 @@ public:
   void place(kernel::FrameBlock& frame) const;
   std::uint32_t units() const { return static_cast<std::uint32_t>(units_.size()); }
   const kernel::UnitRecord& unit(std::uint32_t index) const { return units_[index]; }
-  /// Returns, by unit, the ticks that it took in the frame before, plus 1, since no unit is free.
+  /// Returns for each unit the ticks that it took in the last frame, plus 1, since no unit is free.
   std::vector<double> measured_costs();
   /// Plans the next frame by the measured costs of the units in the frame that is complete.
   void learn();
@@ -52,7 +52,7 @@ private:
 
   Balance balance_;
   std::uint32_t columns_, rows_, first_row_, spes_;
-  std::uint32_t wanted_units_; ///< below the maximum, for cuts that do not come out even
+  std::uint32_t wanted_units_; ///< number of units to make; below the maximum, since cuts may make more
   std::vector<kernel::UnitRecord> units_;
   std::vector<UnitRange> strips_;
   // The tables that the SPEs read and write.

@@ -13,7 +13,7 @@
 
 namespace celltrace {
 
-/// Returns part `part` of `parts` of [0, count).
+/// Part number `part` of [0, count), which is divided into `parts` parts.
 struct HostPart {
   std::uint32_t begin, end;
 
@@ -22,9 +22,9 @@ struct HostPart {
         end(static_cast<std::uint32_t>(std::uint64_t{count} * (part + 1) / parts)) {}
 };
 
-/// Calls work(part) for each part, in a thread each, and returns when all are done. The exception of the
-/// first part that threw passes through. All threads share this thread's ProgressMonitor, which is asked as
-/// long as any of them is at work.
+/// Calls work(part) for each part, each in a thread of its own, and returns when all calls have ended. Passes
+/// through the exception of the first part that threw. All threads share this thread's ProgressMonitor, which
+/// is asked as long as a thread is at work.
 template <class Work> void for_each_part(unsigned parts, Work work) {
   constexpr std::chrono::milliseconds kPollInterval(5);
   std::vector<std::exception_ptr> failures(parts);

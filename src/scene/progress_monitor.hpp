@@ -12,7 +12,7 @@
 namespace celltrace {
 
 /// While an object of this class lives, long computations of its thread, and of threads that for_each_part()
-/// starts for that thread, regularly report to it and ask whether to go on.
+/// starts for that thread, regularly report to the object and ask whether to go on.
 class ProgressMonitor {
 public:
   /// Makes a monitor that calls `go_on`, which gets the finished fraction, is called in this thread only, and
@@ -28,11 +28,12 @@ public:
   /// Returns whether this monitor has ended the computation.
   bool has_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
-  /// Throws if the computation is to end.
+  /// Throws Cancelled, or an exception of `go_on`, if the computation is to end.
   static void check_cancelled() {
     if (current_) current_->check();
   }
-  /// Calls check_cancelled() for some numbers `i` of a loop over many things: cheap for each of them.
+  /// Calls check_cancelled() for every kCheckInterval-th index `i` of a long loop, at little cost to each
+  /// iteration.
   static void check_cancelled(std::size_t i) {
     if (i % kCheckInterval == 0) check_cancelled();
   }
@@ -42,8 +43,8 @@ public:
     check_cancelled();
   }
 
-  /// Returns the monitor of this thread, or null; adopt() gives another thread the monitor while it works for
-  /// this one.
+  /// Returns the monitor of this thread, or null. A thread that works for this thread passes the monitor to
+  /// adopt().
   static ProgressMonitor* current() { return current_; }
   static void adopt(ProgressMonitor* monitor) { current_ = monitor; }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
-/// The transpose of the adjugate: its rows are cross products of the linear part's rows.
+/// The transposed adjugate of a linear map: its rows are cross products of the map's rows.
 struct Cofactors {
   Vec3 rows[3];
 };
@@ -22,7 +22,7 @@ Cofactors cofactors(const Vec3 (&rows)[4]) {
   return {{glm::cross(rows[1], rows[2]), glm::cross(rows[2], rows[0]), glm::cross(rows[0], rows[1])}};
 }
 
-/// Computes sine and cosine; a quarter turn is exact, since scenes place walls and mirrors by it.
+/// Computes sine and cosine. Quarter turns give exact results, since scenes place walls and mirrors by them.
 void sine_and_cosine(double degrees, double& sine, double& cosine) {
   const double quarters = degrees / 90;
   if (!std::isfinite(quarters) || quarters != std::floor(quarters)) {

@@ -12,9 +12,9 @@ using namespace kernel;
 
 namespace {
 
-/// Returns the distance below which two faces may be at one place except for rounding.
+/// Returns the distance within which two faces count as coincident, because their places are rounded.
 float rounding_at(float coordinate) {
-  constexpr float kRounding = 2e-5f; // makes bounds up to a third of it too large
+  constexpr float kRounding = 2e-5f; // bounds are too large by up to a third of this
   return kRounding * (1.0f + std::abs(coordinate));
 }
 
@@ -35,7 +35,7 @@ std::optional<Aabb> box_along_axes(const PlacedShape& shape) {
 }
 
 Aabb left_by_box(const Aabb& box, const Aabb& within) {
-  // `covers` needs some distance to the sides of `within`: if faces coincide, either one may be seen.
+  // `covers` requires some distance to the sides of `within`: if two faces coincide, either face may be seen.
   const auto covers = [&](int axis) {
     const float low = within.min[axis], high = within.max[axis];
     return box.min[axis] + rounding_at(low) <= low && box.max[axis] - rounding_at(high) >= high;

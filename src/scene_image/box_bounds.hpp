@@ -1,5 +1,5 @@
-// Bounds of CSG that a box along the axes of the world cuts in half or cuts a corner off: what the box leaves
-// of a region, and where the box's own faces are in it.
+// Bounds in CSG with a box along the axes of the world: bounds of a region without the box, which may cut the
+// region in half or cut off a corner, and bounds of the box's faces inside a region.
 #pragma once
 
 #include "kernel/aabb.hpp"

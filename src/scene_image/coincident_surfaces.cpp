@@ -18,9 +18,9 @@ namespace celltrace {
 
 namespace {
 
-/// Limit on pairs to examine; more would take too long.
+/// Limit on pairs of surfaces to examine; more pairs would take too long.
 constexpr std::size_t kMostSurfacePairs = most_of(PictureLimit::coincident_pairs);
-/// Limit on surfaces if they are examined only to find out whether their order matters.
+/// Limit on surfaces that are examined to find out whether the order of objects matters at all.
 constexpr std::size_t kMostSurfacesWithoutOrder = 8192;
 
 /// A surface of an object, and the region in which the object may show it.
@@ -28,7 +28,7 @@ struct PlacedSurface {
   std::uint32_t kind;
   std::array<float, 14> numbers; ///< geometry and parameters
   std::size_t object;
-  Index material; ///< kNoIndex if it has none of its own
+  Index material; ///< kNoIndex if the surface has no material of its own
   kernel::Aabb bounds;
 
   bool is_same_as(const PlacedSurface& other) const { return kind == other.kind && numbers == other.numbers; }
@@ -36,7 +36,7 @@ struct PlacedSurface {
 
 class PlacedSurfaces {
 public:
-  /// Collects the surfaces of the objects; those after the first `most` are left out.
+  /// Collects the surfaces of the objects, but at most the first `most` surfaces.
   PlacedSurfaces(const Scene& scene, std::size_t count, const CsgParts& parts, std::size_t most)
       : most_(most) {
     for (const CsgPart& part : parts.parts)
@@ -55,9 +55,9 @@ public:
     });
   }
 
-  /// Calls `visit(a, b, middle)` for each pair of coinciding surfaces of different objects, with the middle
-  /// of the region that may show both, until it returns false. Returns false if a call did, or if there are
-  /// too many pairs.
+  /// Calls `visit(a, b, middle)` for each pair of coinciding surfaces of different objects, until a call
+  /// returns false. `middle` is the middle of the region in which both surfaces may be seen. Returns false if
+  /// a call returned false, or if there are too many pairs.
   template <class Visit> bool for_each_pair(const Visit& visit) const {
     std::size_t pairs = 0;
     for (std::size_t first = 0, last; first < surfaces_.size(); first = last) {
@@ -76,7 +76,7 @@ public:
   }
 
 private:
-  /// Returns the middle of the intersection; nothing if the two have no point in common.
+  /// Returns the middle of the intersection of two boxes; nothing if the boxes have no point in common.
   static std::optional<Vec3> middle_of(const kernel::Aabb& a, const kernel::Aabb& b) {
     const kernel::Aabb both = intersected(a, b);
     Vec3 middle;
@@ -104,7 +104,7 @@ private:
   std::vector<PlacedSurface> surfaces_;
 };
 
-/// Returns whether surfaces of different materials coincide, among the first ones.
+/// Returns whether surfaces of different materials coincide, among the pairs that the limit allows.
 bool any_differ(const PlacedSurfaces& surfaces) {
   bool any = false;
   surfaces.for_each_pair([&](const PlacedSurface& a, const PlacedSurface& b, const Vec3&) {
@@ -114,8 +114,8 @@ bool any_differ(const PlacedSurfaces& surfaces) {
   return any;
 }
 
-/// Returns the objects of `order`, each after those that `before` lists for it; in a cycle, one object's
-/// requirement is ignored.
+/// Returns the objects of `order`, each after the objects that `before` lists for it. If requirements form a
+/// cycle, one of them is ignored.
 std::vector<std::size_t> sorted(const std::vector<std::size_t>& order,
                                 std::vector<std::vector<std::size_t>> before) {
   std::vector<std::size_t> result;

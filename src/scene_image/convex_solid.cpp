@@ -16,10 +16,10 @@ namespace celltrace {
 
 namespace {
 
-/// A smaller share of a box's longest side, or of the size of the space around a solid, counts as flat, and
-/// as no distance.
+/// Relative size below which a solid counts as flat, or a distance as zero: relative to a box's longest side,
+/// or to the size of the space around a solid.
 constexpr double kFlat = 1e-6;
-/// Unit normals that differ by less count as equal.
+/// Unit normals count as equal if the length of their difference is at most this.
 constexpr double kParallel = 1e-9;
 
 /// Returns whether two objects are the same to rays, except for their materials.
@@ -46,8 +46,8 @@ public:
   Mesh take() { return std::move(mesh_); }
 
 private:
-  /// Cuts off the triangle of two neighbours and the corner in the middle, so that not all triangles are
-  /// thin.
+  /// Appends the triangles of a face. Cuts the face in half at each step, instead of cutting off one triangle
+  /// after the other, so that not all triangles are thin.
   void halve(const std::vector<Index>& around, Index material) {
     if (around.size() < 3) return;
     if (around.size() == 3) {
@@ -127,7 +127,7 @@ bool ConvexSolid::cut(const Object& object) {
   return true;
 }
 
-/// Returns on which side of another half-space's plane the corners of the box are.
+/// Returns on which side of another half-space's plane the corners of box_ are.
 ConvexSolid::Side ConvexSolid::side_of(const HalfSpace& half_space, double tolerance) const {
   double least = std::numeric_limits<double>::max(), most = -least;
   for (const Vec3& corner : box_->corners) {
@@ -144,8 +144,8 @@ bool ConvexSolid::is_surely_empty() const {
          });
 }
 
-/// Returns the faces of the box that has cut the solid, in reverse order, if no other half-space cuts the
-/// box, and it is not flat compared with a space of this size; else nothing.
+/// Returns the faces of box_ in reverse order, or nothing if another half-space cuts this box, or if this box
+/// is flat compared with a space of this size.
 std::vector<ConvexSolid::HalfSpace> ConvexSolid::faces_of_whole_box(double size) const {
   if (!box_) return {};
   const double tolerance = kFlat * std::max(size, box_->reach);
@@ -166,7 +166,7 @@ std::vector<ConvexSolid::HalfSpace> ConvexSolid::faces_of_whole_box(double size)
 }
 
 std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
-  // Starts a little larger, so that planes exactly on the faces of the box around do not cut it.
+  // Starts with a box larger than `around`, so that planes exactly on the faces of `around` do cut it.
   kernel::Aabb start = around;
   double size = 0;
   for (int i = 0; i < 3; ++i)
@@ -220,8 +220,8 @@ std::optional<Object> ConvexSolid::as_object(const kernel::Aabb& around) const {
   return object;
 }
 
-/// Returns the transformation of the box from 0 to 1 to the box with these faces, if they are parallel in
-/// pairs and of one material.
+/// Returns the transformation of the box from 0 to 1 to the box with these faces; nothing if the faces are
+/// not parallel in pairs, or have several materials.
 std::optional<Transform> ConvexSolid::box_between(const std::vector<HalfSpace>& faces) {
   if (faces.size() != 6) return {};
   Vec3 normal[3];

@@ -1,4 +1,4 @@
-// Convex solids between planes, which CSG makes of planes and boxes, as the triangles of their faces.
+// Convex solids between planes, made of the planes and boxes of a CSG, and the objects that show their faces.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -12,17 +12,17 @@ namespace celltrace {
 /// An intersection of half-spaces. Each half-space has the material that its face shows.
 class ConvexSolid {
 public:
-  /// Cuts away everything outside of an object, which is placed in the world. Returns false, and leaves the
-  /// solid unusable, unless the object is a plane with a normal, or a box that is not inverse and not flat,
-  /// and has the same visibility flags as the objects before.
+  /// Cuts off the part of the solid that is outside of an object in the world. Returns false, and leaves the
+  /// solid unusable, unless the object is a plane with a normal, or a box that is neither inverse nor flat,
+  /// and has the same visibility flags, lights and interior as the objects before.
   bool cut(const Object& object);
 
-  /// Returns whether the box that has cut the solid lies completely outside of one of the half-spaces, so
-  /// that nothing is seen.
+  /// Returns whether some half-space contains nothing of the box that has cut the solid, so that nothing is
+  /// seen.
   bool is_surely_empty() const;
 
   /// Returns the object that rays see in place of the solid: a box of one material, or a mesh in the world
-  /// with the materials of the planes. If several faces lie in one plane, the last one is shown. `around` is
+  /// with the materials of the planes. If several faces lie in one plane, the last face is shown. `around` is
   /// a box around the whole solid. Returns nothing if the solid is not bounded by planes on all sides, or is
   /// empty or flat.
   std::optional<Object> as_object(const kernel::Aabb& around) const;

@@ -16,7 +16,7 @@ using namespace kernel;
 
 namespace {
 
-/// Limit on triangles in the lowest boxes; a box around fewer is not worth its test.
+/// Limit on triangles in the lowest boxes; a box around fewer triangles is not worth its test.
 constexpr std::size_t kMostInBox = 4;
 
 struct Corners {
@@ -37,8 +37,8 @@ class TreeWriter {
 public:
   explicit TreeWriter(std::vector<CrossedMeshRecord>& records) : records_(records) {}
 
-  /// Appends a box around the triangles, followed by its contents, which are halved along the axis with the
-  /// largest extent.
+  /// Appends a box around the triangles, followed by the box's contents: triangles if they are few, else the
+  /// boxes of two halves, which are divided along the axis with the largest extent.
   void add(std::span<Corners> triangles) {
     ProgressMonitor::check_cancelled(records_.size());
     const std::size_t box = records_.size();

@@ -1,5 +1,5 @@
-// Meshes in CSG without an inside vector, of which POV-Ray misses some crossings of a ray: their triangles in
-// a tree of boxes, laid out for the kernel.
+// Meshes in CSG without an inside vector, of which POV-Ray misses some crossings with a ray. Their triangles
+// are stored in a tree of boxes, laid out for the kernel.
 #pragma once
 
 #include "celltrace/scene.hpp"

@@ -26,8 +26,8 @@ inline bool is_bounded(const kernel::Aabb& box) {
   return true;
 }
 
-/// Returns how much wider than a face at a coordinate bounds are: more than the error of single precision for
-/// objects that are not too far away.
+/// Returns the distance by which bounds are wider than a face at this coordinate: more than the error of
+/// single precision for objects that are not too far away.
 inline float slack_at(float coordinate) {
   constexpr float kSlack = 1e-4f;
   return kSlack * (1.0f + std::abs(coordinate));

@@ -22,8 +22,8 @@ using namespace kernel;
 
 namespace {
 
-/// Cuts a solid by all solids of a node. Returns false if the result is not convex, or if the materials need
-/// more than triangles have.
+/// Cuts a solid by all solids of a node. Returns false if the result is not convex, or if a material needs
+/// more than a point on a surface, so that triangles cannot have it.
 bool cut(ConvexSolid& solid, const Node& node, const std::vector<std::uint32_t>& material_flags) {
   if (!node.shows || node.is_clipped) return false;
   if (node.kind == Node::Kind::solid)
@@ -37,11 +37,12 @@ bool cut(ConvexSolid& solid, const Node& node, const std::vector<std::uint32_t>&
 /// Appends the visible surfaces of a tree to the tables.
 class Flattener {
 public:
-  /// Collects into `to`. Turns solids between planes into boxes or meshes if `material_flags` is not null.
+  /// Collects surfaces into `to`. Turns solids between planes into boxes or meshes if `material_flags` is not
+  /// null.
   Flattener(CsgParts& to, const std::vector<std::uint32_t>* material_flags)
       : to_(to), material_flags_(material_flags) {}
 
-  /// Adds a condition that is true inside of a tree.
+  /// Adds a condition that is true inside of the solid that a tree describes.
   void add_inside(const Node& tree) {
     CsgRecord record{};
     record.next = kNoCondition;
@@ -51,7 +52,7 @@ public:
     to_.conditions.push_back(record);
   }
 
-  /// Adds the surfaces in `node`, which exist where the condition is true and inside of `bounds`.
+  /// Adds the surfaces of `node`. These exist only where the condition is true and inside of `bounds`.
   void show(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     if (!node.shows || is_empty(bounds)) return;
     if (node.kind == Node::Kind::solid) return show_solid(node, condition, bounds);
@@ -109,9 +110,9 @@ public:
   }
 
 private:
-  /// Adds the surfaces in the reverse order of the parts. Where surfaces coincide the kernel shows that of
-  /// the first part, but POV-Ray the last one it finds; an intersection, a merge and a clipped union collect
-  /// crossings of each part from the last part on.
+  /// Adds the surfaces of `node` in the reverse order of its parts. Where surfaces coincide the kernel shows
+  /// the surface of the first part, but POV-Ray shows the last one it finds: it collects crossings with the
+  /// parts of an intersection, a merge or a clipped union from the last part on.
   void show_reversed(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     const std::size_t first = to_.parts.size();
     show(node, condition, bounds);
@@ -121,8 +122,8 @@ private:
     std::reverse(to_.parts.begin() + static_cast<std::ptrdiff_t>(first), to_.parts.end());
   }
 
-  /// Compiles the program in which every child's condition skips the child itself: a point must be in all
-  /// other children of an intersection, and in none of a merge.
+  /// Compiles the program for a node's children; the condition of each child skips the steps of this child. A
+  /// point must be in all other children of an intersection, and in none of a merge.
   void compile_siblings(const Node& node) {
     const bool all = node.kind == Node::Kind::intersection;
     const std::uint32_t count = node.steps();
@@ -158,7 +159,7 @@ private:
   }
 
   /// Shows a node as a box or mesh if it is a solid between planes. Returns false, and shows nothing, if it
-  /// is not.
+  /// is not such a solid.
   bool show_convex(const Node& node) {
     constexpr std::uint32_t kMostSolids = 300; // the time grows with the square
     if (material_flags_ == nullptr || node.kind != Node::Kind::intersection || node.leaves > kMostSolids)
@@ -211,13 +212,14 @@ private:
     if (is_empty(part.bounds)) return;
     part.bounds = intersected(part.bounds, bounds_in_own_space(node, limits_));
     if (is_empty(part.bounds)) return;
-    // Bounds of a mesh always count as finite; too large ones are rejected with the mesh's triangles.
+    // Bounds of a mesh always count as finite. If they are too large, writing the mesh's triangles throws
+    // InputError.
     part.is_bounded = node.mesh() != nullptr || is_bounded(part.bounds);
     to_.parts.push_back(std::move(part));
   }
 
-  /// Returns whether CSG uses only some of the crossings with a mesh. An object that clips the mesh alone
-  /// comes before that choice.
+  /// Returns whether CSG uses only some of the crossings with a mesh. Returns false if an object clips only
+  /// the mesh: POV-Ray clips before it selects crossings.
   bool is_crossed_in_part(const Node& node, std::uint32_t condition) const {
     if (condition == kNoCondition || node.mesh() == nullptr || node.mesh()->has_inside() ||
         node.mesh()->triangles.size() < 2)
@@ -227,7 +229,7 @@ private:
                              &limits_.back().intersection->children.front() == &node;
     return !clips_alone;
   }
-  /// Returns a condition that requires a crossing to be found, in addition to another condition.
+  /// Returns a condition that is true where `condition` is and POV-Ray finds the crossing with the mesh.
   std::uint32_t add_crossed_mesh(const Node& node, std::uint32_t condition) {
     SolidRecord solid{};
     solid.object.kind_and_flags = kCrossedMeshSolid;
@@ -244,8 +246,8 @@ private:
   }
 
   CsgParts& to_;
-  const std::vector<std::uint32_t>* material_flags_; ///< null: solids stay what they are
-  std::vector<Limit> limits_;                        ///< limits of the node that is being shown
+  const std::vector<std::uint32_t>* material_flags_; ///< if null, solids between planes stay as they are
+  std::vector<Limit> limits_;                        ///< intersections around the node that is being shown
 };
 
 } // namespace
@@ -274,7 +276,7 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
     const std::size_t first_solid = solids.size(), first_step = steps.size();
     const Node tree = build_tree(scene.objects[i], solids, meshes);
     Flattener(*this, i < convex ? &material_flags : nullptr).show(tree, kNoCondition, kEverywhere);
-    // Solids that no program names are never tested.
+    // If there are no steps, the solids are never tested.
     if (steps.size() == first_step)
       solids.resize(first_solid);
     else

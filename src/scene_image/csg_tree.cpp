@@ -16,18 +16,18 @@ using namespace kernel;
 
 namespace {
 
-/// The properties that an object inherits from the objects around it.
+/// Properties that an object inherits from the objects that contain it.
 struct CsgContext {
   Transform transform;
   bool no_shadow = false, no_image = false, no_reflection = false;
-  /// True where the object's own no_shadow, no_image and no_reflection count. As in POV-Ray, all three count
-  /// in unions, but only no_reflection if a union is clipped or part of another operation; all but no_shadow
-  /// count in merges; none in intersections and differences. An inverted operation follows the rule of the
-  /// operation that it becomes.
+  /// True if the object's own no_shadow, no_image and no_reflection have an effect. As in POV-Ray, all three
+  /// have an effect in unions, but only no_reflection if a union is clipped or part of another operation. All
+  /// but no_shadow have an effect in merges, and none in intersections and differences. An inverted operation
+  /// follows the rule of the operation that it becomes.
   bool hides_shadow = true, hides_image = true, hides_reflection = true;
-  bool is_in_unions = true; ///< true: nothing but unions is around it, and none is clipped
+  bool is_in_unions = true; ///< true if only unions contain the object, and none of these is clipped
   bool inverse = false;
-  bool was_inverse = false; ///< an object around it is inverse
+  bool was_inverse = false; ///< true if an object that contains this one is inverse
   bool shows = true;
   int depth = 0;
 };
@@ -39,7 +39,7 @@ public:
   Node build(const Object& object, CsgContext around) {
     if (around.depth++ > kDeepestCsg) throw InputError("the scene has a CSG that nests too deeply");
     if (!object.clipped_by || object.clipped_by->empty()) return build_unclipped(object, around);
-    // The objects that clip are not inverted with the clipped one.
+    // If the clipped object is inverted, the objects that clip it are not.
     Node clipped;
     clipped.kind = Node::Kind::intersection;
     clipped.is_clipped = true;
@@ -82,7 +82,7 @@ private:
     node.shows = around.shows;
     if (joins == around.inverse)
       node.kind = Node::Kind::intersection;
-    else // in POV-Ray any inverted intersection becomes a merge, whatever it was before
+    else // as in POV-Ray, an inverted intersection becomes a merge, even if it was a union before
       node.kind =
           csg.operation == Operation::union_ && !around.was_inverse ? Node::Kind::union_ : Node::Kind::merge;
     around.is_in_unions = around.is_in_unions && node.kind == Node::Kind::union_;

@@ -17,8 +17,8 @@ using namespace kernel;
 
 namespace {
 
-/// Limit on planes that are cut out; further ones are ignored, since the time grows with the
-/// square.
+/// Limit on planes by which a polytope is cut, since the time grows with the square of their number; further
+/// planes are ignored.
 constexpr std::size_t kMostPlanes = 1000;
 
 /// Returns the half-space of a plane that is at right angles to an axis; kEverywhere for any other plane.
@@ -51,8 +51,8 @@ Aabb moved(const Aabb& box, const Transform& transform) {
   return result;
 }
 
-/// Returns the shape of a solid that is no mesh, in the space that `space` takes the world to, or in the
-/// world if it is null.
+/// Returns the shape of a solid that is no mesh, in the space to which `space` transforms the world, or in
+/// the world if `space` is null.
 PlacedShape placed_in(const Transform* space, const Node& node) {
   if (space == nullptr) return node.shape;
   Object object = node.object;
@@ -60,7 +60,7 @@ PlacedShape placed_in(const Transform* space, const Node& node) {
   return place_shape(object);
 }
 
-/// Returns whether a transformation takes an axis to a direction that is no axis.
+/// Returns whether a transformation turns an axis in a direction that is not along an axis.
 bool turns_axes(const Transform& transform) {
   for (int i = 0; i < 3; ++i) {
     const Vec3 row = glm::abs(transform.rows[i]);
@@ -108,7 +108,7 @@ Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space) 
       return bounds_of_quadric(*quadric, space != nullptr ? transform.then(*space) : transform, true, within);
     }
     if (node.box && node.inverse && space == nullptr) return left_by_box(*node.box, within);
-    // A disc's inside is a half-space, so that only its surface is bounded.
+    // A disc has a half-space as its inside, so that the disc's bounds are only those of its surface.
     if (node.inverse || !node.shape.is_bounded ||
         (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
       return kEverywhere;
@@ -132,7 +132,7 @@ Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space) 
 Aabb bounds_in_own_space(const Node& node, const std::vector<Limit>& limits) {
   if (node.mesh() != nullptr || node.shape.is_bounded || !turns_axes(node.object.transform))
     return kEverywhere;
-  constexpr std::uint32_t kMostSolids = 100; // limits the cost over many shapes
+  constexpr std::uint32_t kMostSolids = 100; // limits the cost for scenes with many shapes
   std::uint32_t solids = 0;
   for (const Limit& limit : limits)
     solids += limit.intersection->leaves;

@@ -1,4 +1,4 @@
-// Bounds of what the nodes of a CSG may fill, and of the surfaces they may show.
+// Bounds of the regions that nodes of a CSG may fill, and of the surfaces that nodes may show.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -16,11 +16,12 @@ class HalfSpaces {
 public:
   explicit HalfSpaces(const Node& intersection) { collect(intersection); }
 
-  /// Returns whether all half-spaces together may limit more than half_space() of each one does.
+  /// Returns whether the intersection of all half-spaces may have tighter bounds than half_space() of each
+  /// gives.
   bool limit_more() const { return has_slanted_; }
 
-  /// Returns the part of a box that is in all half-spaces. The source of each face is the number of the
-  /// half-space's solid.
+  /// Returns the part of a box that is in all half-spaces. The source of a face is the index, in
+  /// CsgParts::solids, of the solid that has the face.
   Polytope cut_out_of(const Aabb& box) const;
 
 private:
@@ -30,28 +31,28 @@ private:
   bool has_slanted_ = false;
 };
 
-/// Calls `visit(child, index of the child)` with all children of a node; children that others may limit come
-/// last.
+/// Calls `visit(child, index of the child)` for all children of a node. Children whose bounds depend on other
+/// children come last.
 template <class Visit> void for_each_child(const Node& node, const Visit& visit) {
   for (const bool last : {false, true})
     for (std::size_t i = 0; i < node.children.size(); ++i)
       if (node.children[i].needs_bounds == last) visit(node.children[i], i);
 }
 
-/// Returns bounds of the part of a box that a node may fill, in the world or, if `space` is given, in the
-/// space that it takes the world to.
+/// Returns bounds of the part of a box that a node may fill. The bounds and the box are in the world or, if
+/// `space` is not null, in the space to which `space` transforms the world.
 Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space = nullptr);
 
-/// An intersection that limits a visible shape, and the index of the intersection's child that contains the
-/// shape.
+/// An intersection that limits a visible shape, and the index of the child of the intersection that contains
+/// the shape.
 struct Limit {
   const Node* intersection;
   std::size_t shown;
 };
 
-/// Returns bounds of a quadric or a plane along its own axes; infinite if there are none. A shape in an
-/// object that has been turned as a whole may have such bounds even if it has none along the axes of the
-/// world.
+/// Returns bounds in the world of a quadric or a plane, computed along the shape's own axes; infinite if that
+/// gives no bounds. Along its own axes, a shape in an object that has been turned as a whole may have bounds,
+/// even if it has none along the axes of the world.
 Aabb bounds_in_own_space(const Node& node, const std::vector<Limit>& limits);
 
 } // namespace celltrace::csg

@@ -65,7 +65,8 @@ private:
                    : object.extra == kNoOffset);
   }
 
-  /// Children come after their parent, so that a pass from the last node on has checked them.
+  /// Returns true if all nodes are valid. Goes from the last node to the first: a node's children come after
+  /// it, so that they have been checked before it.
   bool nodes_are_valid() {
     for (std::uint32_t i = h_.mesh_node_count; i-- > 0;)
       for (std::uint32_t child = 0; child < std::size(nodes_[i].child); ++child)
@@ -76,7 +77,7 @@ private:
     if ((child | leaf) == 0) return true;
     if (leaf != 0) {
       const std::uint32_t count = leaf_word::count(leaf);
-      // Single rays test all triangles of a leaf in one vector of lanes.
+      // A single ray tests all triangles of a leaf in one vector of lanes, which limits their number.
       if (leaf != leaf_word::make(count, 1) || count == 0 || count > kSimdLanes ||
           !refers_to(child, h_.mesh_object_offset, h_.mesh_object_count, sizeof(ObjectRecord)))
         return false;
@@ -120,7 +121,7 @@ private:
   const ObjectRecord* objects_;
   const NodeRecord* nodes_;
   std::vector<TriangleSpan> spans_;   ///< index: node
-  std::vector<std::uint32_t> levels_; ///< index: node; number of levels below it
+  std::vector<std::uint32_t> levels_; ///< number of levels below a node; index: node
 };
 
 } // namespace
@@ -243,7 +244,7 @@ bool mesh_insides_are_valid(const std::byte* base, const ImageHeader& h) {
     if (lists > h.mesh_word_count || lists < starts) return false;
     std::uint32_t at = lists;
     for (std::uint32_t cell = starts; cell < lists; ++cell) {
-      // The last list may be empty at the end of the words.
+      // The last list may be empty, and then begins at the end of the words.
       if (words[cell] < h.mesh_word_offset || (words[cell] - h.mesh_word_offset) % kWord != 0 ||
           index_of(words[cell]) < at || index_of(words[cell]) > h.mesh_word_count)
         return false;
@@ -259,7 +260,8 @@ bool crossed_meshes_are_valid(const std::byte* base, const ImageHeader& h) {
   constexpr auto kBytes = static_cast<std::uint32_t>(sizeof(CrossedMeshRecord));
   const auto* records = reinterpret_cast<const CrossedMeshRecord*>(base + h.crossed_mesh_offset);
   const auto* solids = reinterpret_cast<const SolidRecord*>(base + h.solid_offset);
-  // A walk only goes forward, and ends at the record that its first record names.
+  // Ends of the boxes around the current record. Boxes have to be nested, so that a walk only goes forward,
+  // and ends at the record that its first record names.
   std::vector<std::uint32_t> ends;
   for (std::uint32_t i = 0; i < h.solid_count; ++i) {
     if (solid_kind(solids[i]) != kCrossedMeshSolid) continue;

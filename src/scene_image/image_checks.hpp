@@ -1,5 +1,6 @@
-// Checks that the tables of a scene image are well formed, whoever wrote it, so that kernels can follow its
-// offsets. All functions take the image's first byte and its header; each table must lie within the image.
+// Checks that the tables of a scene image are well formed, whoever wrote the image, so that kernels can
+// follow its offsets. All functions take the image's first byte and its header; each table must lie within
+// the image.
 #pragma once
 
 #include "records/image.hpp"
@@ -28,18 +29,18 @@ bool textures_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 /// Returns true if conditions and their programs end, and solids have known kinds.
 bool csg_is_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// Returns true if the insides of meshes have grids, and the cells of these have lists of triangles.
+/// Returns true if solids that are meshes have grids, and each cell of a grid has a list of triangles.
 bool mesh_insides_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// Returns true if the boxes around triangles of crossed meshes are nested, and solids refer to some of these
-/// boxes.
+/// Returns true if the boxes around triangles of crossed meshes are nested, and each solid that is a crossed
+/// mesh refers to a record of their trees.
 bool crossed_meshes_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// Returns true if instances have meshes and separate numbers for their triangles, and the nodes of these
-/// meshes lead to the triangles in few steps.
+/// Returns true if each instance has a mesh and numbers of triangles that no other instance has, and the
+/// nodes of these meshes lead to their triangles in at most kernel::kMaxMeshLevels levels.
 bool instances_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
-/// Returns true if there are no groups, or each object is in one.
+/// Returns true if there are no groups, or each object is in one group.
 bool groups_are_valid(const std::byte* base, const kernel::ImageHeader& h);
 
 /// Returns true if there are no copies, or each copy has as many objects as its prototype, and not many. The

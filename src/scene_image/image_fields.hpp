@@ -1,4 +1,5 @@
-// The fields of the records of a scene image, for SPEs of another byte order: celltrace/spe/byte_order.hpp.
+// Lists the fields of a scene image's records, so that celltrace/spe/byte_order.hpp can convert them for SPEs
+// of another byte order.
 #pragma once
 
 #include "celltrace/spe/byte_order.hpp"

@@ -17,7 +17,7 @@ using namespace kernel;
 
 namespace {
 
-/// Appends tables to a block whose size is the sum of them.
+/// Assigns offsets to tables, one table behind the other.
 class Layout {
 public:
   explicit Layout(std::size_t begin) : end_(begin) {}
@@ -58,8 +58,8 @@ std::uint32_t light_features_of(const Scene& scene, const TextureTables& texture
   return features | light_feature::fading | light_feature::stepwise;
 }
 
-/// Places the tables that come first, those without positions of objects. `blended` is the number of objects
-/// with several materials.
+/// Places the first tables, which hold no positions of objects. `blended` is the number of objects with
+/// several materials.
 void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, std::size_t interiors,
                     const LightSets& light_sets, const TextureTables& textures, std::uint32_t blended) {
   layout.place<LightRecord>(scene.lights.size(), header.light_offset, header.light_count);

@@ -23,8 +23,8 @@ std::size_t whole_lines(std::size_t bytes);
 /// cache lines.
 std::uint32_t room_of_unbounded(std::uint32_t count);
 
-/// Returns the header of an image of all objects, without their bounds. `groups` are those of the objects
-/// that are no instances. Throws InputError if the image would pass 4 GB.
+/// Returns the header of an image of all objects, without their bounds. `groups` are the groups of the
+/// objects that are no instances. Throws InputError if the image would pass 4 GB.
 kernel::ImageHeader make_header(const Scene& scene, const LightSets& light_sets,
                                 const TextureTables& textures, const SceneObjects& objects,
                                 const ObjectCounts& counts, std::span<const std::uint32_t> groups,

@@ -14,7 +14,7 @@ using namespace kernel;
 
 namespace {
 
-/// Reports the progress that has been made before the next part is built; returns the scene.
+/// Reports progress and returns the scene, so that initialisers can report progress before they build a part.
 const Scene& reached(double fraction, const Scene& scene) {
   ProgressMonitor::report(fraction);
   return scene;
@@ -76,7 +76,8 @@ void ImageParts::write(std::byte* base, const ImageHeader& header, const ObjectP
   else if (!places.are_written)
     writer.send_objects(objects, places.by_object, threads);
   ProgressMonitor::report(0.9);
-  // If there are no instances, groups are only used to build a BVH.
+  // Where objects keep their places, no new BVH is built, so that groups are needed only for copies of
+  // meshes.
   if (!places.are_known || header.prototype_count != 0) writer.write_groups(places.groups, threads);
   writer.write_instances(instances, threads);
   ObjectCounts counts = places.counts;

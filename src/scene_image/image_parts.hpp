@@ -29,17 +29,17 @@ struct SurfaceParts {
 
   explicit SurfaceParts(const Scene& scene) : textures(scene), light_sets(scene) {}
 
-  /// Writes the tables of both. References among the textures become offsets.
+  /// Writes the tables of textures and lights, in which offsets replace the textures' indices.
   void write(TableWriter& writer, std::span<const std::uint32_t> projector_sizes) {
     writer.write_lights(light_sets, projector_sizes);
     writer.write_surfaces(textures);
   }
 };
 
-/// All parts of an image except the places of its objects; each part is made from those before it.
+/// All parts of an image except the places of its objects. Each part is built from the parts before it.
 struct ImageParts {
   /// Builds the parts. `given` must be valid, and must not change while this object lives. Throws InputError
-  /// if a valid scene cannot be laid out.
+  /// if the image cannot hold the scene.
   ImageParts(const Scene& given, Eye eye, unsigned threads);
 
   const Scene& given;
@@ -52,17 +52,17 @@ struct ImageParts {
   const MeshInstances instances;
   SceneObjects objects;
 
-  /// Returns the scene whose objects are the image's.
+  /// Returns the prepared scene, whose objects the image holds.
   const Scene& scene() const { return prepared.scene(); }
-  /// Returns how many threads are worth starting if each is to have at least `objects_a_thread` objects.
+  /// Returns the number of threads to use if each thread is to have at least `objects_a_thread` objects.
   unsigned threads_for(std::uint32_t objects_a_thread, unsigned threads) const;
   std::vector<ObjectForm> forms() const;
-  /// Returns, by object record, the index of the scene's object that it belongs to; objects that are no
-  /// instances come in the order of the image.
+  /// Returns for each object record the index of the scene's object that the record belongs to. Objects that
+  /// are no instances have the order `in_order`.
   std::vector<Index> owners(std::span<const PlacedObject> in_order) const;
 
-  /// Returns the header of the image with objects in these places. The bounds in the header are written with
-  /// the objects.
+  /// Returns the header of the image with objects in these places. Its bounds are not set: write() writes
+  /// them.
   kernel::ImageHeader header(const ObjectPlaces& places) const;
   /// Returns a writer of the tables of an image that begins at `base` with this header.
   TableWriter writer(std::byte* base, const kernel::ImageHeader& header) const {
@@ -73,7 +73,8 @@ struct ImageParts {
              unsigned threads);
 
 private:
-  /// Returns how many ExtraRecords follow those of the objects that an accelerator holds.
+  /// Returns the number of ExtraRecords of projectors, unbounded objects and shared meshes, which follow the
+  /// ExtraRecords of objects in the accelerator.
   std::uint32_t other_extras() const { return objects.unbounded_extras() + instanced.extra_count(); }
 };
 

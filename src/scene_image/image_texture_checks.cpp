@@ -43,7 +43,7 @@ public:
     find_pigment_depths();
     for (std::uint32_t i = 0; i < h_.normal_count; ++i)
       if (!normal_is_sound(i)) return false;
-    // Materials refer to later ones only, so that the last one is checked first.
+    // Checks the last material first, because materials may refer only to later materials.
     for (std::uint32_t i = h_.material_count; i-- > 0;)
       if (!material_is_sound(i)) return false;
     if (!surface_flags_are_complete()) return false;
@@ -60,7 +60,7 @@ private:
     Table(const std::byte* base, std::uint32_t at, std::uint32_t n)
         : records(reinterpret_cast<const Record*>(base + at)), offset(at), count(n) {}
     const Record& operator[](std::uint32_t i) const { return records[i]; }
-    /// Returns the index of the record at an offset; `count` if there is none.
+    /// Returns the index of the record at an offset; `count` if there is no record at the offset.
     std::uint32_t find(std::uint32_t at) const {
       return refers_to(at, offset, count, sizeof(Record)) ? (at - offset) / std::uint32_t{sizeof(Record)}
                                                           : count;
@@ -82,7 +82,7 @@ private:
         return false;
     return table_is_sound(r);
   }
-  /// A black hole may lack the table, but may not refer to another place.
+  /// Returns true if a step is valid. A black hole with turbulence must refer to the table of features.
   bool is_sound(const SpaceStepRecord& r) const {
     const std::uint32_t kind = r.kind_and_flags & warp_flag::kind_mask;
     if (kind >= kWarpKinds || !turbulence_is_sound(r.turbulence)) return false;
@@ -94,8 +94,7 @@ private:
   bool features_are_at(std::uint32_t offset) const {
     return h_.feature_count == kFeatures && offset == h_.feature_offset;
   }
-  /// Returns true if the table that a pattern reads exists and is complete, and hashes lead to no other
-  /// place.
+  /// Returns true if the table that a pattern reads exists and is complete, so that no hash leads out of it.
   bool table_is_sound(const PatternRecord& r) const {
     switch (pattern_table(r.kind_and_flags)) {
     case PatternTable::none:
@@ -119,8 +118,8 @@ private:
     return false;
   }
 
-  /// Finds how deep the maps of pigments nest, by pattern; 0 if there is no map, or an invalid one. Patterns
-  /// refer to earlier ones only.
+  /// Sets, by pattern, whether it needs more than a point and how deep maps nest in it: 0 if it has no map or
+  /// an invalid map. Patterns may refer only to earlier patterns.
   void find_pigment_depths() {
     pigment_depth_.assign(h_.pattern_count, 0);
     pattern_depends_.assign(h_.pattern_count, false);
@@ -134,7 +133,8 @@ private:
       pattern_depends_[i] = depends;
     }
   }
-  /// Returns whether a pattern itself needs more than a point.
+  /// Returns whether a pattern needs more than a point, such as a normal. Ignores the pigment that it may
+  /// consist of.
   static bool depends_by_itself(const PatternRecord& r) {
     return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
            Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
@@ -145,12 +145,13 @@ private:
     const PatternRecord& r = patterns_[pattern];
     return depends_by_itself(r) || (is_pigment(r) && pattern_depends_[patterns_.find(r.table)]);
   }
-  /// Returns how deep maps nest in a pattern that is a pigment; 0 for any other pattern.
+  /// Returns how deep maps nest in the pigment that a pattern consists of; 0 for any other pattern.
   std::uint32_t depth_inside(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
     return is_pigment(r) ? pigment_depth_[patterns_.find(r.table)] : 0;
   }
-  /// Returns true if a pattern is no pigment, or a valid, earlier pigment that is marked as nested.
+  /// Returns true if a pattern does not consist of a pigment, or if it is marked as nested and its pigment is
+  /// valid and comes before it.
   bool inside_is_sound(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
     if (!is_pigment(r)) return true;
@@ -175,7 +176,7 @@ private:
     }
     return deepest + 1;
   }
-  /// Returns true for the pattern of a pigment, which checks its entries itself.
+  /// Returns true for a pattern that computes a colour from its map's entries, as is_colour() says.
   static bool is_of_colours(const PatternRecord& r) {
     return (r.kind_and_flags & pattern_flag::average) == 0 &&
            is_colour(r.kind_and_flags & pattern_flag::kind_mask);
@@ -188,7 +189,8 @@ private:
     return entries_[entries_.find(r.entries) + entry].child;
   }
 
-  /// Normals refer to earlier ones only, so that the first one is checked first.
+  /// Returns true if a normal is valid. Call it for the first normal first: normals may refer only to earlier
+  /// normals.
   bool normal_is_sound(std::uint32_t normal) {
     const NormalRecord& r = normals_[normal];
     const std::uint32_t pattern = patterns_.find(r.pattern);
@@ -260,8 +262,8 @@ private:
     return (r.flags & material_flag::mapped) != 0 && is_relative(patterns_.find(r.pattern));
   }
 
-  /// Returns true if every object whose patterns need more than points is flagged, and the scene's flags for
-  /// shadow rays say that there are such objects and whether some of them let light through.
+  /// Returns true if flags tell which objects have patterns that need more than points: the objects' own
+  /// flags, and the scene's flags for shadow rays, which also tell whether such an object lets light through.
   bool surface_flags_are_complete() const {
     const auto* objects =
         reinterpret_cast<const ObjectRecord*>(base_ + h_.object_offset) - h_.unbounded_count;
@@ -287,7 +289,7 @@ private:
           light_feature::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_feature::stepwise});
       if (!has(object_flag::by_surface) || (h_.light_features & features) != features) return false;
     }
-    // Triangles of instances cannot be flagged: their patterns may need nothing but points.
+    // Triangles of instances have no such flag, so that their patterns must not need more than points.
     const auto is_plain = [&](std::uint32_t offset) {
       const std::uint32_t material = materials_.find(offset);
       return material == materials_.count || !material_depends_[material];

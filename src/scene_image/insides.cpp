@@ -24,8 +24,8 @@ namespace {
 constexpr float kFar = std::numeric_limits<float>::max();
 constexpr Aabb kUnbounded = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
-/// Returns whether a point is in the box of a sphere. The test saves an inverse of the transformation for
-/// almost all of a million spheres.
+/// Returns whether a point is in the AABB of a sphere. In a scene of a million spheres this test rejects
+/// almost all of them without inverting their transformations.
 bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point) {
   const Vec3 away = point - transform.point(sphere.centre);
   constexpr double kRoundedUp = 1.000001;
@@ -37,18 +37,18 @@ bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point
   return true;
 }
 
-/// Returns whether a CSG subtracts a part, which must be one of its own.
+/// Returns whether a CSG subtracts a part, which must be one of the CSG's own parts.
 bool is_subtracted(const Object& part, const Csg& csg) {
   return csg.operation == Csg::Operation::difference && &part != &csg.parts.front();
 }
 
 /// Returns whether a point is inside of an object. `around` is the transformation of the CSG that contains
-/// the object. `is_turned`: the CSG inverts the object, but not its clips: as in POV-Ray, nothing beyond a
-/// clip is inside.
+/// the object. `is_turned` tells whether this CSG inverts the object. It does not invert the objects that
+/// clip it: as in POV-Ray, nothing beyond them is inside.
 bool is_inside(const Object& object, const Transform& around, const Vec3& point, bool is_turned);
 
-/// Returns whether a point is inside of a CSG. `is_inverse`: an inverse union is the intersection of its
-/// parts' inverses, and vice versa.
+/// Returns whether a point is inside of a CSG or, if `is_inverse` is true, of its inverse: the inverse of a
+/// union is the intersection of its parts' inverses, and vice versa.
 bool is_inside(const Csg& csg, const Transform& transform, const Vec3& point, bool is_inverse) {
   const auto in = [&](const Object& part) {
     return is_inside(part, transform, point, is_inverse != is_subtracted(part, csg));
@@ -76,8 +76,8 @@ bool is_inside(const Object& object, const Transform& around, const Vec3& point,
   return inside != is_inverse;
 }
 
-/// Returns whether the object that a ray is in can make a difference where the ray hits the material. A
-/// material with a map counts as if its entries did.
+/// Returns whether a hit on a material depends on the object that the ray is in. A material with a map counts
+/// as dependent.
 bool needs_interiors(const Material& material) {
   if (material.map) return true;
   for (const Material* layer = &material; layer != nullptr; layer = layer->below.get())
@@ -85,8 +85,8 @@ bool needs_interiors(const Material& material) {
   return false;
 }
 
-/// Returns the interior that parts of a CSG get if they have none of their own: the object's, or else that of
-/// its first part that has one.
+/// Returns the interior of an object or, if it is a CSG, of the CSG's first part that is no CSG: kNoIndex if
+/// this object has no interior of its own. Returns nothing if a CSG has no parts.
 std::optional<Index> interior_of(const Object& object) {
   const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
   if (csg == nullptr) return object.interior;
@@ -103,7 +103,7 @@ bool may_have_inside(const Object& object) {
   return sphere == nullptr || sphere->radius != 0;
 }
 
-/// The extents of meshes in their own spaces; instances share their mesh's extent.
+/// The extents of meshes in their own spaces, each computed once.
 class MeshExtents {
 public:
   const Extent& of(const Mesh& mesh) {
@@ -119,7 +119,7 @@ private:
 Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes);
 
 /// Returns bounds of the region that all parts of an intersection or difference share. Inverse parts do not
-/// limit it, nor do subtracted ones, which count as inverse. An empty region becomes a point, as in POV-Ray.
+/// limit this region; subtracting a part inverts it. An empty region becomes a point, as in POV-Ray.
 Aabb common_box(const Csg& csg, const Transform& transform, MeshExtents& meshes) {
   Aabb box = kUnbounded;
   for (const Object& part : csg.parts)
@@ -129,7 +129,8 @@ Aabb common_box(const Csg& csg, const Transform& transform, MeshExtents& meshes)
   return box;
 }
 
-/// Returns bounds of an object without its clips. `transform` is its whole transformation.
+/// Returns bounds of an object, ignoring the objects that clip it. `transform` takes its own space to the
+/// world.
 Aabb box_of_shape(const Object& object, const Transform& transform, MeshExtents& meshes) {
   if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
     using Operation = Csg::Operation;
@@ -158,9 +159,9 @@ Aabb box_of_shape(const Object& object, const Transform& transform, MeshExtents&
   return placed.is_empty || !placed.is_bounded ? kUnbounded : placed.bounds();
 }
 
-/// Returns bounds of what POV-Ray takes for the object when it finds out what the camera is in: inverse
-/// objects count as if they were not inverse, in merges too. The bounds are only as tight as they are worth
-/// computing.
+/// Returns bounds of an object as POV-Ray uses them to find the objects around the camera: inverse objects
+/// count as not inverse, in merges too. Where tighter bounds are not worth computing, they are wider than
+/// POV-Ray's.
 Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes) {
   Aabb box = box_of_shape(object, object.transform.then(around), meshes);
   if (object.clipped_by)
@@ -169,7 +170,8 @@ Aabb box_of(const Object& object, const Transform& around, MeshExtents& meshes) 
   return box;
 }
 
-/// Returns bounds as box_of() does, but none for a sphere by itself, since there may be a million of them.
+/// Returns bounds as box_of() does, but infinite bounds for a sphere by itself: there may be a million
+/// spheres.
 Aabb box_around(const Object& object, MeshExtents& meshes) {
   if (std::holds_alternative<Sphere>(object.shape) && !object.inverse && !object.clipped_by)
     return kUnbounded;

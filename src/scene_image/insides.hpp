@@ -11,12 +11,12 @@ namespace celltrace {
 /// An object that a camera may be in.
 struct Medium {
   Object object;
-  Index interior;   ///< interior of rays that start inside
+  Index interior;   ///< interior of rays that start inside of the object
   kernel::Aabb box; ///< bounds of the object
 
   /// Returns whether a point is inside by the rules of CSG; a mesh has an inside if it has an inside vector.
   bool contains(const Vec3& point) const;
-  /// Returns the volume of a sphere, or else of the object's box.
+  /// Returns the volume of a sphere, or of the box around any other object.
   double volume() const;
 };
 

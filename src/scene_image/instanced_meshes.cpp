@@ -25,13 +25,14 @@ using namespace kernel;
 
 namespace {
 
-/// The number of triangles, beyond those of the meshes themselves, up to which meshes are copied. Copies give
-/// rays tighter bounds and cheaper tests, but each copied triangle takes about 100 bytes, and 0.1 to 0.3
-/// microseconds before the first ray. Larger: faster frames of scenes with some instances; smaller: less
-/// memory and a faster first frame of those, and where instances reach into each other, faster later frames.
-/// 'first frame' and 'trace time' of scenes with instances.
+/// Limit on triangles in copies of meshes, not counting one copy of each mesh; scenes with more triangles
+/// share meshes. Copies give rays tighter bounds and cheaper tests, but each copied triangle takes about 100
+/// bytes, and 0.1 to 0.3 microseconds before the first ray. Larger: faster frames of scenes with some
+/// instances. Smaller: less memory and a faster first frame of such scenes, and faster later frames where
+/// instances reach into each other. Measure 'first frame' and 'trace time' of scenes with instances.
 constexpr std::uint64_t kMostCopies = 500'000;
-/// Smaller meshes are always copied: transforming rays to their space would be most of the work.
+/// Least number of triangles of a shared mesh. Smaller meshes are always copied: transforming rays to their
+/// space would be most of the work.
 constexpr std::size_t kFewestTrianglesToShare = 128;
 
 /// Returns the mesh of an object that is one large mesh, visible to all rays and lit by all global lights;
@@ -87,11 +88,11 @@ std::uint32_t sum_of(std::uint32_t a, std::size_t b) {
   return a + static_cast<std::uint32_t>(b);
 }
 
-/// The uses of a mesh: how many objects have it, and whether they share it.
+/// The uses of a mesh: how many objects consist of it, and whether they share it.
 struct MeshUses {
   std::uint32_t count = 0;
   bool is_shared = false;
-  Index mesh = kNoIndex; ///< number of the mesh once it is shared
+  Index mesh = kNoIndex; ///< index in meshes_ if the mesh is shared
 };
 
 } // namespace

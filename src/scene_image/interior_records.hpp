@@ -1,5 +1,5 @@
 // Indices of the interior records of objects. Rays tell objects apart by these records, so that an object
-// without an interior has a record of its own, behind those of the scene's interiors.
+// without an interior has a record of its own, behind the records of the scene's interiors.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,7 +8,7 @@
 
 namespace celltrace {
 
-/// Returns the record of an object without an interior, by the object's index in the scene.
+/// Returns the index of the record of an object without an interior; `object` is its index in the scene.
 inline Index own_interior(const Scene& scene, std::size_t object) {
   return static_cast<Index>(scene.interiors.size() + object);
 }

@@ -15,8 +15,8 @@ public:
   explicit LightSets(const Scene& scene);
 
   std::uint32_t count() const { return count_; }
-  /// Returns, by light, the index of its first word; kNoIndex if the light is in all sets. Bit b of a light's
-  /// word w says whether set 32 w + b has the light.
+  /// Returns for each light the index of its first word; kNoIndex if the light is in all sets. Bit b of a
+  /// light's word w says whether set 32 w + b has the light.
   const std::vector<Index>& first_words() const { return first_words_; }
   const std::vector<std::uint32_t>& words() const { return words_; }
 
@@ -26,7 +26,7 @@ private:
   std::vector<std::uint32_t> words_;
 };
 
-/// Throws InputError if there are too many groups, or if one refers to a light that does not exist.
+/// Throws InputError if there are too many groups, or if a group refers to a light that does not exist.
 void validate_light_groups(const Scene& scene);
 
 } // namespace celltrace

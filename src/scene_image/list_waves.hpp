@@ -25,11 +25,11 @@ bool is_colour(const Pattern& pattern);
 /// blended.
 bool blends_list(const Pattern& pattern);
 
-/// Returns the number that an index of a list becomes. Frequency 1 counts as none, so that it has no phase
-/// either.
+/// Returns the number into which a list's wave and frequency turn an index. A frequency of 1 counts as no
+/// frequency, so that the phase is ignored as well.
 double in_wave(const Pattern& pattern, std::size_t number);
 
-/// Returns whether blends of the map's entries have to be averages, which are maps.
+/// Returns whether a blend of two of the map's entries has to be a map itself, an average.
 inline bool needs_averages(const PatternMap<Pigment>& map) {
   return std::any_of(map.entries.begin(), map.entries.end(),
                      [](const auto& entry) { return entry.value.map != nullptr; });
@@ -58,7 +58,7 @@ template <> inline Pigment blended(const Pigment& a, const Pigment& b, double sh
           rest * a.transmit + share * b.transmit};
 }
 
-/// Returns a list of blended entries, without a wave.
+/// Returns a list without a wave that looks as `map` does with its wave: its entries are blends.
 template <class T> std::shared_ptr<const PatternMap<T>> without_wave(const PatternMap<T>& map) {
   auto list = std::make_shared<PatternMap<T>>();
   list->pattern = map.pattern;

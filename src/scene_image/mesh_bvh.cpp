@@ -14,9 +14,10 @@ using namespace kernel;
 
 namespace {
 
-/// The largest leaf; a packet tests about this many triangles in the time of one node.
+/// Limit on triangles in a leaf; a packet tests about as many triangles in the time of one node.
 constexpr std::uint32_t kMostInLeaf = 4;
-/// Limit on places at which the SAH tries to split a range; short ranges try all.
+/// Limit on places at which the surface area heuristic tries to split a range; in short ranges it tries all
+/// places.
 constexpr std::uint32_t kMostPlaces = 64;
 
 constexpr float kBeyond = 3e38f;
@@ -50,15 +51,16 @@ private:
     return all;
   }
 
-  /// Returns how many triangles fit into `levels` levels.
+  /// Returns how many triangles fit into a tree of `levels` levels.
   static std::uint64_t room_of(std::uint32_t levels) { return std::uint64_t{kMostInLeaf} << (2 * levels); }
 
-  /// Adds a node of at most `levels` levels, itself included.
+  /// Adds a node for a range, and the nodes below it; together these have at most `levels` levels. Returns
+  /// the node's index.
   std::uint32_t add_node(const TriangleRange& all, std::uint32_t levels) {
     ProgressMonitor::check_cancelled(nodes_.size());
     std::array<TriangleRange, 4> children = {all};
     std::size_t count = 1;
-    // Splits the range first that does not fit into the levels below, then the most expensive one.
+    // Splits ranges that do not fit into the levels below first, then the most expensive range.
     const std::uint64_t room = room_of(levels - 1);
     const auto urgency = [room](const TriangleRange& r) {
       const float cost = r.count() > kMostInLeaf ? half_area(r.box) * static_cast<float>(r.count()) : -1.0f;
@@ -89,8 +91,8 @@ private:
     return number;
   }
 
-  /// Splits `left`: keeps a part of it there and returns the rest. Neither has more than `most` triangles,
-  /// unless that is less than half.
+  /// Splits `left` in two, keeps the first part in it and returns the second part. Neither part has more than
+  /// `most` triangles; if there is no such place, splits the range in the middle.
   TriangleRange split(TriangleRange& left, std::uint64_t most) {
     const std::uint32_t count = left.count(), places = std::min(count, kMostPlaces);
     const auto place = [&](std::uint32_t i) {
@@ -126,8 +128,8 @@ private:
 
   std::span<const Aabb> bounds_;
   std::vector<NodeRecord> nodes_;
-  std::vector<TriangleRange> parts_; ///< parts of the range that is split
-  std::vector<Aabb> behind_;         ///< bounds of each part and all that follow
+  std::vector<TriangleRange> parts_; ///< parts between the places at which a range may be split
+  std::vector<Aabb> behind_;         ///< bounds of each part together with all parts behind it
 };
 
 } // namespace

@@ -17,7 +17,7 @@ using namespace kernel;
 
 namespace {
 
-/// Limit on list entries per triangle; a grid that would have more gets fewer cells.
+/// Limit on list entries per triangle; a grid with more entries gets fewer cells.
 constexpr std::uint64_t kMostEntriesPerTriangle = 16;
 
 /// Returns the transformation to a space whose third axis is along the mesh's inside vector, and in which the
@@ -50,7 +50,7 @@ Transform unit_space(const Mesh& mesh, Vec3& extent) {
   return transform;
 }
 
-/// Returns a grid with about as many cells as triangles, which are as square as possible.
+/// Returns a grid that has about as many cells as there are triangles; its cells are as square as possible.
 MeshGridRecord make_grid(std::size_t triangles, const Vec3& extent) {
   const double density = std::sqrt(static_cast<double>(triangles) / (extent.x * extent.y));
   const auto side = [&](double length) {
@@ -61,12 +61,12 @@ MeshGridRecord make_grid(std::size_t triangles, const Vec3& extent) {
 }
 
 float slope(const Vec3f& from, const Vec3f& to) {
-  constexpr float kMost = 1e30f; // a slope that large: no point lies in the rows between
+  constexpr float kMost = 1e30f; // with a slope this large, no point lies between the two rows
   const float quotient = (to.x - from.x) / (to.y - from.y);
   return std::isnan(quotient) ? 0.0f : std::clamp(quotient, -kMost, kMost);
 }
 
-/// Returns the record of a triangle; `corners` are column, row and height.
+/// Returns the record of a triangle. Each corner is a column, a row and a height; sorts the corners by row.
 MeshTriangleRecord make_triangle(Vec3f (&corners)[3]) {
   std::sort(corners, corners + 3, [](const Vec3f& a, const Vec3f& b) { return a.y < b.y; });
   const auto& [a, b, c] = corners;
@@ -91,7 +91,7 @@ MeshTriangleRecord make_triangle(Vec3f (&corners)[3]) {
   return r;
 }
 
-/// The cells that a triangle may be in, widened by the rounding of points on its edges.
+/// The cells in which a triangle may be, with a margin for the rounding of points on its edges.
 struct CellRange {
   std::uint32_t column[2], row[2]; ///< first and last
 
@@ -141,7 +141,7 @@ MeshInsides::Inside MeshInsides::add(const Mesh& mesh) {
       for (int i = 0; i < 3; ++i)
         corners[i] = Vec3f(to_grid.point(Vec3(mesh.vertices[triangle.vertex[i]])));
       const MeshTriangleRecord record = make_triangle(corners);
-      if (record.row[0] == record.row[2]) continue; // no point lies below it
+      if (record.row[0] == record.row[2]) continue; // no point lies below the triangle
       triangles_.push_back(record);
       entries += CellRange(record, grid).count();
     }
@@ -153,7 +153,7 @@ MeshInsides::Inside MeshInsides::add(const Mesh& mesh) {
   }
 }
 
-/// Appends the words of a grid by counting sort, and sets their place in the grid.
+/// Appends the words of a grid, with lists made by a counting sort, and sets grid.starts.
 void MeshInsides::add_lists(MeshGridRecord& grid, std::uint32_t first_triangle) {
   const std::uint32_t cells = grid.columns * grid.rows;
   const auto triangle_count = static_cast<std::uint32_t>(triangles_.size());

@@ -1,5 +1,5 @@
-// The insides of meshes that CSG tests: the triangles of each, laid out for the kernel, in a grid across the
-// mesh's inside vector.
+// The insides of meshes that CSG tests. The triangles of each mesh are laid out for the kernel in a grid at
+// right angles to the mesh's inside vector.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,20 +11,22 @@
 
 namespace celltrace {
 
-/// The insides of all such meshes of a scene. TableWriter turns indices into offsets in the scene image.
+/// The insides of all meshes that a scene's CSG tests. TableWriter turns indices into offsets in the scene
+/// image.
 class MeshInsides {
 public:
   struct Inside {
     std::uint32_t grid;      ///< index in grids()
     Transform to_grid_space; ///< map from the mesh's own space
   };
-  /// Returns the inside of a mesh that has one. Each mesh is added once, and must outlive this object.
+  /// Returns the inside of a mesh, which must have an inside vector. Adds a mesh only once; it must outlive
+  /// this object.
   const Inside& of(const Mesh& mesh);
 
-  /// Returns the grids; `starts` is an index in words().
+  /// Returns the grids, in which `starts` is an index in words().
   const std::vector<kernel::MeshGridRecord>& grids() const { return grids_; }
-  /// Returns for each grid the indices in words() of its lists, followed by the lists, which are indices in
-  /// triangles().
+  /// Returns for each grid the index in words() of each cell's list, followed by the lists, which consist of
+  /// indices in triangles().
   const std::vector<std::uint32_t>& words() const { return words_; }
   const std::vector<kernel::MeshTriangleRecord>& triangles() const { return triangles_; }
 

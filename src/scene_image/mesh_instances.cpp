@@ -29,7 +29,7 @@ using LaneAabb = bvh::LaneAabb<Simd>;
 
 constexpr std::uint32_t kInstancesPerThread = 64;
 
-/// Returns the mesh of an object that consists of one; else null.
+/// Returns the mesh that an object consists of; null for any other object.
 const Mesh* mesh_of(const Object& object) {
   if (CsgParts::contains(object)) return nullptr;
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
@@ -50,7 +50,7 @@ Vec3f in_world(const Transform& transform, const Vec3f& vertex) {
   return Vec3f(transform.point(Vec3(vertex)));
 }
 
-/// Returns the largest number of objects in the image of a scene, which it has if all triangles have an area.
+/// Returns the number of objects in the image of a scene if all triangles have an area, else an upper bound.
 std::uint64_t objects_of(const Scene& scene, const InstancedMeshes& instanced) {
   std::uint64_t count = 0;
   for (const Object& object : scene.objects) {
@@ -112,8 +112,8 @@ void MeshInstances::find(const Scene& scene, const InstancedMeshes& instanced,
   }
 }
 
-/// Returns whether all triangles keep an area. Throws InputError if single precision cannot hold the
-/// coordinates.
+/// Returns whether all triangles of an instance keep an area. Throws InputError if single precision cannot
+/// hold the coordinates.
 bool MeshInstances::preserves_areas(const Instance& instance) const {
   const MeshPrototype& prototype = prototypes_[instance.prototype];
   const Transform& transform = instance.object->transform;
@@ -131,9 +131,9 @@ bool MeshInstances::preserves_areas(const Instance& instance) const {
   return std::all_of(prototype.triangles().begin(), prototype.triangles().end(), has_area_in_world);
 }
 
-/// Returns whether groups of instances overlap too much, since groups are not split where others reach into
-/// them. A ray hits about the cube root of n AABBs that fill a space without overlap, and fewer if they lie
-/// on surfaces.
+/// Returns whether groups of instances overlap so much that rays become slow: the BVH does not split a group
+/// where others reach into it. A ray hits about the cube root of n AABBs that fill a space without overlap,
+/// and fewer AABBs if they lie on surfaces.
 bool MeshInstances::are_tangled() const {
   constexpr double kMost = 1.5;
   double areas = 0;
@@ -147,12 +147,12 @@ bool MeshInstances::are_tangled() const {
     }
     groups += prototypes_[instance.prototype].group_count();
   }
-  // Both areas are half the surface: by Crofton's formula their quotient is the number of AABBs that a ray
-  // through the whole box hits.
+  // `areas` and all.area() are halves of surfaces: by Crofton's formula their quotient is the mean number of
+  // AABBs that a ray through the whole box hits.
   return groups != 0 && areas > kMost * std::cbrt(static_cast<double>(groups)) * all.area();
 }
 
-/// Counts the records, and gives the instances their places.
+/// Counts the records of all instances, and sets the place of each instance's records.
 void MeshInstances::number() {
   constexpr std::uint32_t kNone = 0xFFFFFFFF;
   is_instance_.resize(scene_.objects.size());
@@ -256,7 +256,7 @@ private:
 
   void write_normals(const MeshPrototype::Triangle& triangle, ObjectRecord& to) {
     to.kind_and_flags |= object_flag::smooth;
-    RecordTables::change_sides(to, *object_); // back, as the outside is where its normals point
+    RecordTables::change_sides(to, *object_); // back: the outside is where the triangle's normals point
     to.extra = tables_.records.offset_of_extra(next_extra_);
     ExtraRecord record{};
     for (int corner = 0; corner < 3; ++corner)
@@ -270,8 +270,8 @@ private:
   std::vector<Vertex> vertices_; ///< in the world
   std::vector<Vec3f> normals_;   ///< in the world
   std::uint32_t next_extra_ = 0;
-  Index material_ = kNoIndex; ///< as the triangles name it
-  ObjectRecord head_;         ///< record of a triangle with that material, without geometry
+  Index material_ = kNoIndex; ///< material of head_, as triangles name it
+  ObjectRecord head_;         ///< record of a triangle with this material, without geometry
 };
 
 void MeshInstances::append_owners(std::vector<Index>& owners) const {

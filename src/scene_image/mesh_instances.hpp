@@ -1,4 +1,4 @@
-// Objects that are copies of one mesh: values that depend on the mesh alone are computed once.
+// Objects that are copies of one mesh. Values that depend on the mesh alone are computed once for all copies.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -13,39 +13,39 @@
 
 namespace celltrace {
 
-/// The tables that the records of instances go to, and the instances' places in them.
+/// The tables to which the records of instances are written, and the places of the records in these tables.
 struct InstanceTables {
   RecordTables records;
   kernel::ObjectRecord* objects; ///< records of instances
-  std::uint32_t first_object;    ///< index in the table of all objects
+  std::uint32_t first_object;    ///< index of `objects` in the table of all objects
   std::uint32_t first_normals;
   kernel::GroupRecord* groups; ///< groups of instances
-  std::uint32_t* prototypes;   ///< one word per group of instances
-  std::uint32_t first_group;   ///< index in the table of all groups
+  std::uint32_t* prototypes;   ///< for each group of instances, the index of the group that it copies
+  std::uint32_t first_group;   ///< index of `groups` in the table of all groups
 };
 
 class MeshInstances {
 public:
   /// Finds the instances in `scene`, which must be valid and must not change while this object lives; objects
-  /// in `instanced` are not among them. Instances are meshes worth sharing that are placed at least twice,
-  /// whose triangles with an area keep it in each place, and whose materials do not read surface coordinates
-  /// that the mesh has. A scene of few triangles has none. `material_flags` are the object flags of each
-  /// material. Throws InputError if an object's coordinates exceed the range of single precision, or if there
-  /// are too many objects.
+  /// in `instanced` are not among them. An instance is an object with a mesh that is large enough to be
+  /// shared and that at least two objects have. The mesh's triangles must keep their areas in the object's
+  /// place, and its materials must not read surface coordinates that the mesh has. A scene of few triangles
+  /// has no instances. `material_flags` are the object flags of each material. Throws InputError if an
+  /// object's coordinates exceed the range of single precision, or if there are too many objects.
   MeshInstances(const Scene& scene, const InstancedMeshes& instanced,
                 const std::vector<std::uint32_t>& material_flags, unsigned threads);
 
   /// Returns whether an object of the scene is an instance.
   bool contains(std::size_t object) const { return !is_instance_.empty() && is_instance_[object]; }
-  /// Returns the counts of all instances, without their bounds.
+  /// Returns the counts of all instances' records, without bounds.
   const ObjectCounts& counts() const { return counts_; }
   std::uint32_t group_count() const { return group_count_; }
   std::uint32_t longest_group() const { return longest_group_; }
 
-  /// Appends, by record in the order of write(), the index of the scene's object that the record belongs to.
+  /// Appends for each record, in the order of write(), the index of the scene's object that it belongs to.
   void append_owners(std::vector<Index>& owners) const;
 
-  /// Writes the records of all instances: instances in the order of the scene, and each group by group.
+  /// Writes the records of all instances, in the order of the scene, and each instance group by group.
   void write(const InstanceTables& tables, unsigned threads) const;
 
 private:
@@ -53,7 +53,7 @@ private:
     const Object* object;
     std::uint32_t prototype;
     bool is_sound;                                          ///< result of preserves_areas()
-    std::uint32_t first_object, first_normals, first_group; ///< among those of all instances
+    std::uint32_t first_object, first_normals, first_group; ///< indices among the records of all instances
   };
   class Writer;
 

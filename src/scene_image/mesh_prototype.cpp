@@ -22,13 +22,13 @@ namespace {
 using Simd = HostSimd<BaselineArch>;
 using Range = bvh::Range<Simd>;
 
-/// The least size of a mesh that is shared; below it, placing each instance's groups in the BVH takes longer
-/// than building the BVH anew.
+/// Least number of triangles of a mesh that is shared; with fewer, placing each instance's groups in the BVH
+/// takes longer than building the BVH anew.
 constexpr std::size_t kFewestTriangles = 32;
 constexpr std::uint32_t kTrianglesPerThread = 8192;
 constexpr std::uint32_t kTrianglesPerRun = 128;
 static_assert(kTrianglesPerRun <= kMaxCopiedObjects);
-/// About the size of a leaf of the BVH; the order within a leaf does not matter.
+/// Number of triangles below which the order does not matter: about as many as in a leaf of the BVH.
 constexpr std::uint32_t kTrianglesPerLeaf = 4;
 
 Reference reference_to(std::uint32_t number, const Mesh& mesh) {
@@ -47,7 +47,8 @@ class Divider {
 public:
   explicit Divider(std::vector<Reference>& references) : references_(references), spare_(references.size()) {}
 
-  /// Calls part(begin, end) for each part in order, and divides it further if that returns true.
+  /// Calls `part(range)`, and if that returns true, divides the range in two and does the same with both
+  /// parts, in order.
   template <class Part> void divide(std::uint32_t begin, std::uint32_t end, Part part) {
     if (begin == end) return;
     std::vector<Range> open = {bvh::range_of<Simd>(references_.data(), begin, end)};
@@ -69,7 +70,7 @@ private:
   std::size_t checks_ = 0;
 };
 
-/// Returns the triangles with an area, in the order of the mesh.
+/// Returns references to the triangles with an area, in the order of the mesh.
 std::vector<Reference> references_to_triangles(const Mesh& mesh) {
   std::vector<Reference> references;
   references.reserve(mesh.triangles.size());
@@ -108,8 +109,8 @@ std::vector<Reference> order_coarsely(std::vector<Reference>& references, unsign
   return groups;
 }
 
-/// Orders references so that any few consecutive groups are neighbours in space. Returns where the parts
-/// begin that are to be divided further, followed by the number of references.
+/// Orders references so that any few consecutive groups are neighbours in space. Returns the begins of the
+/// parts that are to be divided further, followed by the number of references.
 std::vector<std::uint32_t> order_groups(std::vector<Reference>& references, unsigned threads) {
   const auto count = static_cast<std::uint32_t>(references.size());
   if (count < kMinObjectsToOrder) return {0, count};
@@ -139,7 +140,7 @@ Aabb bounds_of_references(const std::vector<Reference>& references, std::uint32_
   return {{around.min[0], around.min[1], around.min[2]}, {around.max[0], around.max[1], around.max[2]}};
 }
 
-/// Orders references down to the leaves. Returns where the groups begin, followed by the number of
+/// Orders references down to the leaves. Returns the begins of the groups, followed by the number of
 /// references.
 std::vector<std::uint32_t> order_by_run(std::vector<Reference>& references, unsigned threads) {
   const std::vector<std::uint32_t> parts = order_groups(references, threads);
@@ -195,8 +196,8 @@ private:
   }
 
   const std::vector<Vec3f>& points_;
-  std::vector<Index> first_like_; ///< index: point; the first one that is equal
-  std::vector<Index> number_;     ///< index: first point of equal ones
+  std::vector<Index> first_like_; ///< index: point; the first point that is equal to it
+  std::vector<Index> number_;     ///< index: first of several equal points
   std::vector<Vec3f> used_;
 };
 
@@ -256,7 +257,7 @@ void MeshPrototype::measure() {
 
 bool MeshPrototype::surely_preserves_areas(const Transform& transform) const {
   constexpr double kMost = 1e17;
-  double farthest = 0; // greatest coordinate of a corner of the box around all
+  double farthest = 0; // greatest absolute coordinate of a corner of the box around all triangles
   for (unsigned corner = 0; corner < 8; ++corner) {
     const auto of = [corner, this](int axis) { return (corner >> axis & 1) != 0 ? max_[axis] : min_[axis]; };
     const Vec3 at = transform.point(Vec3(of(0), of(1), of(2)));
@@ -266,7 +267,7 @@ bool MeshPrototype::surely_preserves_areas(const Transform& transform) const {
     }
   }
   // The product of the factors along the three axes of stretching is the determinant, and the sum of the
-  // squares of the largest two is at most `squares`: no direction shrinks by more than the quotient.
+  // squares of the two largest factors is at most `squares`: no direction shrinks by more than the quotient.
   double squares = 0;
   for (int row = 0; row < 3; ++row)
     squares += glm::dot(transform.rows[row], transform.rows[row]);

@@ -10,7 +10,8 @@
 namespace celltrace {
 
 /// The triangles of a mesh that have an area, ordered so that neighbours in space are neighbours in memory,
-/// in groups that the surface area heuristic would separate. Each point that they use is stored once.
+/// in groups that the surface area heuristic would separate. Each point that the triangles use is stored
+/// once.
 class MeshPrototype {
 public:
   struct Triangle {
@@ -21,8 +22,7 @@ public:
 
   /// Returns whether a mesh is large enough to be worth sharing.
   static bool is_large_enough(const Mesh& mesh);
-  /// Returns whether the mesh is large enough, and each triangle has a single material or that of the
-  /// instance.
+  /// Returns whether the mesh is large enough, and no triangle has several materials.
   static bool can_be_made(const Mesh& mesh);
   /// Builds the prototype of a mesh for which can_be_made() is true. The result does not depend on the number
   /// of threads.

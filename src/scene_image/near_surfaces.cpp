@@ -28,7 +28,7 @@ public:
     if (is_translucent(object)) boxes_.push_back({extent_of(object, around), is_flat(object)});
   }
 
-  /// Returns whether any object is thin, or close to another one.
+  /// Returns whether any object is thin, or close to another object; true if there are too many to find out.
   bool any_near() {
     constexpr double kNear = kernel::kShadowEpsilon;
     constexpr std::size_t kMostBoxes = 1 << 18, kMostPairs = 1 << 22; // more would take too long to find out
@@ -54,7 +54,7 @@ public:
 private:
   struct Box {
     Extent extent;
-    bool is_flat; ///< one surface, or those of a mesh
+    bool is_flat; ///< true if the object's surfaces count as one surface
   };
 
   static bool is_flat(const Object& object) {

@@ -20,7 +20,7 @@ using Simd = HostSimd<BaselineArch>;
 
 constexpr std::uint32_t kObjectsPerCell = 4;
 constexpr std::uint32_t kMaxCellBits = 18;
-/// The deepest nesting of grids within cells; objects that are still together there stay together.
+/// Limit on levels of grids within cells; objects in one cell of the deepest grid stay together.
 constexpr int kMaxLevels = 24;
 
 struct Bounds {
@@ -93,7 +93,8 @@ private:
   static constexpr std::uint32_t kHalfBits = kMaxCellBits / 2;
   static constexpr std::uint32_t kHalf = 1u << kHalfBits;
 
-  /// Fills tables that spread the low and the high half of a coordinate to its bits in the number of a cell.
+  /// Fills the tables that move the bits of a coordinate's low and high half to their places in a cell's
+  /// number.
   void spread(const int (&axis_of)[kMaxCellBits], std::uint32_t (&left)[3]) {
     std::uint32_t place[3][kMaxCellBits];
     const std::uint32_t used[3] = {left[0], left[1], left[2]};
@@ -172,7 +173,7 @@ private:
   }
 
   /// Turns counts, one array for each part of the objects, into the place of each cell's first object.
-  /// Returns where the nonempty cells begin, followed by the end.
+  /// Returns the begins of the nonempty cells, followed by the end of the last one.
   static std::vector<std::uint32_t> add_up(std::vector<std::vector<std::uint32_t>>& counts,
                                            std::uint32_t place) {
     std::vector<std::uint32_t> begins;
@@ -196,7 +197,7 @@ private:
     }
   }
 
-  /// Divides a cell if it has many objects.
+  /// Divides a cell if it has many objects, else appends its begin to `groups`.
   void finish(std::uint32_t begin, std::uint32_t end, int level, std::vector<std::uint32_t>& groups) {
     if (end - begin <= kMaxRun || level == kMaxLevels || !divide(begin, end, level, groups))
       groups.push_back(begin);

@@ -6,13 +6,13 @@
 
 namespace celltrace {
 
-/// An object of the scene, at twice the centre of its bounding box.
+/// An object, and twice the centre of its bounding box.
 struct alignas(16) PlacedObject {
   float centre[3];
   std::uint32_t source; ///< the object's number
 };
 
-/// Scenes with fewer objects keep their order.
+/// Least number of objects that are ordered along a curve; scenes with fewer objects keep their order.
 constexpr std::uint32_t kMinObjectsToOrder = 4096;
 /// Limit on objects in a group, unless all of them are at one place.
 constexpr std::uint32_t kMaxRun = 256;

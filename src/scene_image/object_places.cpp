@@ -11,7 +11,7 @@ namespace celltrace {
 
 namespace {
 
-/// Writes the scene's objects that can be hit to `to`; threads place parts, which are then moved together.
+/// Writes the scene's objects that can be hit to `to`. Each thread writes a part; the parts are then joined.
 ObjectCounts place_all(const SceneObjects& objects, PlacedObject* to, unsigned threads) {
   std::vector<ObjectCounts> counts(threads);
   for_each_part(threads, [&](unsigned part) {

@@ -21,7 +21,7 @@ void hide(ObjectRecord& record, const Vec3f& at) {
   record.kind_and_flags =
       static_cast<std::uint32_t>(ObjectKind::sphere) | object_flag::no_shadow | object_flag::no_image |
       object_flag::no_reflection |
-      (record.kind_and_flags & object_flag::blended); // kept: says what `material` refers to
+      (record.kind_and_flags & object_flag::blended); // tells which table `material` refers to
   std::fill(std::begin(record.geometry), std::end(record.geometry), 0.0f);
   for (int i = 0; i < 3; ++i)
     record.geometry[i] = at[i];

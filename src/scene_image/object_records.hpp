@@ -16,10 +16,10 @@
 
 namespace celltrace {
 
-/// The contents of a range of objects.
+/// Counts of the records of a range of objects.
 struct ObjectCounts {
   std::uint32_t objects = 0;             ///< number of objects that can be hit
-  std::uint32_t extras = 0, blended = 0; ///< number of these that have such a record
+  std::uint32_t extras = 0, blended = 0; ///< number of objects with such a record
   kernel::Aabb around = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
   static constexpr float kFar = 3e38f;
@@ -32,7 +32,7 @@ inline bool is_of_points(std::uint32_t material_flags) {
   using namespace kernel;
   return (material_flags & (object_flag::two_sided | object_flag::by_surface)) == 0;
 }
-/// Returns whether a material is one of is_of_points() and opaque.
+/// Returns whether a material is opaque, and is_of_points() is true for it.
 inline bool is_plain(std::uint32_t material_flags) {
   return (material_flags & kernel::object_flag::opaque) != 0 && is_of_points(material_flags);
 }
@@ -53,21 +53,20 @@ struct RecordTables {
   std::uint32_t offset_of_material(Index index) const {
     return material_offset + index * static_cast<std::uint32_t>(sizeof(kernel::MaterialRecord));
   }
-  /// Returns the offset of the interior of an object of the scene, or of a part of a CSG whose interior is
-  /// known.
+  /// Returns the offset of the interior of an object of the scene, or of a CSG part that has an interior.
   std::uint32_t interior_of(const Object& object) const {
     if (object.interior != kNoIndex) return offset_of_interior(interior_offset, object.interior);
     const auto index = static_cast<std::size_t>(&object - scene.objects.data());
     return offset_of_interior(interior_offset, own_interior(scene, index));
   }
-  /// Sets the material of a record; it must be one that is not blended.
+  /// Sets the only material of a record; a blended record has several.
   void set_material(kernel::ObjectRecord& record, Index material) const {
     const std::uint32_t flags = material_flags[material];
     record.material = offset_of_material(material) | (flags & kernel::material_word::flags_mask);
     record.kind_and_flags |= flags & ~kernel::material_word::flags_mask;
   }
-  /// Makes the normal of a mesh's flat triangle point to the mesh's inside, unless `object` is a mirror
-  /// image.
+  /// Swaps the sides of a mesh's flat triangle if they look different: its normal points to the mesh's
+  /// inside, unless `object` is a mirror image.
   static void change_sides(kernel::ObjectRecord& record, const Object& object) {
     if ((record.kind_and_flags & kernel::object_flag::two_sided) != 0 && object.transform.determinant() > 0)
       record.kind_and_flags ^= kernel::object_flag::inverse;
@@ -77,15 +76,15 @@ struct RecordTables {
   }
 };
 
-/// Returns the number of the set of lights that shine on an object: 0 for all global lights, then the light
-/// groups'.
+/// Returns the number of the set of lights that shine on an object: set 0 has all global lights, the sets of
+/// light groups follow.
 inline std::uint32_t light_set_of(const Object& object) {
   return object.light_group == kNoIndex ? 0 : object.light_group + 1;
 }
 
 /// Returns whether the material for an object's inside is seen where its normals point. POV-Ray inverts an
-/// inverse quadric twice, in its coefficients and in its normals, so that here alone it counts as not
-/// inverse.
+/// inverse quadric twice, in its coefficients and in its normals, so that for this purpose the quadric counts
+/// as not inverse.
 inline bool is_seen_inverse(const Object& object) {
   return object.inverse && !std::holds_alternative<Quadric>(object.shape);
 }
@@ -109,7 +108,7 @@ inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kin
 /// is shown again.
 void hide(kernel::ObjectRecord& record, const Vec3f& at);
 
-/// The bound of the absolute values of coordinates whose squares single precision can hold.
+/// Limit on the absolute values of coordinates: single precision must be able to hold their squares.
 inline constexpr float kMostCoordinate = 1e18f;
 bool has_size(const kernel::Aabb& box);
 /// Throws InputError, naming the object by its index in the scene, unless all coordinates are within

@@ -17,7 +17,7 @@ namespace {
 using Simd = HostSimd<BaselineArch>;
 using LaneAabb = bvh::LaneAabb<Simd>;
 
-/// The number of objects that are prefetched while one is written, since objects lie scattered in memory.
+/// Number of objects by which prefetching is ahead of writing, since objects lie scattered in memory.
 constexpr std::uint32_t kAhead = 16;
 
 Simd::F4 lanes_of(const Vec3f& vertex) {
@@ -43,7 +43,7 @@ LaneAabb box_around(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return box;
 }
 
-/// Cuts a box to what is within `bounds`; returns false if nothing is left.
+/// Intersects a box with `bounds`; returns false if the intersection is empty.
 bool limit(LaneAabb& box, const Aabb& bounds) {
   const LaneAabb within = lanes_of(bounds);
   box.min = Simd::max(box.min, within.min);
@@ -227,7 +227,7 @@ public:
     if (piece.object->is_hidden) hide(r, piece.vertices[piece.mesh->triangles[number].vertex[0]]);
   }
 
-  /// Writes the record of a triangle that needs no record in another table.
+  /// Writes the record of a triangle that has no record in another table.
   void lone_triangle(const Piece& piece, std::uint32_t number, ObjectRecord& r) {
     const Mesh::Triangle& triangle = piece.mesh->triangles[number];
     write_lone_triangle(piece, triangle, r);
@@ -235,8 +235,8 @@ public:
   }
 
 private:
-  /// Returns the record of a shape, ignoring is_hidden, which the caller applies. The functions below do the
-  /// same.
+  /// Returns the record of a shape. This function and those below ignore is_hidden: their callers hide
+  /// records.
   ObjectRecord record_of(const Placed& placed, const PlacedShape& shape) {
     const Object& object = *placed.object;
     ObjectRecord r = start_record(object, shape.kind_and_flags, tables_);
@@ -274,7 +274,7 @@ private:
     ExtraRecord record{};
     if (smooth) {
       r.kind_and_flags |= object_flag::smooth;
-      RecordTables::change_sides(r, *piece.object); // back, as the outside is where its normals point
+      RecordTables::change_sides(r, *piece.object); // back: the outside is where the triangle's normals point
       for (int v = 0; v < 3; ++v)
         for (int i = 0; i < 3; ++i)
           record.value[v * 3 + i] = piece.normals[triangle.normal[v]][i];
@@ -330,7 +330,7 @@ private:
     tables_.extras[extras_++] = extra;
   }
 
-  /// Prepares the fields that all triangles of one material share.
+  /// Sets head_ to the fields that all triangles of one material share.
   void start(const Object& object, Index material) {
     object_ = &object;
     material_ = material;

@@ -15,7 +15,7 @@ namespace celltrace {
 
 namespace {
 
-/// Offsets below this, in units, stay as they are.
+/// Limit on offsets that stay as they are, in units.
 constexpr double kNear = 4096;
 /// The period of noise, and of other functions of its unit cubes, in units.
 constexpr double kOfNoise = 4096;
@@ -24,8 +24,8 @@ constexpr double kOfWave = 1.00001;
 /// The period of a function that any shift leaves unchanged.
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-/// By axis, the period after which a pattern or a step has the same results: all multiples of it are allowed
-/// as shifts; 0 allows none.
+/// Periods by axis, after which a pattern or a step has the same results. Shifts are multiples of a period; a
+/// period of 0 allows no shift.
 using Periods = Vec3;
 
 constexpr double kFixed = 0;
@@ -34,14 +34,14 @@ bool is_still(const Turbulence& turbulence) {
   return turbulence.amount == Vec3(0);
 }
 
-/// Returns the periods of turbulence. Its octaves have a common period only if the first one's is a multiple
-/// of the finer ones' periods.
+/// Returns the periods of turbulence. Its octaves have a common period only if the period of the first octave
+/// is a multiple of the periods of finer octaves.
 Periods of(const Turbulence& turbulence) {
   if (is_still(turbulence)) return Periods(kAny);
   return Periods(turbulence.lambda == std::floor(turbulence.lambda) ? kOfNoise : kFixed);
 }
 
-/// Returns a common multiple of two periods.
+/// Returns the larger of two periods if it is a multiple of the smaller one, else kFixed.
 double common(double a, double b) {
   if (a == kFixed || b == kFixed) return kFixed;
   if (a == kAny || b == kAny) return std::min(a, b);
@@ -52,15 +52,15 @@ Periods common(const Periods& a, const Periods& b) {
   return {common(a.x, b.x), common(a.y, b.y), common(a.z, b.z)};
 }
 
-// The periods of each kind of pattern that has some.
+// Periods of the kinds of patterns that have one.
 
 constexpr double kRootOfThree = std::numbers::sqrt3;
 
 struct PeriodsOfKind {
   const Pattern& pattern;
-  const Vec3& at; ///< about where the pattern is evaluated
+  const Vec3& at; ///< offset of the points at which the pattern is evaluated
 
-  /// Returns the period of a pattern that becomes a wave without being cut to one unit.
+  /// Returns the period of a pattern whose values are not cut to one unit before they become a wave.
   double of_wave() const { return pattern.frequency != 0 ? std::abs(kOfWave / pattern.frequency) : kFixed; }
 
   Periods operator()(const pattern::Checker&) const { return Periods(2); }
@@ -93,7 +93,8 @@ struct PeriodsOfKind {
   }
   Periods operator()(const pattern::Planar&) const { return {kAny, kFixed, kAny}; }
   Periods operator()(const pattern::Cylindrical&) const { return {kFixed, kAny, kFixed}; }
-  /// Values above 1 are cut to one unit, while below 0 only the wave is.
+  /// Returns the periods of a gradient: positive values are cut to one unit, while of negative values only
+  /// the wave repeats.
   Periods operator()(const pattern::Gradient& gradient) const {
     const Vec3 along = glm::normalize(gradient.direction);
     Periods periods(kFixed);
@@ -129,8 +130,8 @@ Vec3 whole_periods(const Vec3& offset, const Periods& periods, Left left = Left:
   return whole;
 }
 
-/// Returns a shift towards the origin by whole shells; a shell farther away than kFlat units is as good as
-/// flat.
+/// Returns a shift towards the origin by whole shells. Shells farther than kFlat units from the origin count
+/// as flat.
 Vec3 whole_shells(const Vec3& offset, double period) {
   constexpr double kFlat = 8192;
   const double distance = glm::length(offset);
@@ -144,7 +145,7 @@ Vec3 shift_of(const Pattern& pattern, const Vec3& offset) {
                             !std::holds_alternative<pattern::Wood>(pattern.kind);
   if (is_still(pattern.turbulence)) {
     if (const auto* gradient = std::get_if<pattern::Gradient>(&pattern.kind)) {
-      // The shift also works if the gradient's direction is along no axis.
+      // Shifts points along the gradient's direction, which need not be along an axis.
       const Vec3 along = glm::normalize(gradient->direction);
       const double at = glm::dot(along, offset);
       if (glm::length(offset) <= kNear) return Vec3(0);
@@ -171,7 +172,7 @@ Vec3 shift_of(const Pattern& pattern, const Vec3& offset) {
   return whole_periods(offset, periods, has_sides ? Left::same_side : Left::least);
 }
 
-/// Returns by how much a step may be shifted.
+/// Returns by how much the points before a step may be shifted.
 Vec3 shift_of(const SpaceStep& step, const Vec3& offset) {
   if (const auto* turbulence = std::get_if<Turbulence>(&step)) return whole_periods(offset, of(*turbulence));
   if (const auto* repeat = std::get_if<warp::Repeat>(&step)) {
@@ -195,7 +196,7 @@ SpaceStep shifted(const SpaceStep& step, const Vec3& shift) {
   return nearer;
 }
 
-/// Returns what a shift before a step has become after the step.
+/// Returns the shift of points after a step if `shift` is their shift before it.
 Vec3 after(const SpaceStep& step, Vec3 shift) {
   if (const auto* repeat = std::get_if<warp::Repeat>(&step)) shift[repeat->axis] = 0;
   return shift;
@@ -206,7 +207,7 @@ Vec3 after(const SpaceStep& step, Vec3 shift) {
 PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceStep>& space) {
   PlacedPattern placed = {pattern.kind, space, pattern.phase};
   std::vector<SpaceStep> steps; // in the order in which points go through them
-  Vec3 carried(0);              // how much nearer to the origin points are than they would be
+  Vec3 carried(0);              // sum of the shifts of points so far
   bool is_shifted = false;
   Transform map;
   const auto end_map = [&](const auto& next) {
@@ -227,8 +228,8 @@ PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceSte
     carried = after(*step, shift);
     steps.push_back(shifted(*step, shift));
   }
-  // Slopes and object patterns do not repeat; far from the origin their heights and their solid are moved
-  // instead.
+  // Slopes and object patterns do not repeat. Far from the origin, a slope's heights and an object pattern's
+  // solid are moved instead.
   if (auto* slope = std::get_if<pattern::Slope>(&placed.kind);
       slope != nullptr && is_still(pattern.turbulence)) {
     const Vec3 offset = map.rows[3] + map.direction(carried);
@@ -261,7 +262,7 @@ PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceSte
     }
   }
   const Vec3 shift = end_map(pattern);
-  // The turbulence of marble repeats with another period than its wave, which takes the rest of the shift.
+  // The turbulence of marble has another period than its wave: the wave's phase takes the rest of the shift.
   if (std::holds_alternative<pattern::Marble>(pattern.kind) && pattern.turbulence.amount.x != 0)
     placed.phase += std::fmod(shift.x * pattern.frequency, kOfWave);
   if (!is_shifted) return {pattern.kind, space, pattern.phase};

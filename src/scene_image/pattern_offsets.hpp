@@ -7,16 +7,17 @@
 
 namespace celltrace {
 
-/// A pattern, the steps that points go through before it is evaluated, and what is added to its values.
+/// A pattern, the steps that points go through before it is evaluated, and its phase.
 struct PlacedPattern {
   pattern::Kind kind;
   std::vector<SpaceStep> space;
   double phase;
 };
 
-/// Returns a pattern that has the same values in the scene, but is evaluated nearer to its origin if `space`
-/// takes the scene's origin more than some thousand units away from it: the pattern is moved by whole
-/// periods. `pattern` gives everything but the space. If nothing changes, the steps are those of `space`.
+/// Returns a pattern with the same values in the scene that is evaluated nearer to its own origin: if `space`
+/// takes the scene's origin more than some thousand units away from there, the pattern is moved by whole
+/// periods. `pattern` gives everything but the space. If nothing changes, the result has the steps of
+/// `space`.
 PlacedPattern near_own_origin(const Pattern& pattern, const std::vector<SpaceStep>& space);
 
 } // namespace celltrace

@@ -108,7 +108,7 @@ std::uint32_t put(const pattern::Agate& agate, Parameters parameter) {
 std::uint32_t put(const pattern::Cells&, Parameters) {
   return kPatternKind<CellsPattern>;
 }
-/// Crackle reads noise at the nearest points, so that its kind includes the noise generator.
+/// Solid crackle reads noise at the nearest points: it has bozo's kind, for which the noise generator counts.
 std::uint32_t put(const pattern::Crackle& crackle, Parameters parameter) {
   if (!(crackle.metric > 0)) throw InputError("a crackle's metric is not greater than 0");
   for (int i = 0; i < 3; ++i)
@@ -176,7 +176,8 @@ SlopeRecord record_of(const pattern::Slope& slope) {
     r.factor = static_cast<float>(facing * weight);
     offset -= slope.least * facing * weight;
   }
-  // The height counts along the altitude's direction, with its share of both lengths.
+  // The height is measured along the altitude's direction, and weighted by the altitude's share of both
+  // lengths.
   const double height = 1 / ((facing + climbing) * (slope.highest - slope.lowest));
   if (climbing > 0) offset -= slope.lowest * climbing * height;
   for (int i = 0; i < 3; ++i) {

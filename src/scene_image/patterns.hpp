@@ -1,4 +1,4 @@
-// Converts the kinds of patterns that a Scene has to those of the kernel.
+// Converts the kinds of a Scene's patterns to the kinds of the kernel's patterns.
 #pragma once
 
 #include "celltrace/texture.hpp"

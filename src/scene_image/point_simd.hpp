@@ -68,7 +68,7 @@ struct PointSimd {
     static I wrapped(std::int64_t number) { return {static_cast<std::int32_t>(number)}; }
   };
 
-  struct U4; ///< type of tags in caches, which do not exist where memory is direct
+  struct U4; ///< type of cache tags, which is not defined: direct memory has no caches
 
   static F min(F a, F b) { return {std::min(a.value, b.value)}; }
   static F max(F a, F b) { return {std::max(a.value, b.value)}; }
@@ -110,7 +110,7 @@ public:
 
 namespace kernel {
 
-/// The traits that patterns need to find records; one lane has no use for shortcuts that look at many.
+/// The traits by which patterns find records. Shortcuts that look at many lanes are of no use to one lane.
 struct PointStrategy : DirectMemory, LocalPatterns {};
 template <> struct StrategyOf<PointSpu> { using Type = PointStrategy; };
 
@@ -138,11 +138,11 @@ template <> inline void sin_cos<PointSimd>(const PointSimd::F& x, PointSimd::F& 
   cosine = {std::cos(x.value)};
 }
 template <> inline PointSimd::F turns_inline<PointSimd>(const PointSimd::F& y, const PointSimd::F& x) {
-  if (x.value == 0 && y.value == 0) return {0}; // whatever their signs
+  if (x.value == 0 && y.value == 0) return {0}; // whatever the signs of the zeros
   return {std::atan2(y.value, x.value) / 6.28318530717958647692};
 }
-/// Returns the tolerance at lattice planes: coordinates have not been rounded to single precision, so that it
-/// is tiny.
+/// Returns the tolerance at lattice planes: it is tiny, because coordinates have not been rounded to single
+/// precision.
 template <> inline PointSimd::F lattice_epsilon<PointSimd>(const PointSimd::F&) {
   return {1e-9};
 }

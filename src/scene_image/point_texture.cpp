@@ -26,8 +26,8 @@ Scene scene_of(const Pigment& pigment, int noise_generator) {
   return scene;
 }
 
-/// Removes from a pigment's pattern the first transformations that a point goes through, since records would
-/// hold them in single precision. Returns the inverse of them.
+/// Removes from a pigment's pattern the transformations that a point goes through first, since records would
+/// hold them in single precision. Returns the inverse of these transformations.
 Transform take_transform(Pigment& pigment) {
   Transform all;
   if (!pigment.map || pigment.map->pattern.uv_mapping) return all;

@@ -21,8 +21,8 @@ public:
 
   /// Returns the colour at a point, without a map.
   Pigment pigment_at(const Vec3& point) const;
-  /// Returns the value of the outermost pattern after its wave, or the index of the entry if it is a list.
-  /// There must be a pattern.
+  /// Returns the value of the outermost pattern after its wave or, if this pattern is a list, the index of
+  /// the chosen entry. The pigment must have a pattern.
   double pattern_at(const Vec3& point) const;
 
   /// Returns the size of the prepared pigment in bytes.

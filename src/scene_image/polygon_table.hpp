@@ -16,7 +16,7 @@ public:
   void add(const Object& object);
 
   const std::vector<kernel::PolygonEdgeRecord>& edges() const { return edges_; }
-  /// Returns the edges of a polygon that has been added: `first` is an index.
+  /// Returns the edges of a polygon that has been added, with `first` as an index in edges().
   kernel::PolygonEdges of(const Polygon& polygon) const { return known_.at(&polygon); }
 
 private:

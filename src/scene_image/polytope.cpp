@@ -12,7 +12,7 @@ using kernel::Aabb;
 
 namespace {
 
-/// Returns the error of points on a plane, which are found as precisely as its numbers in single precision.
+/// Returns the distance by which points on a plane may be off, since the plane has single precision.
 double slack_at(double coordinate) {
   return 1e-4 * (1.0 + std::abs(coordinate));
 }
@@ -87,8 +87,8 @@ Polytope::Polytope(const Aabb& box) {
 
 void Polytope::cut(const Vec3& normal, double offset, std::size_t source) {
   const double length = glm::length(normal);
-  // The tolerance is far less than the slack, and far more than rounding, so that a plane given twice cuts
-  // once.
+  // The tolerance is far less than the slack, and far more than rounding errors, so that a plane that is
+  // given twice cuts once.
   const double slack = slack_at(offset / length), tolerance = 1e-3 * slack;
   cut_exactly(normal / length, offset / length + slack, tolerance, source);
 }

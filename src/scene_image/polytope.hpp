@@ -17,26 +17,26 @@ public:
     std::size_t source;
   };
 
-  /// Coordinates whose absolute value is greater count as infinite: no ray reaches that far.
+  /// Limit on absolute values of coordinates. Greater ones count as infinite: no ray reaches that far.
   static constexpr double kReach = 1e7;
   static constexpr std::size_t kBox = static_cast<std::size_t>(-1); ///< source of the box's own faces
 
   explicit Polytope(const kernel::Aabb& box);
 
-  /// Keeps the points p with dot(normal, p) <= offset, and a little more. `normal` has any length but 0. The
-  /// face that lies in the plane, if there is one, gets this `source`.
+  /// Keeps the points p with dot(normal, p) <= offset, and points slightly beyond. `normal` has any length
+  /// but 0. If a face lies in the plane, it gets this `source`.
   void cut(const Vec3& normal, double offset, std::size_t source);
-  /// Cuts as cut() does, but keeps no more than these points; the normal has length 1. Corners less than
+  /// Cuts as cut() does, but keeps no points beyond the plane; the normal has length 1. Corners at most
   /// `tolerance` beyond the plane count as in it.
   void cut_exactly(const Vec3& unit, double offset, double tolerance, std::size_t source);
 
   bool is_empty() const { return faces_.empty(); }
   const std::vector<Face>& faces() const { return faces_; }
 
-  /// Returns slightly enlarged bounds; infinite where the polytope reaches beyond kReach. If it is empty,
-  /// each minimum is greater than the maximum.
+  /// Returns slightly enlarged bounds; infinite where the polytope reaches beyond kReach. If the polytope is
+  /// empty, each minimum is greater than the maximum.
   kernel::Aabb bounds() const;
-  /// Returns such bounds of the face of a source, or of the whole polytope if that source has no face.
+  /// Returns bounds() of the face with this source, or of the whole polytope if it has no such face.
   kernel::Aabb bounds_of_face(std::size_t source) const;
 
 private:

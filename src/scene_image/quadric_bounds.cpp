@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMost = Polytope::kReach; ///< greater coordinates count as infinite
 
-constexpr double kSlack = 1e-4; ///< relative, and absolute below 1, as for half-spaces of CSG
+constexpr double kSlack = 1e-4; ///< enlargement of bounds: relative, but absolute below 1, as for half-spaces
 
 struct Range {
   double low, high;
@@ -52,8 +52,8 @@ Range parabola(double square, double linear, const Range& x) {
   return values;
 }
 
-/// Returns where square * x^2 + linear * x + rest <= 0 for some value of `linear` and of `rest`; everything
-/// if that is not known.
+/// Returns the range of x in which square * x^2 + linear * x + rest <= 0 for some values of `linear` and of
+/// `rest`; everything if that range is not known.
 Range not_above(double square, const Range& linear, const Range& rest) {
   const Range everywhere = {-kInfinity, kInfinity};
   const double least = rest.low;
@@ -76,7 +76,7 @@ Range not_above(double square, const Range& linear, const Range& rest) {
   const Range above = common(roots(linear.low), {0, kInfinity});
   const Range below = common(roots(linear.high), {-kInfinity, 0});
   const bool is_above = above.low <= above.high, is_below = below.low <= below.high;
-  if (!is_above && !is_below) return everywhere; // nowhere, or everywhere but in a range
+  if (!is_above && !is_below) return everywhere; // there is no such x: limits nothing
   return {is_below ? below.low : above.low, is_above ? above.high : below.high};
 }
 
@@ -98,7 +98,7 @@ struct WorldQuadric {
                            2 +
                        q.constant * a_far * b_far;
       }
-    // Clears entries that rotations there and back leave instead of 0.
+    // Clears entries that are not 0 only because rotations there and back were rounded.
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         const double one = std::abs(matrix[i][i]), other = std::abs(matrix[j][j]);
@@ -108,7 +108,7 @@ struct WorldQuadric {
       }
   }
 
-  /// Returns the quadric's range along one axis, within a box.
+  /// Returns the range along one axis of the quadric's points in a box.
   Range along(int axis, bool solid, const Range (&box)[3]) const {
     const int j = (axis + 1) % 3, k = (axis + 2) % 3;
     const Range linear = 2 * matrix[axis][j] * box[j] + 2 * matrix[axis][k] * box[k] +
@@ -134,7 +134,7 @@ kernel::Aabb bounds_of_quadric(const Quadric& quadric, const Transform& transfor
     box[i] = {within.min[i] > -kMost ? within.min[i] : -kInfinity,
               within.max[i] < kMost ? within.max[i] : kInfinity};
   kernel::Aabb result = within;
-  // Ranges of one axis may limit the others, so that a second round finds more.
+  // The range along one axis may limit those along the others, so that a second round finds tighter ranges.
   for (int round = 0; round < 2; ++round)
     for (int i = 0; i < 3; ++i) {
       const Range found = q.along(i, solid, box);

@@ -22,7 +22,7 @@ using namespace kernel;
 
 namespace {
 
-/// Returns the size of a BVH, which is the accelerator most likely to be built, in bytes.
+/// Returns the size in bytes of a BVH, the accelerator that is most likely to be built.
 std::size_t bvh_bytes(const ImageHeader& header) {
   const std::size_t nodes =
       bvh::most_nodes(header.object_count, header.group_count, header.prototype_count != 0);
@@ -127,9 +127,8 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   ObjectPlaces places;
   places.are_known = true;
   places.groups = origin_->groups;
-  // Plain triangles are written while they are counted; if their number turns out to differ, all of them are
-  // written again. Other objects are counted first: they may have errors, which must leave the image as it
-  // was.
+  // Plain triangles are written while they are counted; if their number turns out to differ, the image has to
+  // be built anew. Other objects are counted first, since errors in them must leave the image as it was.
   places.are_written =
       header().extra_count == 0 && header().blend_count == 0 && objects.are_plain_triangles();
   if (places.are_written) {

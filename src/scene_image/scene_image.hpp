@@ -34,13 +34,13 @@ struct ImageParts;
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
 constexpr std::uint32_t kImageVersion = 19;
 
-/// The data of its scene that a SceneImage keeps; each of the first two takes 4 bytes per object.
+/// The data of its scene that a SceneImage keeps. Each of the first two members takes 4 bytes per object.
 struct ImageMemory {
-  bool updatable = false; ///< needed by update() and update_surfaces()
-  bool owners = false;    ///< needed by owner_of()
-  /// True if the camera may move in later frames, so that is_for() is asked.
+  bool updatable = false; ///< keeps the data that update() and update_surfaces() need
+  bool owners = false;    ///< keeps the data that owner_of() needs
+  /// True if the camera may move in later frames, before which is_for() is called.
   bool eye_moves = false;
-  /// The largest size of the image and its BVH in bytes; 0: no limit but memory.
+  /// Limit on the size of the image with its BVH, in bytes; 0 means no limit.
   std::uint64_t most_bytes = 0;
 };
 
@@ -52,34 +52,36 @@ public:
   /// Builds the static part. Throws InputError if validate() does, if an object's coordinates exceed the
   /// range of single precision, or if the image would pass 4 GB.
   explicit SceneImage(const Scene& scene);
-  /// Takes over a static part that to_bytes() returned. Throws InputError unless version, checksum, sizes and
-  /// every offset in it are right.
+  /// Makes an image of a static part that to_bytes() returned. Throws InputError unless version, checksum,
+  /// sizes and every offset in it are right.
   static SceneImage from_bytes(std::span<const std::byte> bytes);
 
   /// Least number of objects per thread; with fewer, starting threads takes longer than they save.
   static constexpr std::uint32_t kObjectsAThread = 32768;
   /// Becomes the image of `scene`, using up to `threads` threads with at least `objects_a_thread` objects
-  /// each; the result does not depend on their number. Reuses its memory if that is large enough, and uses
-  /// `work`, which may grow. After an InputError it is unchanged; after another exception it may be empty.
-  /// Reports progress to a ProgressMonitor, as update() does; either may leave no image when it is stopped.
+  /// each; the number of threads does not change the result. Reuses its memory if that is large enough, and
+  /// uses `work` as work memory, which may grow. After an InputError the image is unchanged; after another
+  /// exception it may be empty. Reports progress to a ProgressMonitor, as update() does; if the monitor stops
+  /// either function, there may be no image.
   void assign(const Scene& scene, AlignedBlock& work, unsigned threads,
               std::uint32_t objects_a_thread = kObjectsAThread, const ImageMemory& memory = {});
   /// Updates the image in place for a scene that differs from that of assign() in numbers only: every record
-  /// keeps its place, also those of the accelerator. Returns false, and changes nothing, if the image is not
-  /// updatable or if counts differ: of objects, of objects that can be hit, or of entries of tables. Throws
-  /// InputError as assign() does. Groups without instances keep their bounds, since a BVH is only built of a
-  /// new image.
+  /// keeps its place, including those of the accelerator. Returns false if the image is not updatable, or if
+  /// numbers of objects, of objects that can be hit, or of entries of tables differ; then the image may have
+  /// changed and has to be built anew. Throws InputError as assign() does. Groups without instances keep
+  /// their bounds, since a BVH is only built for a new image.
   bool update(const Scene& scene, AlignedBlock& work, unsigned threads,
               std::uint32_t objects_a_thread = kObjectsAThread);
-  /// Updates the image as update() does if all objects are unchanged; but not for scenes in which patterns or
-  /// lights refer to objects, or in which a material starts or ceases to be opaque, textured or the like.
+  /// Updates the image as update() does, for a scene in which no object has changed. Returns false, and
+  /// changes nothing, if update() would return false, if patterns or lights refer to objects, or if a
+  /// material has become opaque or textured, or is no longer.
   bool update_surfaces(const Scene& scene);
-  /// Updates the image for the same scene with another camera if that moves nothing but boundaries of CSG's
-  /// solids. Returns false, and changes nothing, if it may move more.
+  /// Updates the image for the same scene with another camera. Returns false, and changes nothing, if the
+  /// camera's move may change more than boundaries of CSG's solids.
   bool update_boundaries(const Scene& scene);
   bool empty() const noexcept { return block_.size() == 0; }
-  /// Returns whether the image shows the scene to a camera at `location` as an image made for that location
-  /// would; always true at the location that the image was made for.
+  /// Returns whether an image made for a camera at `location` would be the same; always true at the location
+  /// for which this image was made.
   bool is_for(const Vec3& location) const { return eye_.prepares_alike(location); }
   /// Returns whether is_for() may be false for some location; true unless ImageMemory::eye_moves is set.
   bool depends_on_eye() const { return eye_.matters(); }
@@ -88,7 +90,7 @@ public:
   const PassedLimits& limits() const { return limits_; }
 
   /// Reserves room for an accelerator: a table of `table_bytes` bytes for voxels or nodes, and lists of
-  /// `list_words` words in all. If the static part moves, the old address becomes invalid.
+  /// `list_words` words in all. May move the image, after which old addresses are invalid.
   void reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words);
 
   const kernel::ImageHeader& header() const noexcept {
@@ -97,7 +99,7 @@ public:
   /// Returns a copy of the static part.
   std::vector<std::byte> to_bytes() const;
   const std::byte* base() const noexcept { return block_.data(); }
-  /// Returns the image for the code that refits the accelerator.
+  /// Returns the image's first byte to code that refits the accelerator.
   std::byte* mutable_base() noexcept { return block_.data(); }
   /// Returns the index in Scene::objects of the object that the record at this offset belongs to; kNoIndex if
   /// there is no object at the offset. Needs ImageMemory::owners.
@@ -109,7 +111,7 @@ public:
     const std::size_t record = (offset - first) / sizeof(kernel::ObjectRecord);
     return offset >= first && record < owners_.size() ? owners_[record] : kNoIndex;
   }
-  /// Returns the owner of each record: first the owners of unbounded objects, then those of all others.
+  /// Returns the owner of each record: first the owners of unbounded objects, then of all other objects.
   std::span<const Index> owners() const { return owners_; }
   /// Returns the offsets of the accelerator's table and lists, multiples of 128; valid after
   /// reserve_accelerator().
@@ -120,18 +122,18 @@ public:
 
 private:
   Index owner_of_instanced(std::uint32_t number) const noexcept;
-  /// Remembers what the tables do not say about these parts.
+  /// Keeps the data of these parts that the tables do not hold.
   void remember(ImageParts& parts);
 
-  /// The data of its scene that updates need.
+  /// The data of the scene that updates need.
   struct Origin {
     std::vector<std::uint32_t> places; ///< index: object that is no instance; kNoPlace if it cannot be hit
-    std::uint32_t placed = 0;          ///< number of these that can be hit
+    std::uint32_t placed = 0;          ///< number of these objects that can be hit
     std::vector<std::uint32_t> groups; ///< groups of these objects
     std::vector<ObjectForm> forms;     ///< index: object of the scene
     std::vector<std::size_t> order;    ///< SceneObjects::order()
     std::vector<std::uint32_t> material_flags;
-    std::size_t own_interiors = 0;   ///< number of records of objects without an interior
+    std::size_t own_interiors = 0;   ///< number of interior records of objects without an interior
     bool surfaces_are_apart = false; ///< true if no pattern and no light refers to objects
   };
 
@@ -139,7 +141,7 @@ private:
   std::unique_ptr<Origin> origin_; ///< null unless the image is updatable
   Eye eye_;                        ///< camera location that the image was made for
   PassedLimits limits_;
-  std::vector<SolidBoundary> boundaries_; ///< kept if the eye may move
+  std::vector<SolidBoundary> boundaries_; ///< boundaries of CSG's solids; empty unless the eye may move
   std::vector<Index> owners_; ///< owners of unbounded objects, then of all others, in the order of records
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;

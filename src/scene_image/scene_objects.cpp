@@ -24,7 +24,7 @@ struct ComparesWholes {
   bool operator()(std::size_t whole, const CsgPart& part) const { return whole < part.whole; }
 };
 
-/// Changes vectors in threads, which get parts of a reasonable size.
+/// Returns the results of `change` for vectors, which threads compute in parts of a reasonable size.
 template <class Change>
 std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Change change) {
   std::vector<Vec3f> to(from.size());
@@ -75,8 +75,9 @@ void SceneObjects::grow(std::size_t objects) {
   count_ += static_cast<std::uint32_t>(objects);
 }
 
-/// Triangles are several times faster to test than a polygon, and those of a leaf are tested together.
-/// Transparency and the look of each side still come from the polygon as a whole.
+/// Replaces a polygon by triangles, which are several times faster to test: the triangles of a leaf are
+/// tested together. Polygons that let light through or look different from inside stay, because this comes
+/// from the polygon as a whole.
 bool SceneObjects::add_as_triangles(const Object& object) {
   const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
   if (polygon == nullptr || !is_plain(material_flags_[object.material])) return false;

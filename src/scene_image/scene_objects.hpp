@@ -23,33 +23,35 @@ namespace celltrace {
 
 class SceneObjects {
 public:
-  /// Takes the objects of `scene` apart, except `instances`; each object of `instanced` counts as one, and
-  /// the insides of `patterns` are added. The objects from index `projectors` on are lights' projectors.
-  /// `scene` and `material_flags`, the object flags of each material, must not change while this object
-  /// lives. Sets in `limits` which limits the scene passes. Throws InputError if there are too many objects.
+  /// Takes the objects of `scene` apart, except `instances`. Each object of `instanced` counts as one object.
+  /// Adds the insides of `patterns` to the conditions of CSG. The objects from index `projectors` on are
+  /// lights' projectors. `scene` and `material_flags`, the object flags of each material, must not change
+  /// while this object lives. Sets in `limits` which limits the scene passes. Throws InputError if there are
+  /// too many objects.
   SceneObjects(const Scene& scene, const Eye& eye, std::size_t projectors,
                const std::vector<std::shared_ptr<const Object>>& patterns,
                const std::vector<std::uint32_t>& material_flags, const InstancedMeshes& instanced,
                const MeshInstances& instances, unsigned threads, PassedLimits& limits);
 
-  /// Returns the number of objects with bounds, including those that cannot be hit: spheres without a radius
-  /// and triangles without an area.
+  /// Returns the number of objects with bounds. It includes objects that cannot be hit: spheres without a
+  /// radius and triangles without an area.
   std::uint32_t count() const { return count_; }
   /// Returns the number of objects without bounds: planes, unless CSG bounds them.
   std::uint32_t unbounded_count() const { return static_cast<std::uint32_t>(unbounded_.size()); }
-  /// Returns the scene's indices of the objects that count() counts, and of the unbounded ones; a part of a
-  /// CSG has the index of the CSG.
+  /// Return the indices in the scene of the objects that count() counts, and of the unbounded objects. A part
+  /// of a CSG has the index of the CSG.
   std::vector<Index> owners() const;
   std::vector<Index> unbounded_owners() const;
   /// Returns the number of objects that lights are projected through, with or without bounds.
   std::uint32_t projector_count() const { return static_cast<std::uint32_t>(projectors_.size()); }
-  /// Returns, by projector, how many consecutive objects it consists of.
+  /// Returns for each projector the number of consecutive objects that it consists of.
   const std::vector<std::uint32_t>& projector_sizes() const { return projector_sizes_; }
   /// Returns the number of ExtraRecords of projectors and of unbounded objects.
   std::uint32_t unbounded_extras() const;
   /// Returns whether primary rays see all objects.
   bool are_all_seen() const { return are_all_seen_; }
-  /// Returns the order in which objects of the scene are numbered if that order depends on their positions.
+  /// Returns the order in which the scene's objects are numbered; empty if their positions do not matter to
+  /// it.
   const std::vector<std::size_t>& order() const { return order_; }
   const CsgParts& csg() const { return csg_; }
   std::vector<SolidBoundary> take_boundaries() { return std::move(csg_.boundaries); }
@@ -58,14 +60,14 @@ public:
   /// Writes to `to`, in order, the objects of [begin, end) that can be hit. Throws InputError if an object's
   /// coordinates exceed the range of single precision.
   ObjectCounts place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const;
-  /// Returns the same counts if the objects have places already, given by object; nothing if an object that
-  /// can be hit has none.
+  /// Returns the counts that place() returns, if `places` has the place of each object; nothing if an object
+  /// that can be hit has no place.
   std::optional<ObjectCounts> count_placed(std::uint32_t begin, std::uint32_t end,
                                            std::span<const std::uint32_t> places) const;
   /// Returns how many of `objects` have records in other tables.
   ObjectCounts count_tables(std::span<const PlacedObject> objects) const;
 
-  /// Writes the records of `objects`. `before` counts the entries of the tables that precede theirs.
+  /// Writes the records of `objects`. `before` counts the entries of other tables in front of their entries.
   void write(std::span<const PlacedObject> objects, const RecordTables& tables, const ObjectCounts& before,
              kernel::ObjectRecord* to) const;
 
@@ -73,24 +75,24 @@ public:
   /// coordinates.
   bool are_plain_triangles() const;
   /// Counts as count_placed() does, and writes the records of objects that need no other tables; `places`
-  /// says where in `to` each belongs. Needs are_plain_triangles().
+  /// tells where in `to` each record belongs. Needs are_plain_triangles().
   std::optional<ObjectCounts> write_placed(std::uint32_t begin, std::uint32_t end,
                                            std::span<const std::uint32_t> places, const RecordTables& tables,
                                            kernel::ObjectRecord* to) const;
-  /// Writes as write() does the objects of [begin, end) of the scene if they need no other tables; skips
-  /// objects without a place.
+  /// Writes the records of the objects of [begin, end) to their places, as write() does. The objects must
+  /// need no other tables; skips objects without a place.
   void write_apart(std::uint32_t begin, std::uint32_t end, std::span<const std::uint32_t> places,
                    const RecordTables& tables, kernel::ObjectRecord* to) const;
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
 
-  /// Writes the records of projectors, then of unbounded objects; `before` as for write().
+  /// Writes the records of projectors, then of unbounded objects; `before` is as for write().
   void write_unbounded(const RecordTables& tables, const ObjectCounts& before,
                        kernel::ObjectRecord* to) const;
 
 private:
   /// A run of shapes, a run of CSG parts, or one mesh.
   struct Piece {
-    std::uint32_t first;             ///< number of its first object
+    std::uint32_t first;             ///< number of the piece's first object
     const Object* object;            ///< the first shape, or the mesh's object; null for parts
     const Mesh* mesh;                ///< null for shapes and parts
     std::span<const Vec3f> vertices; ///< in the world
@@ -118,11 +120,11 @@ private:
   void visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCounts& counts,
                        Visit visit) const;
   void add_shape(const Object& object);
-  /// Adds a polygon as triangles. Returns false if the object has to stay a polygon, or is none.
+  /// Adds a polygon as triangles. Returns false if the object is no polygon, or has to stay a polygon.
   bool add_as_triangles(const Object& object);
   void add_parts(std::size_t whole, unsigned threads);
   void add_projectors(const Scene& scene, std::size_t first);
-  /// Adds a mesh; `part` is the CSG part that it is, or null.
+  /// Adds a mesh; `part` is the CSG part that the mesh is, or null.
   void add_mesh(const Object& object, const Mesh& mesh, const CsgPart* part, unsigned threads);
   void grow(std::size_t objects);
   std::uint32_t end_of(const Piece& piece) const;

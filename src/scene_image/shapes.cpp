@@ -75,7 +75,8 @@ void set_proportions(PlacedShape& shape, const Transform& to_world) {
     shape.parameters[i] = static_cast<float>(axis[i] / axis[2] - 1);
 }
 
-/// Returns the transformation of a space with one axis from `base` to `cap` and length `radius` to the sides.
+/// Returns the transformation from the space in which a round shape has height and radius 1: its z axis goes
+/// from `base` to `cap`, and its other axes have length `radius`.
 Transform along_axis(const Vec3& base, const Vec3& cap, double radius) {
   Transform t;
   complete_basis(unit(cap - base), t.rows[0], t.rows[1]);
@@ -154,7 +155,7 @@ PlacedShape place(const Object& object, const Box& box) {
   Vec3 scale, middle(0);
   for (int i = 0; i < 3; ++i)
     scale[i] = glm::length(object.transform.rows[i]);
-  constexpr double kFarthest = 1e12; // up to here, floats still tell single units apart
+  constexpr double kFarthest = 1e12; // up to here, double precision is exact to less than a unit
   const double away = glm::length(object.transform.rows[3]);
   if (away > double{kMaxHitDistance} && away < kFarthest) middle = object.transform.inverse().point(Vec3(0));
   for (int i = 0; i < 3; ++i) {
@@ -167,7 +168,7 @@ PlacedShape place(const Object& object, const Box& box) {
   const double largest = std::max({half.x, half.y, half.z});
   Transform own;
   for (int i = 0; i < 3; ++i) {
-    // A flat box shows both of its sides.
+    // A flat box becomes slightly thick, since both of its sides may be seen.
     const double least = half[i] == 0 ? std::min(1e-6 * largest, 1e-4 / scale[i]) : 1e-12 * largest;
     own.rows[i][i] = std::max(half[i], least);
   }
@@ -215,8 +216,8 @@ PlacedShape place(const Object& object, const Torus& torus) {
   return shape;
 }
 
-/// Turns a symmetric matrix until it is diagonal, by Jacobi rotations. Its diagonal then has the factors of
-/// the squares along the axes.
+/// Makes a symmetric matrix diagonal, by Jacobi rotations, and sets `axes` to the directions that become
+/// axes. The diagonal then has the factors of the squares along these axes.
 void diagonalise(double (&m)[3][3], Vec3 (&axes)[3]) {
   for (int i = 0; i < 3; ++i)
     axes[i] = Vec3(i == 0, i == 1, i == 2);
@@ -243,14 +244,15 @@ void diagonalise(double (&m)[3][3], Vec3 (&axes)[3]) {
 
 struct CurvedAxis {
   Vec3 direction;
-  double square; ///< factor of the square of the coordinate along it
+  double square; ///< factor of the square of the coordinate along the axis
 };
 
-/// Returns an ellipsoid that is measured from the point (0, 0, 0) of its surface, so that no digits are lost
-/// however large it is. In its own space it is a sphere of diameter 1 below the origin.
+/// Returns an ellipsoid that goes through (0, 0, 0), in a space with this point as its origin, so that no
+/// digits are lost however large the ellipsoid is. In this space it is a sphere of diameter 1 below the
+/// origin.
 PlacedShape place_about_surface(const Object& object, const std::vector<CurvedAxis>& axes,
                                 const Vec3& linear) {
-  // If all squares have equal factors, z is the direction out.
+  // If all squares have equal factors, the z axis of this space points out of the ellipsoid.
   Vec3 out(0), across[2];
   for (int i = 0; i < 3; ++i)
     out[i] = glm::dot(linear, axes[i].direction) / std::sqrt(axes[i].square);
@@ -269,7 +271,7 @@ PlacedShape place_about_surface(const Object& object, const std::vector<CurvedAx
   return shape;
 }
 
-/// Returns a quadric whose own space has the quadric's axes as its axes, and factors of 1, 0 or -1.
+/// Returns a quadric in a space with the quadric's own axes, in which its squares have factors of 1, 0 or -1.
 PlacedShape place(const Object& object, const Quadric& quadric) {
   double m[3][3] = {{quadric.square.x, quadric.mixed.x / 2, quadric.mixed.y / 2},
                     {quadric.mixed.x / 2, quadric.square.y, quadric.mixed.z / 2},
@@ -277,7 +279,8 @@ PlacedShape place(const Object& object, const Quadric& quadric) {
   Vec3 axes[3];
   diagonalise(m, axes);
   const double largest = std::max({std::abs(m[0][0]), std::abs(m[1][1]), std::abs(m[2][2])});
-  // Curved axes come first. The middle along each lies where its linear term vanishes.
+  // Axes whose squares have factors are curved, and come first. The middle along a curved axis is where the
+  // linear term vanishes.
   std::vector<CurvedAxis> curved, straight;
   for (int i = 0; i < 3; ++i)
     (std::abs(m[i][i]) > 1e-9 * largest ? curved : straight).push_back({axes[i], m[i][i]});
@@ -423,8 +426,8 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
   if (!has_boundary(shape)) return shape;
   const std::uint32_t kind = shape.kind_and_flags & object_flag::kind_mask;
   const bool is_round = kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive>;
-  // The error of a point grows with its coordinates and with those of its ray's origin. Objects farther away
-  // than `far_away` are too small in the picture for their boundary to matter.
+  // The error of a point grows with its coordinates and with those of the ray's origin. Objects farther away
+  // than `far_away` are so small in the picture that their boundary does not matter.
   const Vec3 start = eye.start_of_boundaries();
   const double far_away = 100 + 4 * glm::length(start);
   Vec3 reach = glm::abs(start);
@@ -435,7 +438,7 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
   }
   PlacedShape solid = shape;
   float* const map = solid.geometry;
-  const auto error = [&](int row) { // in units of the shape's own space
+  const auto error = [&](int row) { // error of a coordinate in the shape's own space
     constexpr double kRounding = 4e-7;
     double sum = std::abs(map[row * 4 + 3]);
     for (int i = 0; i < 3; ++i)
@@ -454,7 +457,8 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
     for (int row = 0; row < 3; ++row)
       scale(row, 1 / (1 + errors[row]));
   } else if (is_round) {
-    // A cone has another radius at another height. Open ones have their boundary inside.
+    // An error along a cone's axis also changes its radius. Open shapes become larger, because their boundary
+    // is inside.
     const double sign = (shape.kind_and_flags & object_flag::open) != 0 ? -1 : 1;
     const double narrower =
         sign * std::min(across + (kind == kPrimitiveKind<ConePrimitive> ? 2 * along : 0), 0.5);
@@ -467,7 +471,7 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
 }
 
 bool has_bounds(const Object& object) {
-  // Most shapes always have bounds, so that they need not be placed to find out.
+  // Most kinds of shapes always have bounds, so that there is no need to place the shape.
   if (std::holds_alternative<Plane>(object.shape)) return false;
   return !std::holds_alternative<Quadric>(object.shape) || place_shape(object).is_bounded;
 }

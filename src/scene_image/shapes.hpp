@@ -1,5 +1,5 @@
-// Converts shapes of a Scene to records: each in single precision, in the space of its primitive in the
-// kernel.
+// Converts shapes of a Scene to fields of records. Each shape is in single precision, in the own space of its
+// primitive in the kernel.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -15,29 +15,30 @@ struct PlacedShape {
   float parameters[2] = {0, 0}; ///< the first values of an ExtraRecord
   bool has_parameters = false;
   bool is_bounded = true;
-  /// True if nothing can hit it, as a sphere without a radius.
+  /// True if no ray can hit the shape, such as a sphere without a radius.
   bool is_empty = false;
 
   kernel::Aabb bounds() const;
 };
 
-/// Writes an affine map as records have it: three rows of four.
+/// Writes an affine map as records have it: three rows of four numbers.
 void write_map(const Transform& map, float (&to)[12]);
 
-/// Returns the record of a shape that is neither a mesh nor a CSG. Throws InputError if its transformation is
-/// singular.
+/// Returns the record of a shape that is neither a mesh nor a CSG. Throws InputError if the object's
+/// transformation is singular.
 PlacedShape place_shape(const Object& object);
 
 bool has_boundary(const PlacedShape& shape);
-/// Returns the shape that points are tested against if rounding alone moves them off its surface. As in
-/// POV-Ray, such points are inside of a box, a half-space and an open cylinder or cone, but not of a closed
-/// one; this decides which of the coinciding surfaces of a CSG is seen. `eye` is where most rays begin.
+/// Returns a slightly larger or smaller shape, against which CSG tests points. As in POV-Ray, points that
+/// only rounding moves off the surface of `shape` are then inside of a box, a half-space and an open cylinder
+/// or cone, but outside of a closed cylinder or cone. This decides which of several coinciding surfaces of a
+/// CSG is seen. `eye` is where most rays begin.
 PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye);
 
-/// Returns whether the shape of an object has finite bounds, not counting those that CSG may give it.
+/// Returns whether the shape of an object has finite bounds, not counting bounds that CSG may give it.
 bool has_bounds(const Object& object);
 
-/// Throws InputError, beginning with `name`, if a number of the object's shape is not finite.
+/// Throws InputError, with a message that begins with `name`, if a number of the shape is not finite.
 void validate_shape(const Object& object, const std::string& name);
 
 } // namespace celltrace

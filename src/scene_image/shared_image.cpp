@@ -10,7 +10,7 @@ namespace celltrace {
 
 using namespace kernel;
 
-// The records that SceneImage does not lay out itself; it makes the same assertion about its own tables.
+// Asserts this for the accelerator's records; image_layout.cpp asserts it for all other tables.
 static_assert(consists_of_words<CellRecord>() && consists_of_words<NodeRecord>(),
               "an image is converted word by word");
 
@@ -55,7 +55,7 @@ void SharedImage::copy(std::size_t begin, std::size_t end) {
   }
 }
 
-/// Copies the header, the only record with numbers of another width.
+/// Copies the header field by field: it is the only record with numbers that are not words.
 void SharedImage::copy_header() {
   ImageHeader header = image_.header();
   reverse_bytes(header);

@@ -12,12 +12,12 @@
 
 namespace celltrace {
 
-/// The image itself if the SPUs have the host's byte order, which costs nothing; else a copy in their byte
-/// order. Thread safety: as a standard container.
+/// The image itself if the SPUs have the host's byte order, which costs nothing; else a copy in the SPUs'
+/// byte order. Thread safety: as a standard container.
 class SharedImage {
 public:
-  /// Refers to `image`, which must stay where it is while this object lives, and must have reserved an
-  /// accelerator's room before it is published.
+  /// Refers to `image`, which must stay where it is while this object lives. Room for an accelerator must be
+  /// reserved in the image before it is published.
   SharedImage(const SceneImage& image, std::endian spe_order)
       : image_(image), converts_(spe_order != std::endian::native) {}
 

@@ -15,7 +15,7 @@ namespace celltrace::geometry {
 
 namespace {
 
-/// Lengths between these cause no trouble in any product or quotient of two of them.
+/// Range of lengths whose products and quotients neither overflow nor vanish.
 constexpr double kShort = 1e-9, kLong = 1e9;
 
 double largest(const Vec3& vector) {
@@ -31,7 +31,7 @@ bool is_usual(double length) {
   return size > kShort && size < kLong;
 }
 
-// One overload of is_usual() for each shape: returns whether its numbers certainly cause no trouble.
+// One overload of is_usual() for each shape: returns whether its lengths are certainly in this range.
 
 bool is_usual(const Sphere& sphere) {
   return are_near({sphere.centre}) && is_usual(sphere.radius);

@@ -1,4 +1,4 @@
-// Boundaries of the solids of CSG, which depend on where rays start.
+// Records of CSG's solids whose boundaries depend on where rays start.
 #pragma once
 
 #include "prepare/eye.hpp"
@@ -9,10 +9,10 @@
 
 namespace celltrace {
 
-/// A solid whose record describes its shape after with_boundary().
+/// A solid whose record has the shape that with_boundary() returns.
 struct SolidBoundary {
-  std::uint32_t solid; ///< index among the solids
-  PlacedShape shape;   ///< without the boundary
+  std::uint32_t solid; ///< index in CsgParts::solids
+  PlacedShape shape;   ///< shape before with_boundary()
 
   void write(const Eye& eye, kernel::SolidRecord* solids) const;
 };

@@ -58,7 +58,7 @@ double versine(double angle) {
   return 2 * sine * sine;
 }
 
-/// Sets the width of a cylindrical light. As in POV-Ray, one without a radius has no edge.
+/// Sets the width of a cylindrical light. As in POV-Ray, a light without a radius has no edge.
 void set_width(const Light& light, LightRecord& r) {
   constexpr double kNoWidth = 1e-30;
   const double width = std::max(light.falloff, kNoWidth);
@@ -70,8 +70,8 @@ float inverse_of_steps(int places) {
   return places > 1 ? 1.0f / static_cast<float>(places - 1) : 0;
 }
 
-/// Sets the area of a light. As in POV-Ray, an area of a single light is a point in the middle, and one that
-/// turns to surfaces is round.
+/// Sets the area of a light. As in POV-Ray, an area of one row and one column is a point in the middle, and
+/// an area that turns to surfaces is round.
 void set_area(const LightArea& area, LightRecord& r) {
   if (area.columns == 1 && area.rows == 1) return;
   copy(area.across, r.across);
@@ -87,7 +87,7 @@ void set_area(const LightArea& area, LightRecord& r) {
   if (area.orient) r.kind_and_flags |= light_flag::orient;
 }
 
-/// Returns the flags of features that the numbers of a record require of the kernel.
+/// Returns the flags of features that the kernel needs because of a record's numbers.
 std::uint32_t numeric_flags(const MaterialRecord& r) {
   const auto any = [](const float(&v)[3]) { return v[0] != 0 || v[1] != 0 || v[2] != 0; };
   std::uint32_t flags = 0;
@@ -177,7 +177,7 @@ bool has_grain(const Finish& finish) {
 } // namespace
 
 bool has_record(const Finish& finish) {
-  // Thin films change highlights and mirrored light as well.
+  // A thin film counts even without diffuse light: it changes highlights and mirrored light as well.
   return finish.irid != 0 || has_grain(finish);
 }
 
@@ -195,7 +195,7 @@ FinishRecord make_record(const Finish& finish, const Scene& scene) {
 }
 
 InteriorRecord make_record(const Interior& interior) {
-  // The unit of caustics is POV-Ray's.
+  // POV-Ray's unit of caustics
   constexpr double kCausticsUnit = 45;
   InteriorRecord r{};
   r.ior = static_cast<float>(interior.ior);

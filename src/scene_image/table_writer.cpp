@@ -21,7 +21,7 @@ namespace {
 
 using Simd = HostSimd<BaselineArch>;
 
-/// Returns slightly enlarged bounds of everything, or a unit box if there is nothing.
+/// Returns slightly enlarged bounds, or a unit box if the bounds are empty.
 Aabb bounds_of(Aabb all) {
   if (all.min[0] > all.max[0]) return {{0, 0, 0}, {1, 1, 1}};
   float largest = 0;
@@ -176,7 +176,7 @@ void TableWriter::write_unbounded(const SceneObjects& objects, const ObjectCount
 void TableWriter::write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed,
                                 std::uint32_t* places, unsigned threads) {
   // If no other table depends on the order, objects are written in the order of the scene: writing records to
-  // scattered places touches fewer cache lines than reading triangles and vertices from there.
+  // scattered places touches fewer cache lines than reading scattered triangles and vertices.
   const bool has_tables = header_.extra_count != 0 || header_.blend_count != 0;
   if (!has_tables) {
     std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
@@ -241,8 +241,8 @@ void TableWriter::write_instanced(const InstancedMeshes& instanced) {
                    header_.extra_count - instanced.extra_count()});
 }
 
-/// Returns the index of the instances' first ExtraRecord. ExtraRecords have the order of objects: ordinary
-/// ones, instances, unbounded ones, meshes that instances share.
+/// Returns the index of the instances' first ExtraRecord. The table has the ExtraRecords of ordinary objects
+/// first, then of instances, of projectors and unbounded objects, and of meshes that instances share.
 std::uint32_t TableWriter::first_instance_extra(const MeshInstances& instances) const {
   return header_.extra_count - other_extras_ - instances.counts().extras;
 }

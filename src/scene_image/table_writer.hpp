@@ -20,39 +20,41 @@
 
 namespace celltrace {
 
-/// Writes the records of a scene at the offsets in the header. Its arguments must not change while it lives.
+/// Writes the records of a scene at the offsets in the header. The constructor's arguments must not change
+/// while this object lives.
 class TableWriter {
 public:
-  /// Begins an image at `base`. `other_extras` is the number of ExtraRecords behind those of objects that an
-  /// accelerator holds.
+  /// Begins an image at `base`. `other_extras` is the number of ExtraRecords behind those of objects in the
+  /// accelerator.
   TableWriter(std::byte* base, const kernel::ImageHeader& header, const Scene& scene,
               const TextureTables& textures, std::uint32_t other_extras);
 
-  /// Writes the header, and zeros everything but objects, so that the gaps between tables always hold the
-  /// same bytes.
+  /// Writes the header, and sets everything but objects to zero, so that the gaps between tables always hold
+  /// the same bytes.
   void write_header();
   void write_lights(const LightSets& sets, std::span<const std::uint32_t> projector_sizes);
   void write_surfaces(TextureTables& textures);
-  /// Writes the tables of CSG; indices become offsets.
+  /// Writes the tables of CSG, in which offsets replace indices.
   void write_csg(const CsgParts& csg);
   void write_polygons(const PolygonTable& polygons);
-  /// Writes objects without bounds; `before` counts the entries of tables that precede theirs.
+  /// Writes projectors and objects without bounds; `before` counts the entries of other tables in front of
+  /// theirs.
   void write_unbounded(const SceneObjects& objects, const ObjectCounts& before);
-  /// Writes the objects that are no instances: `placed`, in the order of the image. `places` has room for a
-  /// word per object.
+  /// Writes the objects `placed`, which are no instances, in the order of the image. `places` is work memory
+  /// of one word per object.
   void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
                      unsigned threads);
-  /// Writes the objects if they need no other tables. `places`, by object, has the place in the image or
-  /// kNoPlace.
+  /// Writes the objects, which must need no other tables. `places` has for each object its place in the
+  /// image, or kNoPlace.
   void send_objects(const SceneObjects& objects, std::span<const std::uint32_t> places, unsigned threads);
   /// Writes the objects of [begin, end) of the scene while it counts them: see SceneObjects::write_placed().
   std::optional<ObjectCounts> send_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
                                           std::uint32_t begin, std::uint32_t end);
   void write_groups(std::span<const std::uint32_t> groups, unsigned threads);
   void write_instanced(const InstancedMeshes& instanced);
-  /// Writes the instances; they come behind everything else.
+  /// Writes the instances, which come behind all other objects.
   void write_instances(const MeshInstances& instances, unsigned threads);
-  /// Writes the bounds of all objects, as the last step. `around` are the bounds of those that are no
+  /// Writes the bounds of all objects, as the last step. `around` are the bounds of the objects that are no
   /// instances.
   void write_bounds(kernel::Aabb around);
 

@@ -28,11 +28,12 @@ static_assert(kDeepestMap == kDeepestMapWalk);
 
 class Check {
 public:
-  /// Begins checks of a texture that errors call `name`. `has_surface`: it belongs to an object of the scene.
+  /// Begins checks of a texture that errors call `name`. `has_surface` tells whether an object of the scene
+  /// has it.
   explicit Check(std::string name, bool has_surface = true)
       : name_(std::move(name)), has_surface_(has_surface) {}
 
-  /// Continues with another texture. Maps that it shares with earlier ones are not checked again.
+  /// Continues with another texture. Maps that it shares with earlier textures are not checked again.
   void rename(std::string name) { name_ = std::move(name); }
 
   void material(const Material& m, int depth, int layers) {
@@ -86,8 +87,7 @@ private:
   void check_depth(int depth) const {
     if (depth == kDeepestMap) fail("has maps that nest more than " + std::to_string(kDeepestMap) + " deep");
   }
-  /// Checks that positions ascend. A map that several textures share is checked once, since trees of shared
-  /// maps would take for ever.
+  /// Throws InputError unless positions ascend.
   template <class Entries> void ascending(const Entries& entries) const {
     const auto descends = [](const auto& a, const auto& b) { return a.position > b.position; };
     const auto found = std::adjacent_find(entries.begin(), entries.end(), descends);
@@ -95,6 +95,8 @@ private:
       fail("has a map whose positions do not ascend: that of entry " +
            std::to_string(found - entries.begin() + 1) + " is less than the one before");
   }
+  /// Checks a map unless it has been checked at this or a greater depth: trees of shared maps would take for
+  /// ever.
   template <class T, class Visit> void map(const PatternMap<T>& map, int depth, Visit visit) {
     check_depth(depth);
     int& deepest = seen_.try_emplace(&map, -1).first->second;
@@ -165,7 +167,7 @@ private:
     for (const Object& clip : *object.clipped_by)
       solid(clip, depth + 1);
   }
-  /// Checks a pattern; `depth` is the depth of maps nested in it.
+  /// Checks a pattern; `depth` is the number of maps around a pigment that it consists of.
   void pattern(const Pattern& p, int depth) {
     if ((p.uv_mapping || std::holds_alternative<pattern::Slope>(p.kind)) && !has_surface_)
       fail("has a pattern of surfaces, but no surface");
@@ -183,14 +185,14 @@ private:
              s.altitude[2], s.offset});
     if (const auto* inside = std::get_if<pattern::Inside>(&p.kind)) solid(*inside->of, 0);
     if (const auto* grey = std::get_if<pattern::Grey>(&p.kind)) {
-      check_depth(depth); // a single colour becomes a map, too
+      check_depth(depth); // a pigment of one colour becomes a map as well
       pigment(*grey->of, depth);
     }
   }
 
   std::string name_;
   bool has_surface_;
-  std::map<const void*, int> seen_; ///< maps, with the depth at which they were checked
+  std::map<const void*, int> seen_; ///< deepest level at which a map was checked; key: its address
 };
 
 } // namespace

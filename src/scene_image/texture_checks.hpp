@@ -7,11 +7,11 @@
 
 namespace celltrace {
 
-/// Throws InputError, naming the material, unless all numbers are finite, maps have entries and neither nest
-/// nor layer too deeply, and every pattern has a known kind.
+/// Throws InputError with the material's number unless all numbers are finite, all maps have entries, neither
+/// maps nor layers nest too deeply, and every pattern has a known kind.
 void validate_textures(const std::vector<Material>& materials);
 
-/// Checks the textures of the scene's sky sphere in this way.
+/// Checks the pigments of the scene's sky sphere as validate_textures() checks materials.
 void validate_sky(const Scene& scene);
 
 } // namespace celltrace

@@ -20,7 +20,7 @@ void set(const Transform& to_space, float (&m)[12]) {
       m[row * 4 + column] = static_cast<float>(to_space.rows[column][row]);
 }
 
-/// Returns whether a pattern's values depend on more than points.
+/// Returns whether a pattern's values depend on more than the point.
 bool depends_on_surface(const PatternRecord& r) {
   return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
          Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
@@ -101,7 +101,7 @@ void TextureTables::add_table(PatternTable table) {
   if (has_features && features.empty()) features = make_features();
 }
 
-/// Adds the steps of a space; the step that points go through first is written last.
+/// Adds the steps of a space in the order in which points go through them; `space` has the reverse order.
 void TextureTables::add_steps(PatternRecord& r, const std::vector<SpaceStep>& space) {
   const auto first_step = static_cast<std::uint32_t>(steps.size());
   r.steps = first_step;

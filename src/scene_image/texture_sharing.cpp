@@ -8,7 +8,8 @@ namespace celltrace {
 
 namespace {
 
-/// The number of entries of all maps from which on they are shared; that many copies would take some 20 MB.
+/// Limit on entries of all maps if each texture has its own; they take some 20 MB. If there are more,
+/// textures share maps.
 constexpr double kManyEntries = 1 << 17;
 
 /// Counts the entries of maps as if each use of a map had its own copy; in floating point, as the number may
@@ -60,7 +61,8 @@ bool TextureSharing::may_be_relative(const PatternMap<Material>& map) {
   return same_everywhere_[&map] = all;
 }
 
-/// A thin film's thickness may vary from point to point.
+/// Returns whether a texture is the same at all points, except for its maps. A thin film's thickness may
+/// vary.
 bool TextureSharing::is_same_everywhere(const Material& material) {
   if (material.inside) return false;
   if (material.map) return may_be_relative(*material.map);

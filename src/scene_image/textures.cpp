@@ -29,7 +29,7 @@ float inverse_width(double from, double to) {
   return std::isfinite(inverse) ? inverse : 0;
 }
 
-/// Returns the sum of the greatest `count` of the numbers of nodes that several materials push.
+/// Returns the sum of the `count` greatest of the numbers of nodes that materials push.
 std::uint32_t sum_of_greatest(std::vector<std::uint32_t> nodes, std::size_t count) {
   std::sort(nodes.begin(), nodes.end(), std::greater<>());
   std::uint32_t sum = 0;
@@ -37,8 +37,8 @@ std::uint32_t sum_of_greatest(std::vector<std::uint32_t> nodes, std::size_t coun
     sum = std::min(sum + nodes[i], kMostSurfaceNodes);
   return sum;
 }
-/// Returns how many nodes a mirror's rays take on the stack; reflected light that is bent needs another node
-/// that collects it.
+/// Returns the number of nodes that a mirror's rays take on the stack. A mirror with a reflection exponent
+/// needs a second node, which collects the reflected light.
 std::uint32_t nodes_of_mirror(const MaterialRecord& r) {
   if ((r.flags & material_flag::reflects) == 0) return 0;
   return (r.flags & material_flag::reflection_exponent) != 0 ? 2 : 1;
@@ -89,7 +89,8 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene), sharing_(scene
 }
 
 std::uint32_t TextureTables::most_nodes(bool has_blends) const {
-  // The rays of a node may hit as many maps as a packet has lanes, besides surfaces without and with layers.
+  // The rays of a node may hit surfaces without and with layers, and as many texture maps as a packet has
+  // lanes.
   const std::uint32_t of_material = 2 * unmapped_nodes_ + sum_of_greatest(mapped_nodes_, kSimdLanes);
   return std::min(kMostSurfaceNodes, has_blends ? 3 * of_material : of_material);
 }
@@ -142,8 +143,8 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       const Known below = add_material(*material.below, outer, Place::inside);
       r.flags |= material_flag::layered;
       r.below = below.index;
-      // Light that comes through a layer stays inside, but a Fresnel mirror needs to know what the ray is
-      // inside of.
+      // Light that a layer lets through needs no ray to reach the layer below. A Fresnel mirror needs to know
+      // which object the ray is in.
       traits.opaque = traits.opaque || below.traits.opaque;
       constexpr std::uint32_t kNeedsRays = material_flag::reflects | material_flag::fresnel;
       traits.spawns = (r.flags & kNeedsRays) != 0 || below.traits.spawns;
@@ -173,7 +174,7 @@ TextureTables::Known TextureTables::add_material(const Material& material, const
   return {index, traits};
 }
 
-/// Adds a material of a relative map, or finds an equal one.
+/// Returns the material of an entry of a relative map; adds it if no equal material has been added.
 TextureTables::Known TextureTables::add_shared_material(const Material& material) {
   const auto words = {hash_of(material.pigment.rgb), hash_of(material.finish.ambient),
                       std::hash<const void*>()(material.map.get()),
@@ -190,8 +191,8 @@ TextureTables::Known TextureTables::add_shared_material(const Material& material
   return added;
 }
 
-/// Returns the first entry of a block equal to this one, which is then removed, or of this block if there is
-/// none; only a block at the end of the table is looked up.
+/// Returns the index of the first entry of an equal block, and removes this block; if there is no equal
+/// block, returns the index of this block's first entry. Looks only for blocks at the end of the table.
 std::uint32_t TextureTables::share_entries(const EntryBlock& block) {
   const auto bytes_of = [this](const EntryBlock& one) {
     return std::string_view(reinterpret_cast<const char*>(entries.data() + one.first),
@@ -249,7 +250,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   for (const auto& entry : map->entries)
     weights += entry.position;
   Traits traits;
-  std::vector<std::uint32_t> nodes; // by entry
+  std::vector<std::uint32_t> nodes; // numbers of nodes, by entry
   for (std::size_t i = 0; i < count; ++i) {
     const auto& from = map->entries[i];
     MapEntryRecord entry{};
@@ -257,7 +258,8 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
     entry.inverse_width = i == 0 ? 0 : inverse_width(map->entries[i - 1].position, from.position);
     entry.child = kNoOffset;
     if constexpr (!std::is_same_v<T, Normal>) {
-      // Between two equal entries only the lower one counts, so that it is evaluated once.
+      // Between two equal entries a map is constant: only the lower entry counts, so that it is evaluated
+      // once.
       if (i != 0 && from.value == map->entries[i - 1].value) {
         const float position = entry.position;
         entry = entries[first + i - 1];
@@ -299,7 +301,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   if (is_relative) patterns[pattern].kind_and_flags |= pattern_flag::relative;
   if (is_nested) patterns[pattern].kind_and_flags |= pattern_flag::nested;
   traits.by_surface = traits.by_surface || of_pattern.by_surface;
-  // If they are not averaged, two entries count in each lane.
+  // In an average all entries count, in any other map two entries in each lane.
   traits.nodes = sum_of_greatest(nodes, map->is_average ? count : 2 * kSimdLanes);
   if (is_shared) known_[key] = {pattern, traits};
   return {pattern, traits};
@@ -318,7 +320,7 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
         !normal.slopes.empty() &&
         !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask);
     const std::uint32_t first = has_slopes ? add_slopes(normal.slopes) : 0;
-    // Nested patterns are evaluated at points of this pattern's space.
+    // A pigment that the pattern consists of is evaluated at points of the pattern's own space.
     const Known pattern =
         add_pattern(normal.pattern, outer, {}, false, has_slopes ? normal.slopes.size() : 0);
     r.pattern = pattern.index;
@@ -339,8 +341,8 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
   return {static_cast<std::uint32_t>(normals.size() - 1), traits};
 }
 
-/// Turns a list with a wave, used as a normal, into a slope map over the list's indices, scaled by a power of
-/// two.
+/// Turns a list with a wave, used as a normal, into a slope map over the list's indices, which are scaled by
+/// a power of two.
 void TextureTables::set_list_heights(PatternRecord& r, const Pattern& pattern) {
   constexpr double kShare = 0.125;
   static_assert(kShare * kMostListEntries <= 1);
@@ -391,7 +393,8 @@ void TextureTables::add_rainbow(const Rainbow& rainbow) {
   rainbows.push_back(r);
 }
 
-/// Returns the index of the pattern whose map a pigment is.
+/// Adds a pigment as a pattern with a map, even if it has a single colour. Returns the pattern's index and
+/// traits.
 TextureTables::Known TextureTables::add_pigment(const Pigment& pigment, const PatternSpace& outer) {
   if (pigment.map) return add_map(pigment.map, outer, Place::inside);
   auto map = std::make_shared<PatternMap<Pigment>>();

@@ -23,15 +23,15 @@ namespace celltrace {
 /// Returns the sky sphere as a texture of layers; the scene must have one.
 Material sky_of(const Scene& scene);
 
-/// The tables of all textures. References among them are indices until relocate() turns them into offsets;
-/// kNoOffset stays.
+/// The tables of all textures. References among the tables are indices until relocate() turns them into
+/// offsets; kNoOffset stays kNoOffset.
 class TextureTables {
 public:
-  /// Builds the tables. The first materials are the scene's, by index. The scene must be valid. Throws
-  /// InputError if the kernel does not know a pattern.
+  /// Builds the tables. The first materials have the indices of the scene's materials. The scene must be
+  /// valid. Throws InputError if the kernel does not know a pattern.
   explicit TextureTables(const Scene& scene);
 
-  /// Returns ImageHeader::surface_nodes. `has_blends`: some surfaces have several materials.
+  /// Returns ImageHeader::surface_nodes. `has_blends` tells whether some surfaces have several materials.
   std::uint32_t most_nodes(bool has_blends) const;
 
   /// Turns all references into offsets in the image.
@@ -43,10 +43,10 @@ public:
   std::vector<kernel::MapEntryRecord> entries;
   std::vector<kernel::NormalRecord> normals;
   std::vector<kernel::FinishRecord> finishes;
-  bool has_translucent_side = false; ///< some material that looks different from inside lets light through
-  bool by_surface = false;           ///< some materials are object_flag::by_surface
-  bool filters = false;              ///< some materials let light through
-  bool filters_by_surface = false;   ///< some materials do both
+  bool has_translucent_side = false; ///< true if a material with another look inside lets light through
+  bool by_surface = false;           ///< true if a material has object_flag::by_surface
+  bool filters = false;              ///< true if a material lets light through
+  bool filters_by_surface = false;   ///< true if one material has both properties
   std::vector<kernel::FeatureRecord>
       features; ///< this table and the next two are empty unless a pattern or a warp reads them
   std::vector<kernel::GradientRecord> gradients; ///< empty if there are no features
@@ -55,10 +55,10 @@ public:
   /// The objects whose insides are patterns. Their conditions come first in the scene's CSG, in this order.
   std::vector<std::shared_ptr<const Object>> objects;
   std::vector<kernel::RainbowRecord> rainbows; ///< visible rainbows only
-  std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
-  /// By material of the scene: the flags of an object that consists of it, which are opaque, two_sided and
-  /// by_surface of object_flag, and the flags of material_word. The latter lie below all flags of object_flag
-  /// except the kinds.
+  std::uint32_t sky;                           ///< index of the sky's uppermost layer, or kNoOffset
+  /// Flags of an object that consists of a material, by material of the scene: opaque, two_sided and
+  /// by_surface of object_flag, and the flags of material_word. Flags of material_word lie below all flags of
+  /// object_flag except the kinds.
   std::vector<std::uint32_t> object_flags;
 
 private:
@@ -75,18 +75,18 @@ private:
     std::size_t count;
   };
   struct Known {
-    std::uint32_t index; ///< index of a material, or of the pattern whose map it is
+    std::uint32_t index; ///< index of a material, or of the pattern that has a map
     Traits traits;
   };
   enum class Child : std::uint8_t { pattern, normal, material, none };
   /// The position of a map: inside another map, or not.
   enum class Place : std::uint8_t { inside, root };
 
-  /// Adds a pattern. `inside` is the space of a pigment that is itself the pattern.
+  /// Adds a pattern. `inside` is the space of a pigment that the pattern consists of.
   Known add_pattern(const Pattern& pattern, const PatternSpace& outer, const PatternSpace& inside,
                     bool is_average, std::size_t entry_count);
   Known add_pigment(const Pigment& pigment, const PatternSpace& outer);
-  /// Writes a material and its layers. `place` is the material's position if it is a map.
+  /// Writes a material and its layers. `place` is the place of the material's map, if it has one.
   Traits fill_material(std::uint32_t index, const Material& material, const PatternSpace& outer, Place place);
   template <class T>
   Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const PatternSpace& outer, Place place);
@@ -104,11 +104,12 @@ private:
   const Scene& scene_;
   std::uint32_t unmapped_nodes_ =
       0; ///< largest Traits::nodes of the scene's materials that are no texture maps
-  std::vector<std::uint32_t> mapped_nodes_; ///< Traits::nodes of each material that is a texture map
+  std::vector<std::uint32_t> mapped_nodes_; ///< Traits::nodes of each texture map and two-sided material
   std::vector<Child> children_;             ///< index: entry; its child
   std::vector<PatternTable> tables_;        ///< index: pattern; the table it reads
   TextureSharing sharing_;
-  /// Maps that several textures share, by address; if sharing is needed, maps inside others are kept apart.
+  /// Maps that several textures share, by address; if sharing is needed, the same map inside others has
+  /// another entry.
   std::map<std::pair<const void*, Place>, Known> known_;
   std::unordered_multimap<std::size_t, std::pair<const Material*, Known>>
       known_materials_;                                     ///< entries of relative maps, by hash

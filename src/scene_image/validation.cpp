@@ -30,10 +30,10 @@ bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// The name of what is checked, which becomes text only in an error.
+/// The name of a checked item, which becomes text only if there is an error.
 struct Name {
   const char* what;
-  std::size_t index = kNoNumber; ///< index if it is one of many
+  std::size_t index = kNoNumber; ///< index of the item, if it is one of many
   const char* part = "";
 
   static constexpr std::size_t kNoNumber = std::numeric_limits<std::size_t>::max();
@@ -103,7 +103,7 @@ void check_index(Index index, std::size_t count, const Name& name) {
 }
 
 bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t materials) {
-  // Tests all indices without a branch for each. kNoIndex is the number before 0.
+  // Tests all indices without a branch for each. kNoIndex + 1 is 0.
   const auto optional = [](Index index, std::size_t count) { return Index{index + 1} <= count; };
   const bool smooth = triangle.normal[0] != kNoIndex;
   bool sound = true;
@@ -116,12 +116,12 @@ bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t mate
   return sound;
 }
 
-/// Returns whether all triangles of a mesh without normals are valid; tests many words at a time, as
+/// Returns whether all triangles of a mesh without normals are valid. Tests many words at a time, as
 /// greatest_magnitude() does.
 bool are_sound(const Mesh& mesh, std::size_t materials) {
   static_assert(sizeof(Mesh::Triangle) == 9 * sizeof(Index));
-  constexpr std::size_t kAtATime = 4, kWords = 9 * kAtATime; // whole vectors
-  constexpr std::size_t kTooMany = std::size_t{1} << 31;     // the sign bit is needed
+  constexpr std::size_t kAtATime = 4, kWords = 9 * kAtATime; // fills whole vectors
+  constexpr std::size_t kTooMany = std::size_t{1} << 31;     // the test needs the sign bit
   if (!mesh.normals.empty() || mesh.vertices.size() >= kTooMany || materials >= kTooMany) return false;
   // A vertex must be less than the number of vertices; a material index plus one, where kNoIndex becomes 0,
   // must not exceed the number of materials. The sign bit of the difference to the last valid number, or of
@@ -151,7 +151,7 @@ bool are_sound(const Mesh& mesh, std::size_t materials) {
   return sound;
 }
 
-/// Tests vectors one at a time only if there is an error to name.
+/// Throws InputError if a number is not finite; only then tests vectors one by one, to name the number.
 void check_all_finite(const std::vector<Vec3f>& vectors, const Name& name, const char* what) {
   if (std::isfinite(greatest_magnitude(vectors))) return;
   for (std::size_t i = 0; i < vectors.size(); ++i)

@@ -5,7 +5,7 @@
 
 namespace celltrace {
 
-/// Throws InputError as validate() does, without looking at Scene::objects.
+/// Throws InputError as validate() does, but does not check Scene::objects.
 void validate_all_but_objects(const Scene& scene);
 
 } // namespace celltrace

@@ -8,7 +8,7 @@
 
 namespace celltrace {
 
-/// Bounds in double precision.
+/// Bounds in the world, in double precision.
 class WorldBox {
 public:
   WorldBox() = default;

@@ -1,5 +1,5 @@
-// The fields of the records that a stage and the PPE share, for SPEs of another byte order:
-// celltrace/spe/byte_order.hpp.
+// Lists the fields of the records that a stage and the PPE share, so that celltrace/spe/byte_order.hpp can
+// convert them for SPEs of another byte order.
 #pragma once
 
 #include "celltrace/spe/byte_order.hpp"

@@ -14,7 +14,7 @@ namespace {
 
 /// The SPEs of one pipeline, by program.
 struct SpeRoles {
-  bool generator = false; ///< true: the generator has an SPE of its own; false: a shader also generates
+  bool generator = false; ///< true if the generator has an SPE of its own; if false, a shader also generates
   unsigned shaders = 1;
   unsigned walkers = 0, testers = 0;
   unsigned searchers = 0; ///< SPEs that walk and test in one program

@@ -20,7 +20,7 @@ struct StagePlan {
     /// The orders, with `first_row`, `row_step`, `contexts` and similar fields set; effective addresses are
     /// 0.
     kernel::models::StageBlock orders;
-    unsigned pipeline; ///< index of its pipeline
+    unsigned pipeline; ///< index of the SPE's pipeline
   };
 
   std::vector<Spe> spes;
@@ -32,8 +32,8 @@ struct StagePlan {
 /// SPEs.
 StagePlan plan_stages(Model model, kernel::AcceleratorKind accelerator, unsigned spes);
 
-/// Returns how many SPEs a machine needs; 0: as many as it chooses. In the offload model the PPE's part runs
-/// on an SPE more than the options say.
+/// Returns the number of SPEs that a machine needs; 0 lets the machine choose. In the offload model this is
+/// one more than the options say, for the PPE's part.
 unsigned machine_spes(const RenderOptions& options);
 
 } // namespace celltrace

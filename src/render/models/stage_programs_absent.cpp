@@ -1,4 +1,4 @@
-// Builds with CELLTRACE_MODELS=OFF.
+// Replaces the programs of the stages in builds with CELLTRACE_MODELS=OFF.
 #include "celltrace/error.hpp"
 #include "render/models/stage_programs.hpp"
 

@@ -60,7 +60,7 @@ bool StageTeam::render_frame_while(HeldProgress& held) {
     const std::uint64_t complete =
         std::accumulate(pipelines_.begin(), pipelines_.end(), std::uint64_t{0},
                         [](std::uint64_t sum, const Pipeline& p) { return sum + p.packets; });
-    // Holds 1 back for the finished frame.
+    // Reports less than 1, which is for the finished frame.
     go_on = held.report(std::min(static_cast<double>(complete) / packets, 0.999));
     if (!go_on) stop();
   }

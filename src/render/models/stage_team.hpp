@@ -15,7 +15,7 @@
 
 namespace celltrace {
 
-/// Runs the programs of the stages, one frame at a time. Throws SpeError as soon as one of them fails.
+/// Runs the programs of the stages, one frame at a time. Throws SpeError as soon as a program fails.
 class StageTeam {
 public:
   /// Plans the stages. `frame` is one block in the machine's byte order; it must stay in place while the team
@@ -23,8 +23,9 @@ public:
   /// the machine's number of SPEs.
   StageTeam(Machine& machine, SharedRecords<kernel::FrameBlock>& frame, Model model);
 
-  /// Renders a frame; no program may be running. Returns false if `progress` ended the frame; its exceptions
-  /// pass through. In both cases the SPEs are ready for the next frame. After a SpeError every call throws.
+  /// Renders a frame; no program may be running. Returns false if `progress` ended the frame; exceptions of
+  /// `progress` pass through. In both cases the SPEs are ready for the next frame. After a SpeError every
+  /// call throws.
   bool render_frame(const Progress& progress);
 
   /// Returns the statistics of the stages in the last frame.
