@@ -174,7 +174,10 @@ bool ScenePreparation::prepare_changes(const Scene& scene, const SceneChanges& c
     all = {false, false};
     kept_->camera = scene.camera;
   } else {
-    if (!builder_->update_image(scene, all)) return prepare_scene(scene, go_on);
+    if (!builder_->update_image(scene, all)) {
+      has_scene_ = false; // the image may have been changed in part
+      return prepare_scene(scene, go_on);
+    }
     keep_for_other_eyes(scene);
     media_ = media_of(scene);
   }
