@@ -75,7 +75,8 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
                   "The first frame to render: its number or, below 1, a fraction of the final frame's number")
       ->check(number_range(0, std::numeric_limits<double>::infinity()))
       ->type_name("N|FRACTION");
-  command.add_option("--end-frame", animation.end_frame, "The last frame to render, as --start-frame")
+  command
+      .add_option("--end-frame", animation.end_frame, "The last frame to render, given as for --start-frame")
       ->check(number_range(0, std::numeric_limits<double>::infinity()))
       ->type_name("N|FRACTION");
   command.add_option("--frame-step", animation.step, "Render only every N-th frame")
@@ -84,7 +85,7 @@ void add_animation_options(CLI::App& command, RenderRequest& request, AnimationT
   command.add_option("--frame-rate", texts.frame_rate, "Frames per second of a film")
       ->type_name("N|N/M")
       ->capture_default_str();
-  command.add_flag("--resume", request.resume, "Go on where a run with the same options was stopped");
+  command.add_flag("--resume", request.resume, "Finish what a stopped run with the same options began");
 }
 
 void set_frames(Animation& animation, const AnimationTexts& texts) {

@@ -109,7 +109,7 @@ void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& t
       ->allow_extra_args(false);
   command
       .add_option("--max", texts.limits,
-                  "Change a limit on what reading and rendering the scene may cost; may be repeated")
+                  "Change a limit on the cost of reading and rendering the scene; may be repeated")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")
@@ -132,20 +132,20 @@ void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& t
       ->check(CLI::Range(1, 256));
   command
       .add_option("--adc", options.adc_bailout,
-                  "Contribution below which a ray is cut; default: the scene's adc_bailout")
+                  "Do not trace rays that add less than this to a pixel; default: the scene's adc_bailout")
       ->check(number_range(0, 1));
 }
 
 void add_report_options(CLI::App& command, RenderRequest& request) {
   command.add_option("--stats", request.stats, "Write statistics as JSON; - is stdout")->type_name("FILE|-");
-  command.add_flag("--quiet", request.quiet, "No progress, notes or summary");
+  command.add_flag("--quiet", request.quiet, "Print no progress, notes or summary");
 }
 
 void add_client_options(CLI::App& command, RenderTexts& texts) {
   add_choice(command, "--povray", texts.povray, {{"on", "off"}, {}},
              "Stand in for povray: read its INI file and obey povray.conf; default: on if started as povray");
   add_choice(command, "--verbose", texts.verbose, {{"on", "off"}, {}},
-             "Write progress as POV-Ray does where stderr is no terminal");
+             "Write progress as POV-Ray does if stderr is no terminal");
 }
 
 /// Makes the last one of repeated options count, except for options that collect values.
@@ -166,15 +166,16 @@ void add_quality_option(CLI::App& command, RenderRequest& request) {
 }
 
 void add_view_options(CLI::App& command, ViewRequest& request) {
-  command.add_option("--font", request.font, "Font of the information; default: one of the system's")
+  command
+      .add_option("--font", request.font, "Font of the text over the picture; default: one of the system's")
       ->type_name("FILE.ttf");
   command.add_option("--state", request.state, "Write a line of JSON for each change of what is seen")
       ->type_name("FILE");
   command
       .add_option(
           "--keys", request.keys,
-          "Input to simulate, one after the other when the picture is final: names of keys, WIDTHxHEIGHT, "
-          "drag:X,Y, wheel:N")
+          "Input to simulate, the next whenever the picture is final: names of keys, WIDTHxHEIGHT, drag:X,Y, "
+          "wheel:N")
       ->type_name("KEYS")
       ->delimiter(' ');
 }
@@ -183,7 +184,9 @@ void add_compare_options(CLI::App& command, CompareRequest& request) {
   command.add_option("a", request.a, "A picture")->required()->type_name("A.png");
   command.add_option("b", request.b, "The picture to compare it with")->required()->type_name("B.png");
   command.add_option("--min-psnr", request.min_psnr, "Exit 1 if the PSNR is below this")->type_name("DB");
-  command.add_option("--min-ssim", request.min_ssim, "Exit 1 if the worst 8x8 SSIM is below this")
+  command
+      .add_option("--min-ssim", request.min_ssim,
+                  "Exit 1 if the SSIM of any block of 8x8 pixels is below this")
       ->check(number_range(-1, 1));
   command.add_option("--diff", request.difference, "Write the difference, 8 times as bright")
       ->type_name("OUT.png");
@@ -244,7 +247,8 @@ void add_study_options(CLI::App& command, StudyRequest& request, std::string& ba
       .add_option("--out", request.out,
                   "Folder for study.txt, study.json, and a CSV and an SVG file of each table")
       ->type_name("DIR");
-  command.add_flag("--quick", request.options.quick, "Smaller pictures: about a minute on two cores");
+  command.add_flag("--quick", request.options.quick,
+                   "Render smaller pictures: takes about a minute on two cores");
   command
       .add_option("--backend", backend,
                   "Source of the cycles: counted operations (cell_emu) or machine code (cell_sim)")
@@ -254,7 +258,7 @@ void add_study_options(CLI::App& command, StudyRequest& request, std::string& ba
       ->check(CLI::IsMember(study::table_ids()));
   command.add_option("--threads", request.options.threads, "Threads of the host to use; default: all")
       ->check(CLI::Range(1, 256));
-  command.add_flag("--quiet", request.quiet, "No progress, and no tables on stdout");
+  command.add_flag("--quiet", request.quiet, "Print no progress, and no tables on stdout");
 }
 
 /// Completes the parts of a request that `render` and `view` share.
@@ -386,14 +390,15 @@ Request parse_command_line(std::vector<std::string> arguments) {
          [&app](const std::string& shell) {
            throw CLI::CallForVersion(completions(describe(app), shell), 0);
          },
-         "Print what makes a shell complete celltrace's options")
+         "Print a script with which a shell completes celltrace's options")
       ->check(CLI::IsMember({"bash", "zsh", "fish"}))
       ->type_name("SHELL")
       ->trigger_on_parse();
   app.footer(
       "`celltrace SCENE.pov` means render. POV-Ray's switches (+W640 +H480 +Iscene.pov ...) are understood.\n"
-      "CELLTRACE_OPTIONS in the environment has options of render that stand before the arguments.\n"
-      "Exit codes: 0 done, 1 error or compare below a limit, 2 interrupted.");
+      "The environment variable CELLTRACE_OPTIONS may hold options of render, which are read before the "
+      "arguments.\n"
+      "Exit codes: 0 done; 1 error, or compare found too great a difference; 2 interrupted.");
 
   RenderRequest render;
   RenderTexts texts;
@@ -406,10 +411,9 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_antialiasing_options(render_command, texts.sampling);
   add_machine_options(render_command, render.options, texts.machine);
   add_report_options(render_command, render);
-  render_command.add_flag(
-      "--sandbox", render.is_sandboxed,
-      "Let the kernel (Linux: Landlock, seccomp) see to it that nothing is opened but folders that "
-      "the options name, no process starts and no network is reached");
+  render_command.add_flag("--sandbox", render.is_sandboxed,
+                          "Have Linux (Landlock, seccomp) deny celltrace all folders that its options do not "
+                          "name, new processes and the network");
   add_message_options(render_command, texts.messages);
   add_client_options(render_command, texts);
   take_last_options(render_command);
@@ -426,7 +430,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   view_command.footer("H in the window shows the keys.");
 
   CompareRequest compare;
-  CLI::App& compare_command = *app.add_subcommand("compare", "Say how far two pictures are apart");
+  CLI::App& compare_command = *app.add_subcommand("compare", "Measure the difference between two pictures");
   add_compare_options(compare_command, compare);
 
   SpuRequest spu;

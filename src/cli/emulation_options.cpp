@@ -64,13 +64,14 @@ double parse_seconds(const char* option, const std::string& text) {
 
 void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule default_schedule) {
   const std::string defaults = default_schedule == Schedule::free ? "free" : "lockstep";
-  add_choice(command, "--schedule", texts.schedule, {{"free", "lockstep"}, {}},
-             "SPEs run as they like, or in turns that can be repeated; default: " + defaults);
+  add_choice(
+      command, "--schedule", texts.schedule, {{"free", "lockstep"}, {}},
+      "free: SPEs run in parallel; lockstep: SPEs take turns in an order that can be repeated; default: " +
+          defaults);
   command
-      .add_option(
-          "--seed", texts.seed,
-          "Seed of random transfers and faults, and of the turns of lockstep; without it, lockstep goes by "
-          "virtual time")
+      .add_option("--seed", texts.seed,
+                  "Seed of random transfers and faults, and of the turns of lockstep; without it, the SPE "
+                  "that is behind in virtual time has the next turn")
       ->type_name("N");
   add_choice(command, "--transfers", texts.transfers, {{"issue", "wait", "random"}, {}},
              "When the data of a DMA command move: at its issue, at the wait for it, or at random; default: "
@@ -79,22 +80,24 @@ void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule de
   add_choice(command, "--timing", texts.timing, {{"cell", "ps3"}, {}},
              "The machine that is modelled, with 8 (default) or 6 SPEs");
   command
-      .add_option(
-          "--limit", texts.cycle_limit,
-          "Virtual cycles after which a running program ends with an error that says where; 0: no limit")
+      .add_option("--limit", texts.cycle_limit,
+                  "Virtual cycles after which a program is stopped, with an error that says where it was; 0: "
+                  "no limit")
       ->type_name("CYCLES");
   command
-      .add_option("--seconds-limit", texts.seconds_limit,
-                  "As --limit, in seconds of this computer; may be a fraction")
+      .add_option(
+          "--seconds-limit", texts.seconds_limit,
+          "Seconds of this computer after which a program is stopped, as by --limit; may be a fraction")
       ->type_name("SECONDS");
-  command.add_option("--trace", texts.trace, "Write the run as a Chrome trace; only in lockstep")
+  command
+      .add_option("--trace", texts.trace, "Write the events of the run as a Chrome trace; only in lockstep")
       ->type_name("FILE.json");
 }
 
 void add_cache_trace_option(CLI::App& command, EmulationTexts& texts) {
   command
       .add_option("--cache-trace", texts.cache_trace,
-                  "Write what the software caches are asked for; see celltrace replay")
+                  "Write all accesses to the software caches, for celltrace replay")
       ->type_name("FILE");
 }
 

@@ -26,11 +26,13 @@ std::string words_with(Keyword::Support support) {
 
 std::string keyword_page() {
   return "# Words of the scene language\n\n"
-         "Every word that POV-Ray's language reserves, and whether celltrace supports it. `celltrace "
-         "--list-keywords` prints\n"
-         "this page. A word is an error only if the scene or one of its objects uses it: everything may be "
-         "declared and\n"
-         "passed on.\n\n"
+         "This page lists every word that POV-Ray's language reserves, and says whether celltrace supports "
+         "it. "
+         "`celltrace\n"
+         "--list-keywords` prints the page. A word that is not supported is an error only if the scene or "
+         "one "
+         "of its objects\n"
+         "uses it. A declaration of it that nothing uses is no error.\n\n"
          "## Supported\n\n"
          "A few uses of these words are not supported and give an error, such as a triangle in "
          "`clipped_by`.\n\n" +

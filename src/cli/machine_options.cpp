@@ -58,22 +58,26 @@ std::uint32_t parse_size(const std::string& digits, const std::string& text) {
 
 void add_machine_options(CLI::App& command, RenderOptions& options, MachineTexts& texts) {
   add_choice(command, "--backend", texts.backend, {names(kBackends), {"spu"}},
-             "The machine: threads, an emulated Cell, or one whose SPUs execute machine code");
+             "What renders: native: threads; cell_emu: an emulated Cell; cell_sim: a Cell whose SPUs execute "
+             "machine code");
   command
       .add_option("--spes", options.spes,
                   "Number of SPEs; default: on native one per hardware thread, else that of --timing")
       ->check(CLI::Range(1u, 256u));
-  add_choice(command, "--simd", texts.simd, {names(kSimdLevels), {}}, "Instruction set of native");
+  add_choice(command, "--simd", texts.simd, {names(kSimdLevels), {}},
+             "Instruction set that native uses; auto: the widest of this computer");
   command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
       ->type_name("CACHE")
       ->capture_default_str();
-  add_choice(command, "--accelerator", texts.accelerator, {names(kAccelerators), {}},
-             "How rays find objects: by a uniform grid or a BVH; auto is the BVH");
+  add_choice(
+      command, "--accelerator", texts.accelerator, {names(kAccelerators), {}},
+      "How rays find objects: by a uniform grid or a BVH; auto: the BVH, for pipeline models the grid");
   add_choice(
       command, "--balance", texts.balance, {names(kBalances), {}},
-      "How the SPEs share a frame: by strips that exchange work, strips that diffusion adjusts between "
-      "frames, strips that stay, or bundles of packets or random tiles that are dealt out");
-  add_choice(command, "--model", texts.model, {names(kModels), {}}, "Programming model");
+      "How SPEs share a frame. gde: strips that exchange work; diffusion: strips that change between frames; "
+      "static: fixed strips; scatter: bundles of packets in turn; tiles: tiles at random");
+  add_choice(command, "--model", texts.model, {names(kModels), {}},
+             "Programming model. shared: each SPE does all steps; else SPEs divide the steps");
   // The following options are for emulated machines only.
   CLI::Option_group& emulation = *command.add_option_group("cell_emu and cell_sim only");
   add_emulation_options(emulation, texts.emulation, Schedule::free);

@@ -79,9 +79,9 @@ constexpr Example kExamples[] = {
     {"celltrace scenes/*.pov -o pictures/ --lenient",
      "Renders many scenes without what is not supported of them, with a page of all pictures."},
     {"celltrace scene.pov --final-frame 100 -o film.mp4", "Renders an animation."},
-    {"celltrace scene.pov -W 8000 -H 6000 --resume", "Goes on with what was interrupted."},
-    {"celltrace view scene.pov", "Opens a window to look around in."},
-    {"celltrace compare a.png b.png --min-psnr 40", "Says how far two pictures are apart."},
+    {"celltrace scene.pov -W 8000 -H 6000 --resume", "Finishes an interrupted picture."},
+    {"celltrace view scene.pov", "Opens a window in which to look around."},
+    {"celltrace compare a.png b.png --min-psnr 40", "Measures the difference between two pictures."},
 };
 
 void add_examples(std::string& page) {

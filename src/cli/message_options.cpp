@@ -41,17 +41,16 @@ std::filesystem::path place_of(const std::filesystem::path& file, const RenderRe
 
 void add_message_options(CLI::App& command, MessageTexts& texts) {
   command
-      .add_option(
-          "--message-file", texts.files,
-          "Write messages into this file, too: all, debug, error, render, statistics or warning; may be "
-          "repeated")
+      .add_option("--message-file", texts.files,
+                  "Also write messages of a kind into this file: all, debug, error, render, statistics or "
+                  "warning; may be repeated")
       ->type_name("KIND=FILE")
       ->allow_extra_args(false);
   add_choice(command, "--append-messages", texts.append, {{"on", "off"}, {}},
-             "Whether files of --message-file keep what is in them");
+             "Whether messages are appended to the files of --message-file");
   command
       .add_option("--hide", texts.hidden,
-                  "Do not print messages of this kind; all leaves errors; may be repeated")
+                  "Do not print messages of this kind, except errors; may be repeated")
       ->type_name("KIND")
       ->allow_extra_args(false);
 }

@@ -162,37 +162,36 @@ std::filesystem::path pov_output(const std::string& name, const std::filesystem:
 
 void add_output_options(CLI::App& command, RenderRequest& request, OutputTexts& texts) {
   command
-      .add_option(
-          "-o,--output", request.output,
-          "The picture or film to write, or the folder for it; default: the current folder, and a name "
-          "like the scene's. - is stdout")
+      .add_option("-o,--output", request.output,
+                  "The picture or film to write, or its folder; default: the scene's name, in the current "
+                  "folder; - is stdout")
       ->type_name("OUT.png|jpg|tga|bmp|ppm|exr|hdr|dds|y4m|mp4|DIR/|-");
   command
-      .add_option(
-          "--pov-output", texts.pov_name,
-          "The picture's name by the rule of POV-Ray's +O: the file type's extension is appended if the "
-          "name has another one")
+      .add_option("--pov-output", texts.pov_name,
+                  "The picture's name by the rule of POV-Ray's +O: a name with another extension than the "
+                  "file type's gets this one appended")
       ->type_name("NAME|DIR/");
   add_choice(command, "--file-type,--format", texts.file_type, {file_types(), {}},
              "Type of the picture if its name has no extension; default: png");
   command
       .add_option("--bits", texts.bits,
-                  "Bits a channel of the picture: 8 or 16; of OpenEXR 16 or 32, which are floats")
+                  "Bits of a channel of the picture: 8 or 16; for OpenEXR 16 or 32 (floats)")
       ->check(CLI::Range(1, 32));
   add_choice(
       command, "--grey", texts.grey, {{"on", "off"}, {}},
-      "Whether the picture is grey, with the luminance of colours; for TGA, JPEG, and PNG and PPM, whose "
-      "default is then 16 bits");
+      "Whether a PNG, PPM, TGA or JPEG has the luminance of colours alone; PNG and PPM then have 16 bits by "
+      "default");
   command
       .add_option("--file-gamma", texts.file_gamma,
-                  "How colours are encoded in files of 8 and 16 bits a channel; default: sRGB")
+                  "Encoding of colours in files of 8 and 16 bits a channel; default: sRGB")
       ->type_name("sRGB|POWER");
   command.add_option("--jpeg-quality", request.file.jpeg_quality, "Quality of a JPEG, 0 to 100; default: 85")
       ->check(CLI::Range(0, 100));
   add_choice(command, "--compression", texts.compression, {{"none", "rle"}, {}},
-             "Compression of a TGA: none or run lengths");
-  add_choice(command, "--first-hits", texts.first_hits, {{"on", "off"}, {}},
-             "Whether an OpenEXR file has depths, normals and numbers of objects, too");
+             "Compression of a TGA file: none or run lengths");
+  add_choice(
+      command, "--first-hits", texts.first_hits, {{"on", "off"}, {}},
+      "Whether an OpenEXR file also has the depth, normal and object number of each pixel's first hit");
   add_choice(command, "--picture", texts.picture, {{"on", "off"}, {}}, "Whether the picture is written");
   add_choice(command, "--alpha", texts.alpha, {{"on", "off"}, {}},
              "Whether the picture has alpha: pixels are transparent where nothing is, and partly transparent "

@@ -57,7 +57,7 @@ void add_antialiasing_options(CLI::App& command, SamplingTexts& texts) {
   command
       .add_option(
           "--antialias-method", texts.antialias_method,
-          "1: the same number of samples for each such pixel; 2: more samples where colours differ more")
+          "Pixels whose colours differ get 1: equally many samples; 2: more samples, the more colours differ")
       ->check(CLI::Range(1, 2))
       ->capture_default_str();
   command
@@ -67,7 +67,7 @@ void add_antialiasing_options(CLI::App& command, SamplingTexts& texts) {
       ->capture_default_str();
   command
       .add_option("--antialias-jitter", texts.antialiasing.jitter,
-                  "Random offset of samples: from 0, none, to 1, as far as the next sample's place")
+                  "Random offset of samples, in distances between samples; 0: none")
       ->check(number_range(0, 1))
       ->capture_default_str();
   command.add_option("--antialias-gamma", texts.antialiasing.gamma, "Gamma of the colours that are compared")
