@@ -48,7 +48,7 @@ public:
   }
 
   /// Shortens shadow rays to their first crossing with the projector of a light. Returns the lanes that cross
-  /// it before the light; the light of the other lanes becomes 0.
+  /// the projector before the light; the light of the other lanes becomes 0.
   CELLTRACE_ONE_COPY uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                       FloatLanes& distance, VectorLanes& colour) {
     HitPacket hits;
