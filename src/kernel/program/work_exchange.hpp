@@ -22,8 +22,8 @@ public:
   }
   void end_frame() { node_.end_frame(); }
 
-  /// Takes a unit. After the last one the node is dry and asks for more, so that answers arrive while it
-  /// works.
+  /// Takes a unit. After the last unit the node is dry and asks for more, so that answers arrive while the
+  /// SPE works.
   bool take_unit(uint32_t& unit) {
     if (!node_.take_unit(unit)) return false;
     if (node_.remaining().empty()) {

@@ -52,7 +52,7 @@ template <class S> typename S::F ground_density(const typename S::F& start, cons
   return share_below + share_above * mean_above;
 }
 
-/// Returns the effect of one fog on rays of a length.
+/// Returns the effect of one fog on rays of given lengths.
 template <class Spu>
 Passage<typename Spu::rare_simd>
 through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& origin,
@@ -118,7 +118,7 @@ void rainbow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow,
 }
 
 /// Finds the effect of a rainbow on rays of a length, and its transparency. `seen` receives the lanes that
-/// see it. The formulas are POV-Ray's.
+/// see the rainbow. The formulas are POV-Ray's.
 template <class Spu>
 [[gnu::noinline]] void
 see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
@@ -200,7 +200,7 @@ template <class S>
   S::select(lanes, transparency * pass, transparency).store(ray.power.lane + first);
 }
 
-/// Applies the rainbows, whose light fog dims. If a ray sees several, the result is their mean.
+/// Applies the rainbows, whose light fog dims. If a ray sees several rainbows, the result is their mean.
 template <class Spu>
 [[gnu::noinline]] void cross_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
                                       uint32_t lanes, RayNode& ray, VectorLanes& light) {
