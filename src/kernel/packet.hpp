@@ -20,7 +20,6 @@ struct alignas(64) WordLanes {
   uint32_t lane[kSimdLanes];
 };
 
-/// One vector in each lane.
 struct VectorLanes {
   FloatLanes x, y, z;
 
@@ -52,7 +51,6 @@ struct VectorLanes {
   }
 };
 
-/// Copies one lane to another.
 template <class Lanes>
 [[gnu::always_inline]] inline void copy_lane(const Lanes& from, uint32_t lane, Lanes& to, uint32_t to_lane) {
   to.lane[to_lane] = from.lane[lane];

@@ -22,8 +22,8 @@
 
 namespace celltrace::kernel {
 
-/// A record that stays valid while others are read: a reference where records are read in place, otherwise a
-/// copy.
+/// A record that stays valid while other records are read: a reference if records are read in place,
+/// otherwise a copy.
 template <class Spu, class Record> using Kept = typename Strategy<Spu>::template Kept<Record>;
 /// Returns `record`, valid while other records are read: copied to `room` if a copy is necessary.
 template <class Spu, class Record>

@@ -37,9 +37,9 @@ constexpr float kMaxPacketSpread = 3.0f;
 constexpr float kMaxPacketSpreadInLocalStore = kMaxDirectionSpread;
 
 /// A packet whose rays go to several octants is traced as a whole if it has at least kLeastMixedRays rays and
-/// the scene at most kMostObjectsOfMixedRays objects, which a core's caches hold. Other packets' rays have
-/// few nodes in common. They are traced octant by octant, with a frustum, or one by one if they diverge.
-/// 'trace time' of scenes with mirrors and glass.
+/// the scene at most kMostObjectsOfMixedRays objects, which a core's caches hold. Rays of other packets have
+/// few nodes in common and are traced octant by octant, with a frustum, or one by one if they diverge. 'trace
+/// time' of scenes with mirrors and glass.
 constexpr int kLeastMixedRays = 4;
 constexpr uint32_t kMostObjectsOfMixedRays = 40000;
 /// Most objects of a scene in which packets of one octant are traced without a frustum, too. Larger: nodes

@@ -76,7 +76,7 @@ static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 
 /// Further data of some objects. `value` of a smooth triangle: the normals at its three vertices, xyz each,
 /// which are interpolated linearly and have any common length; of a shape in its own space: its parameters;
-/// of a polygon: those of its PolygonEdges; of an instance: the bits of its InstanceRecord's offset.
+/// of a polygon: its PolygonEdges; of an instance: the bits of its InstanceRecord's offset.
 struct alignas(64) ExtraRecord {
   float value[9];
   uint32_t csg; ///< for objects with object_flag::csg: offset of a CsgRecord

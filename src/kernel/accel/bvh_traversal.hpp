@@ -15,7 +15,7 @@ namespace celltrace::kernel {
 
 /// Traverses the BVH with bundles. A strategy's BundleSteps have:
 ///
-///   intersect_mixed(query)              traverses a packet with rays of several octants; false if it did not
+///   intersect_mixed(query)              traverses a packet with rays of several octants; false: not done
 ///   end_view()                          is called if the bundle's rays do not pass through one point
 ///   view()                              BundleView of the bundle if its rays pass through a point, else null
 ///   trusts_frusta()                     true if frusta suffice at leaves, without slab tests of rays

@@ -66,9 +66,9 @@ struct RaySegment {
 ///   dims_at_once(at, crossings, lanes, light, dark)   true if a crossed translucent surface attenuates
 ///                                       `light`, which may become another one, at once; if not, shadow rays
 ///                                       of `dark` lanes end there
-///   test_closest_shortly(rays, record, self, hits)    tests an object that is not simple; false: it did not
+///   test_closest_shortly(rays, record, self, hits)    tests an object that is not simple; false: not tested
 ///   test_occlusion_shortly(rays, record, self, distance, light, dark)   tests an opaque object that is not
-///                                       simple against shadow rays; false: it did not
+///                                       simple against shadow rays; false: not tested
 ///   clear_shadow_cache()                is called when the records may be another scene's
 template <class Spu>
 class ObjectTests : public Strategy<Spu>::template ObjectShortcuts<ObjectTests<Spu>, Spu> {
@@ -122,8 +122,7 @@ public:
     return dark;
   }
   /// Tests the unbounded objects, which are in no accelerator, and the first `others` of the other objects.
-  /// Unbounded objects precede the others: as in POV-Ray, they are seen if another object is at the same
-  /// distance.
+  /// Unbounded objects come first: as in POV-Ray, they are seen if another object is at the same distance.
   void test_unbounded(const FrameBlock& frame, RayQuery& query, uint32_t others = 0) {
     test_list(frame.object_offset - frame.unbounded_count * kObjectBytes, frame.unbounded_count + others,
               query);

@@ -24,9 +24,9 @@ template <class S> struct RayGroup {
 ///   kMaxInterleaved                     largest number of interleaved traversals
 ///   interleaves()                       true if traverse_interleaved() is faster than one after the other
 ///   tnear(query)                        distance up to which nodes may be left out, as hits are too near
-///   test_leaf(leaf, group, query)       tests the objects of a leaf together; false if it did not
+///   test_leaf(leaf, group, query)       tests the objects of a leaf together; false: not tested
 ///   Deferred                            type of the deferred leaves, which wait until there `are_enough()`
-///   defer(slot, state, leaf, query)     defers a leaf; false if it did not
+///   defer(slot, state, leaf, query)     defers a leaf; false: not deferred
 ///   test_deferred(slot, state, query)   tests the deferred leaves
 template <class Spu>
 class PacketTraversal : public Strategy<Spu>::template PacketSteps<PacketTraversal<Spu>, Spu> {

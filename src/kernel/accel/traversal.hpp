@@ -16,7 +16,7 @@ constexpr uint32_t kAnyAccelerator = kGridOnly | kBvhOnly;
 
 /// Answers ray queries with the uniform grid or the BVH. A strategy's BundleQueries have:
 ///
-///   intersect_toward(queries, count, light)   answers the queries toward a light together; false: it did not
+///   intersect_toward(queries, count, light)   answers the queries toward a light together; false: not done
 ///   lists_all()                         true if all objects are tested, without an accelerator
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 class Traversal : public Strategy<Spu>::template BundleQueries<Traversal<Spu, kAccelerators>, Spu> {

@@ -108,7 +108,6 @@ public:
     return select<S>(S::M::from_bits(lanes), seen + round.template sum<S>(), seen);
   }
 
-  /// Drops all rays.
   void drop() {
     rays.clear();
     hits.clear();

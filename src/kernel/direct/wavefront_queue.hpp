@@ -36,7 +36,6 @@ public:
   explicit WavefrontQueue(Kind* packets) : packets_(packets) { clear(); }
 
   bool empty() const { return full_count_ == 0 && count_of_all() == 0; }
-  /// Returns true if a full packet waits.
   bool has_full() const { return full_count_ != 0; }
   /// Returns true if all lanes of a packet can be pushed whatever their keys are; always, if full packets do
   /// not wait.

@@ -183,7 +183,7 @@ private:
     if (columns_ == kRunPackets) {
       spu_.putl(run.pixels[0], corner, run.list, rows, kFirstTag + current_);
     } else {
-      // Elements of a list follow each other in local store; those of an unfinished run do not.
+      // Elements of a list follow each other in local store; elements of an unfinished run do not.
       for (uint32_t y = 0; y < rows; ++y)
         spu_.put(run.pixels[y], corner + y * frame_.surface_pitch, bytes, kFirstTag + current_);
     }

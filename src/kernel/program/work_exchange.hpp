@@ -72,7 +72,7 @@ private:
     exchanges_ = 0;
     received_ = 0;
     until_report_ = units_per_report_ = frame.units_per_word;
-    // Words from an earlier frame are removed; those of a neighbour that is a frame ahead are kept.
+    // Words from an earlier frame are removed; words of a neighbour that is a frame ahead are kept.
     drain_mailbox();
     node_.begin_frame(frame.epoch, units, frame.exchange_parameter);
     spu_.write_event_mask(kDomain);

@@ -43,7 +43,7 @@ template <class S> typename S::F ground_density(const typename S::F& start, cons
   const F length = high - low, above = b - a;
   const F slope = one / (one + a * b);
   const F mean_above = slope * arc_share<S>(above * slope);
-  // Both shares are computed directly: on long segments the one that counts is tiny.
+  // Both shares are computed directly: on long segments the share that counts is tiny.
   const F below = S::min(high, zero) - S::min(low, zero);
   const F inverse = one / S::max(length, F(1e-6f));
   const auto is_level = length < F(1e-6f);
@@ -84,7 +84,6 @@ through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& o
   return {splat3<S>(fog.tint) * pass, splat3<S>(fog.colour) * (one - pass)};
 }
 
-/// A colour of a rainbow's map.
 template <class S> struct RainbowColour {
   V3<S> rgb;
   typename S::F filter, transmit;

@@ -63,7 +63,7 @@ public:
     return splat3<S>(frame_.background);
   }
 
-  /// Returns the lanes of node() with a hit; the others see the background.
+  /// Returns the lanes of node() with a hit; other lanes see the background.
   uint32_t take_hits() {
     return take_hits([](uint32_t) { return false; });
   }

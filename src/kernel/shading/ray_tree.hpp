@@ -129,7 +129,7 @@ protected:
   }
 
 private:
-  /// Returns the number of resident nodes; rare features of frames take the local store of the others.
+  /// Returns the number of resident nodes; rare features of frames take the other nodes' local store.
   static uint32_t resident_nodes(const FrameBlock& frame) {
     static_assert(sizeof(SurfaceLanes) <= sizeof(RayNode));
     if (has_areas(frame) || walks_shadows(frame)) return 0;

@@ -17,11 +17,10 @@ namespace celltrace::kernel {
 ///   is_at_pinhole(light)                true if a light is known to be where primary rays begin: nothing
 ///                                       occludes it from their hits
 ///   walks(light)                        true if rays toward a light are walked, in scenes where some must be
-///   trace_crossings(light, queries, count)   takes a bundle through the surfaces that it crosses; false: it
-///                                       did not
+///   trace_crossings(light, queries, count)   takes a bundle through crossed surfaces; false: not done
 ///   trace_crossings(light, rays, lanes, distance, colour)   takes a packet that is not walked through the
 ///                                       surfaces that it crosses
-///   sample_area(light, lanes, colour)   finds the light of an area light; false: it did not
+///   sample_area(light, lanes, colour)   finds the light of an area light; false: not found
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 class ShadowTracer : public Strategy<Spu>::template ShadowSearch<ShadowTracer<Spu, kAccelerators>, Spu> {
   using Search = typename Strategy<Spu>::template ShadowSearch<ShadowTracer, Spu>;
