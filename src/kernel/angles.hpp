@@ -29,7 +29,7 @@ template <class S>
   const F half = S::select(x < zero, F(0.5f) - quadrant, quadrant);
   return S::select(y < zero, -half, half);
 }
-/// Returns turns_inline() from one resident copy, as patterns of two modules call it.
+/// Returns turns_inline(), compiled once as resident code, because patterns of two modules call it.
 template <class S> CELLTRACE_ONE_COPY typename S::F turns_of(const typename S::F& y, const typename S::F& x) {
   return turns_inline<S>(y, x);
 }

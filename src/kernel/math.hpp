@@ -1,4 +1,4 @@
-// Elementary functions of 16 lanes, written over the SIMD facade so that every backend computes the same
+// Elementary functions of 16 lanes, written with the SIMD facade so that every backend computes the same
 // bits. Kernel dialect. Accuracy figures are for the host's single precision.
 #pragma once
 
@@ -17,8 +17,7 @@ template <class S> struct V3 {
   friend V3 operator*(const V3& a, const typename S::F& s) { return {a.x * s, a.y * s, a.z * s}; }
 };
 
-/// Returns four numbers as lanes. Numbers in registers do not go through memory one by one, where a processor
-/// would wait for the last store.
+/// Returns four numbers as lanes without storing them one by one: a processor would wait for the last store.
 template <class S> typename S::F4 four(float a, float b, float c, float d) {
   typedef float Four __attribute__((vector_size(16)));
   const Four numbers = {a, b, c, d};
@@ -37,7 +36,7 @@ template <class S> V3<S> map_point(const float (&m)[12], const V3<S>& p) {
           F(m[4]) * p.x + F(m[5]) * p.y + F(m[6]) * p.z + F(m[7]),
           F(m[8]) * p.x + F(m[9]) * p.y + F(m[10]) * p.z + F(m[11])};
 }
-/// Returns the dot product. `inline`, as GCC otherwise calls the function where vectors take two registers.
+/// Returns the dot product. Without `inline`, GCC calls this function if vectors take two registers.
 template <class S> inline typename S::F dot(const V3<S>& a, const V3<S>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -55,7 +54,6 @@ template <class S> V3<S> normalise(const V3<S>& v) {
   const typename S::F length = S::sqrt(dot<S>(v, v));
   return v * (typename S::F(1.0f) / S::max(length, typename S::F(1e-30f)));
 }
-/// Returns the greatest of the three components.
 template <class S> typename S::F max_component(const V3<S>& v) {
   return S::max(v.x, S::max(v.y, v.z));
 }
@@ -71,9 +69,9 @@ template <class S> typename S::F fraction(const typename S::F& x, typename S::I&
   return x - below;
 }
 
-/// Returns the binary logarithm of x > 0 (normal numbers); absolute error below 2e-7 near 1, relative
-/// elsewhere. log(m) = 2 artanh((m-1)/(m+1)) with m in [sqrt(1/2), sqrt(2)], so that nothing cancels near 1.
-/// The series is interpolated at Chebyshev's points, to within 1e-9.
+/// Returns the binary logarithm of x > 0 (normal numbers). The error is below 2e-7: absolute near x = 1,
+/// relative elsewhere. log(m) = 2 artanh((m-1)/(m+1)) with m in [sqrt(1/2), sqrt(2)], so that nothing cancels
+/// near 1. The series is interpolated at Chebyshev's points to within 1e-9.
 template <class S> typename S::F log2(const typename S::F& x) {
   using F = typename S::F;
   using I = typename S::I;
@@ -90,9 +88,9 @@ template <class S> typename S::F log2(const typename S::F& x) {
   return S::to_float(exponent) + f * series;
 }
 
-/// Returns 2 to the power x, clamped to [-126, 126]; relative error below 3e-7. Fractions, from -1/2 to 1/2,
-/// go through a polynomial that is interpolated at Chebyshev's points, to within 1e-8; its terms are added in
-/// pairs for a shorter chain.
+/// Returns 2 to the power x, clamped to [-126, 126]; relative error below 3e-7. Fractions from -1/2 to 1/2 go
+/// through a polynomial interpolated at Chebyshev's points to within 1e-8. Its terms are added in pairs to
+/// shorten the chain of dependent additions.
 template <class S> typename S::F exp2(const typename S::F& x) {
   using F = typename S::F;
   using I = typename S::I;
@@ -126,8 +124,8 @@ template <class S> typename S::F whole_pow(const typename S::F& x, const typenam
          S::select(without(4), one, second * second);
 }
 
-/// Returns x to the power y for x >= 0, up to 1e38, with fewer operations than pow(): relative error below
-/// 1e-5 for |y| <= 1, and y times that for larger powers. x below 1e-37 counts as 1e-37. The polynomials are
+/// Returns x to the power y for x >= 0, up to 1e38, with fewer operations than pow(). The relative error is
+/// below 1e-5 if |y| <= 1, otherwise below |y| * 1e-5. x below 1e-37 counts as 1e-37. The polynomials are
 /// interpolated at Chebyshev's points.
 template <class S>
 [[gnu::always_inline]] inline typename S::F coarse_pow(const typename S::F& x, const typename S::F& y) {
@@ -151,8 +149,8 @@ template <class S>
 /// Returns the sine of an angle in turns, in [0, 1]; absolute error below 3e-7.
 template <class S> typename S::F sine_of_turns(const typename S::F& turns) {
   using F = typename S::F;
-  // The series is about the middle, where the sine falls. Angles beyond a quarter of a turn from there are
-  // mirrored at the quarter, where the sine is symmetric.
+  // The series is centred on half a turn. Angles more than a quarter of a turn from the centre are mirrored
+  // about the nearer extremum of the sine.
   const F from_middle = turns - F(0.5f);
   const F fold = S::select(from_middle < F(0.0f), F(-0.5f), F(0.5f)) - from_middle;
   const F x = F(6.28318531f) * S::select(S::abs(from_middle) > F(0.25f), fold, from_middle);
@@ -178,8 +176,8 @@ template <class S> typename S::F acos_unit(const typename S::F& x) {
   return S::sqrt(S::max(F(1.0f) - x, F(0.0f))) * p;
 }
 
-/// Computes the sine and cosine of x; the absolute error is below 2e-7 for |x| <= 100, and for larger x that
-/// of a rounding of x. x is clamped to [-8192, 8192]. Not inlined: local store has room for one copy.
+/// Computes the sine and cosine of x, clamped to [-8192, 8192]. The absolute error is below 2e-7 if |x| <=
+/// 100, otherwise that of rounding x. Not inlined: local store has room for one copy.
 template <class S>
 CELLTRACE_ONE_COPY void sin_cos(const typename S::F& x, typename S::F& sine, typename S::F& cosine) {
   using F = typename S::F;
@@ -188,7 +186,7 @@ CELLTRACE_ONE_COPY void sin_cos(const typename S::F& x, typename S::F& sine, typ
   const F turns = angle * F(0.636619772f);
   const I quadrant = S::to_int(turns + S::select(turns < F(0.0f), F(-0.5f), F(0.5f)));
   const F n = S::to_float(quadrant);
-  // Half of pi in parts: the products with the first two are exact.
+  // pi / 2 as a sum of three parts: the products of n and the first two are exact.
   const F r = ((angle - n * F(1.5703125f)) - n * F(4.837513e-4f)) - n * F(7.549789954891882e-8f);
   const F r2 = r * r;
   const F s =

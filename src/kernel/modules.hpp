@@ -3,13 +3,13 @@
 //
 // The comment below each module lists its functions. cmake/celltrace_modules.cmake makes the SPU's linker
 // script from these lists. A class stands for all of its functions, a namespace for all of its contents;
-// `Name<>` is a template with any arguments, `Name<Type>`, `Name<3u>` and `Name<Enumeration(2)>` have these
-// among their arguments; `*Name` ends in Name; `data:` begins the list of functions and classes whose
-// constants belong to the module. If two modules name a function, it belongs to the first, so that a part of
-// another module's functions is named before these. A module calls resident code, itself, and modules of the
-// other regions if these do not call its region. The tests of the programs' budgets check that each number
-// belongs to one module, that no module takes more than its `bytes`, and that none calls another one of its
-// region.
+// `Name<>` is a template with any arguments; `Name<Type>`, `Name<3u>` and `Name<Enumeration(2)>` are
+// templates with at least the given argument; `*Name` ends in Name; `data:` begins the list of functions and
+// classes whose constants belong to the module. A function that two modules name belongs to the first of
+// them, so that a module with a part of another module's functions comes before the other module. A module
+// may call resident code, itself, and modules of other regions that do not call back into its region. The
+// tests of the programs' budgets check that each module has a number of its own, takes at most its `bytes`,
+// and calls no other module of its region.
 #pragma once
 
 #include "celltrace/spe/code_module.hpp"
@@ -82,7 +82,7 @@ constexpr CodeModule kBuild = {"build", 16, 0, 21504};
 
 // The second region: shading and evaluation of textures.
 
-/// Intersections with heavy shapes. In the second region, as rays test heavy and other shapes in turn.
+/// Tori, quadrics and superellipsoids. In the second region, as rays test these and other shapes in turn.
 constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8960};
 //   module_heavy, LocalPrimitive<TorusPrimitive>, TorusPrimitive::intersect_local, TorusPrimitive::Quartic,
 //   LocalPrimitive<QuadricPrimitive>, QuadricPrimitive::intersect_local,
@@ -94,15 +94,15 @@ constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
 //   module_heavy_points
 
 /// Tests of points against meshes, and the crossings of meshes without an inside vector in CSG. In the second
-/// region, as CSG with meshes calls this module and the one of shapes in turn.
+/// region, as CSG with meshes calls this module and kShapes in turn.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 4864};
 //   module_meshes
 
-/// Crossings with polygons. In the second region, as they are called in turn with other shapes.
+/// Crossings with polygons. In the second region, as rays test polygons and other shapes in turn.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 //   module_polygons
 
-/// Instances of meshes. In the second region, as they are called in turn with other shapes.
+/// Instances of meshes. In the second region, as rays test instances and other shapes in turn.
 constexpr CodeModule kInstances = {"instances", 35, 1, 7808};
 //   module_instances
 
@@ -159,7 +159,7 @@ constexpr CodeModule kComposed = {"composed", 13, 2, 7168};
 //   SurfaceShading<>::shade_composed, SurfaceShading<>::shade_share, SurfaceShading<>::shade_whole,
 //   SurfaceShading<>::shade_layers
 
-/// Atmosphere: fogs and rainbows that rays pass through or see before or behind what they hit.
+/// Atmosphere: the light that fogs and rainbows add to rays or take from rays.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7168};
 //   light_along, PathRadiance<>, ShadowRadiance<>, through_fog, lanes_in_the_open, ground_density,
 //   arc_share, cross_rainbows, see_rainbow, detail::dim_transparency, rainbow_colour

@@ -20,7 +20,6 @@ struct alignas(64) WordLanes {
   uint32_t lane[kSimdLanes];
 };
 
-/// One vector in each lane.
 struct VectorLanes {
   FloatLanes x, y, z;
 
@@ -52,7 +51,6 @@ struct VectorLanes {
   }
 };
 
-/// Copies one lane to another.
 template <class Lanes>
 [[gnu::always_inline]] inline void copy_lane(const Lanes& from, uint32_t lane, Lanes& to, uint32_t to_lane) {
   to.lane[to_lane] = from.lane[lane];
@@ -64,8 +62,8 @@ template <class Lanes>
   copy_lane(from.z, lane, to.z, to_lane);
 }
 
-/// Sets some lanes of a vector to the same three values. If `lanes` are `all` lanes that matter, `into` need
-/// not be initialised.
+/// Sets the lanes `lanes` of a vector to the same three values. If `all` is true, no other lane matters, and
+/// `into` need not be initialised.
 template <class Spu>
 [[gnu::always_inline]] inline void put_in_lanes(bool all, const typename Spu::simd::M& lanes,
                                                 const float* values, V3<typename Spu::simd>& into) {
@@ -102,14 +100,13 @@ struct HitPacket {
   copy_lane(from.v, lane, to.v, to_lane);
 }
 
-/// Copies all lanes of a packet's members.
 template <class Spu, class Packet>
 [[gnu::always_inline]] inline void copy_packet(const Packet& from, Packet& to) {
   Strategy<Spu>::copy_packet(from, to);
 }
 
-/// A ray query of one packet. With `hits`, the closest hits of the rays are searched. Without, the rays are
-/// shadow rays, and `light` is multiplied by the transmittance up to `distance`.
+/// A ray query of one packet. If `hits` is not null, the query finds the closest hits. Otherwise the rays are
+/// shadow rays, and the query multiplies `light` by the transmittance up to `distance`.
 struct RayQuery {
   const RayPacket* rays;
   HitPacket* hits;
@@ -122,7 +119,7 @@ struct RayQuery {
 struct Interval {
   float low, high;
 };
-/// Returns the smallest interval that contains both.
+/// Returns the smallest interval that contains both intervals.
 inline Interval united(const Interval& a, const Interval& b) {
   return {smaller(a.low, b.low), larger(a.high, b.high)};
 }

@@ -1,5 +1,5 @@
-// Processing of a packet's lanes in parts. Rare code processes as many lanes at a time as Spu::rare_simd has;
-// where code takes no local store, these are all lanes. Kernel dialect.
+// Processing of a packet's lanes in parts. Rare code processes as many lanes at a time as Spu::rare_simd has,
+// which are all lanes if code takes no local store. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -10,7 +10,7 @@ namespace celltrace::kernel {
 /// True if one part has all of a packet's lanes.
 template <class Spu> constexpr bool kOnePart = Spu::rare_simd::kLanes == kSimdLanes;
 
-/// Returns `whole`, which belongs to a packet, if one part has all lanes, otherwise the result of `cut()`.
+/// Returns the packet's `whole` if one part has all lanes, otherwise the result of `cut()`.
 template <class Spu, class Whole, class Cut>
 [[gnu::always_inline]] inline decltype(auto) whole_or(const Whole& whole, [[maybe_unused]] const Cut& cut) {
   if constexpr (kOnePart<Spu>)
@@ -56,8 +56,8 @@ void set_part(V3<typename Spu::simd>& vectors, uint32_t first, const V3<typename
   set_part<Spu>(vectors.z, first, part.z);
 }
 
-/// Moves idle lanes, those not in `lanes`, to the point of the first lane of `lanes`, where that saves time:
-/// if a packet is one part, noise is computed faster for lanes in one cell. `lanes` must not be empty.
+/// Moves the lanes not in `lanes`, which must not be empty, to the point of the first lane in `lanes` if a
+/// packet is one part: noise is computed faster if lanes are in one cell.
 template <class Spu>
 void move_idle_lanes([[maybe_unused]] V3<typename Spu::rare_simd>& points, [[maybe_unused]] uint32_t lanes) {
   using S = typename Spu::rare_simd;

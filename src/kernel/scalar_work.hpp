@@ -1,6 +1,6 @@
 // Charges for SpuBase::compute(): the instructions that an SPU executes in the kernels besides the SIMD
-// facade's arithmetic, which are control flow, scalar loads with their rotations, and quadwords that
-// functions pass through local store. Kernel dialect.
+// facade's arithmetic. These instructions are control flow, scalar loads with their rotations, and quadwords
+// that functions pass through local store. Kernel dialect.
 //
 // The charges are fitted to the executed machine code of the real SPE program (spu-elf-g++ 9.3, -O2) by
 // tools/calibrate-charges.sh, which writes the numbers; see docs/calibration.md.
@@ -32,7 +32,7 @@ constexpr ScalarWork kBvhChild = {97, 0, 62, 41, 15, 14, 0, 123, "kBvhChild"};
 /// Preparing the rays of a packet for slab tests, and one such test.
 constexpr ScalarWork kRaysOfPacket = {21, 0, 50, 11, 12, 8, 22, 13, "kRaysOfPacket"};
 constexpr ScalarWork kRaysAgainstBounds = {77, 0, 51, 19, 13, 23, 0, 120, "kRaysAgainstBounds"};
-/// A packet that traverses a node separately from its bundle, and a ray that does so from its packet.
+/// Traversing a node with a packet apart from its bundle, and with a ray apart from its packet.
 constexpr ScalarWork kPacketAlone = {55, 1, 45, 33, 5, 1, 35, 54, "kPacketAlone"};
 constexpr ScalarWork kRayAlone = {63, 7, 46, 35, 6, 0, 59, 47, "kRayAlone"};
 /// The intersection test of a packet and an object, by ObjectKind.
@@ -49,8 +49,8 @@ constexpr ScalarWork kShadow = {14, 0, 17, 10, 17, 6, 36, 85, "kShadow"};
 constexpr ScalarWork kFilter = {139, 0, 129, 47, 25, 2, 58, 242, "kFilter"};
 
 // --- textures ---
-/// Evaluating a pattern, including its place in a tree of maps and the colours or normals there. Not fitted
-/// but estimated from textures.pov and patterns.pov, as it stands for code of many kinds.
+/// Evaluating a pattern, including its place in a tree of maps and the colours or normals there. Estimated
+/// from textures.pov and patterns.pov instead of fitted, as the code of patterns differs much.
 constexpr ScalarWork kPattern = {1300, 0, 800, 100, 110, 40, 900, 550, "kPattern"};
 
 // --- shading/ray_tracer.hpp and what it calls ---
@@ -60,7 +60,7 @@ constexpr ScalarWork kPrimaryPacket = {282, 5, 554, 73, 44, 7, 0, 118, "kPrimary
 constexpr ScalarWork kBundleLight = {66, 0, 152, 22, 12, 2, 115, 60, "kBundleLight"};
 /// A node of the ray tree: sorting its hits from its misses.
 constexpr ScalarWork kNode = {286, 0, 166, 51, 60, 9, 0, 436, "kNode"};
-/// A node copied to or from the stack.
+/// Copying a node of the ray tree to or from the stack.
 constexpr ScalarWork kNodeCopy = {171, 0, 207, 4, 12, 3, 77, 25, "kNodeCopy"};
 /// Loading an object that rays of a packet hit into their lanes.
 constexpr ScalarWork kHitObject = {329, 0, 452, 74, 24, 7, 249, 148, "kHitObject"};
@@ -92,7 +92,8 @@ constexpr ScalarWork kOverlapOfEllipsoid = {118, 15, 95, 83, 34, 1, 504, 291, "k
 constexpr ScalarWork kOverlapOfTriangle = {638, 154, 193, 200, 93, 9, 898, 782, "kOverlapOfTriangle"};
 constexpr ScalarWork kOverlap[4] = {kOverlapOfSphere, kOverlapOfTriangle, kOverlapOfSphere,
                                     kOverlapOfEllipsoid};
-/// A pair of voxel and object: written, counted and placed by a pass of the radix sort, entered into a list.
+/// Handling a pair of voxel and object: writing it, counting it and placing it in a pass of the radix sort,
+/// entering it into a list.
 constexpr ScalarWork kEmitPair = {29, 0, 25, 19, 7, 1, 65, 24, "kEmitPair"};
 constexpr ScalarWork kCountPair = {2, 0, 0, 2, 2, 3, 2, 3, "kCountPair"};
 constexpr ScalarWork kPlacePair = {6, 0, 0, 8, 2, 3, 0, 7, "kPlacePair"};

@@ -22,10 +22,10 @@
 
 namespace celltrace::kernel {
 
-/// A record that stays valid while others are read: a reference where records are read in place, otherwise a
-/// copy.
+/// A record that stays valid while other records are read: a reference if records are read in place,
+/// otherwise a copy.
 template <class Spu, class Record> using Kept = typename Strategy<Spu>::template Kept<Record>;
-/// Keeps one record after another, in `room` where a copy is necessary.
+/// Returns `record`, valid while other records are read: copied to `room` if a copy is necessary.
 template <class Spu, class Record>
 [[gnu::always_inline]] inline const Record* keep(const Record* record, Record& room) {
   return Strategy<Spu>::keep(record, room);
@@ -95,7 +95,7 @@ public:
   }
   const NormalRecord* normal(uint32_t offset) { return read_apart<NormalRecord>(offset, DataKind::material); }
   const LightRecord* light(uint32_t offset) { return read_apart<LightRecord>(offset, DataKind::light); }
-  /// Returns a voxel by value, as its list is read while its record would have to stay valid.
+  /// Returns a voxel by value, because reading the voxel's list would invalidate a pointer.
   CellRecord cell(const GridRecord& grid, uint32_t index) {
     return *read<CellRecord>(grid.cell_offset + index * static_cast<uint32_t>(sizeof(CellRecord)),
                              DataKind::list);
@@ -117,7 +117,7 @@ public:
   template <class Visit> void for_each_listed(uint32_t list, uint32_t count, const Visit& visit) {
     for_each_of({list, count, 0}, visit);
   }
-  /// Calls `visit(offset)` for each object of a leaf in the same way.
+  /// Calls `visit(offset)` for each object of a leaf, as for_each_listed() does.
   template <class Visit> void for_each_object(const NodeRef& leaf, const Visit& visit) {
     for_each_of({leaf.child, leaf_word::count(leaf.leaf), leaf_word::step_bytes(leaf.leaf)}, visit);
   }
@@ -137,7 +137,7 @@ public:
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
 
-  /// A sequence of objects. Their offsets follow each other by `step` bytes from `first` on; if `step` is 0,
+  /// A sequence of objects. Their offsets begin with `first` and are `step` bytes apart; if `step` is 0,
   /// `first` is the offset of a list of their offsets, one word each.
   struct Sequence {
     uint32_t first, count, step;

@@ -2,8 +2,8 @@
 //
 // Each algorithm of the kernel is written once. Code that depends on the kind of memory is in types and
 // functions of a strategy, which have the same names in both: direct/strategy.hpp and local/strategy.hpp,
-// each made of one file per room. Files that the two include name `Strategy<Spu>` and include neither;
-// programs include both (entry/strategies.hpp).
+// each made of one file per room. Files that these two include name `Strategy<Spu>` and include neither of
+// the two; programs include both (entry/strategies.hpp).
 #pragma once
 
 #include "kernel/tuning.hpp"

@@ -17,8 +17,8 @@ struct NodeLeaves {
   uint32_t node, leaves; ///< `node` is an offset
 };
 
-/// Finds the places of four children in descending order of distance. Of children at the same distance, the
-/// earlier one comes first.
+/// Finds the places of four children in descending order of distance. If distances are equal, the earlier
+/// child comes first.
 [[gnu::always_inline]] inline void rank_descending(const float (&key)[4], uint32_t (&place)[4]) {
   for (uint32_t i = 0; i < 4; ++i)
     place[i] = i;
@@ -35,9 +35,9 @@ struct NodeLeaves {
 /// to 48.
 template <uint32_t kMaxSplitPackets, uint32_t kLevels = 48> class TraversalStack {
 public:
-  /// A node or leaf to traverse. `lanes`: the rays of a packet, or the packets of a bundle, that hit it.
-  /// `enter`: a lower bound of their distances to it. `rays`: if one packet of a bundle traverses it
-  /// separately, the rays of that packet that hit it, otherwise 0.
+  /// A node or leaf to traverse. `lanes`: the rays of a packet, or the packets of a bundle, that hit the
+  /// node. `enter`: a lower bound of the distances at which they hit it. `rays`: if one packet of a bundle
+  /// traverses the node separately, the packet's rays that hit the node, otherwise 0.
   struct Entry {
     NodeRef ref;
     uint32_t lanes;

@@ -37,9 +37,9 @@ constexpr float kMaxPacketSpread = 3.0f;
 constexpr float kMaxPacketSpreadInLocalStore = kMaxDirectionSpread;
 
 /// A packet whose rays go to several octants is traced as a whole if it has at least kLeastMixedRays rays and
-/// the scene at most kMostObjectsOfMixedRays objects, which a core's caches hold. Fewer rays, or rays among
-/// smaller objects, have few nodes in common: traversals octant by octant have a frustum, and trace diverging
-/// rays one by one. 'trace time' of scenes with mirrors and glass.
+/// the scene at most kMostObjectsOfMixedRays objects, which a core's caches hold. Rays of other packets have
+/// few nodes in common and are traced octant by octant, with a frustum, or one by one if they diverge. 'trace
+/// time' of scenes with mirrors and glass.
 constexpr int kLeastMixedRays = 4;
 constexpr uint32_t kMostObjectsOfMixedRays = 40000;
 /// Most objects of a scene in which packets of one octant are traced without a frustum, too. Larger: nodes
@@ -52,35 +52,36 @@ constexpr uint32_t kMostObjectsWithoutFrusta = 64;
 /// close to each other. 'trace time' of scenes with mirrors and glass, at 320x240.
 constexpr int kLeastRaysByThemselves = 12;
 
-/// Total rounds of iteration of fractals in a bundle's packets from which on the packets of the next bundle
-/// are iterated together. Larger: packets wait for their last lanes; smaller: hits are determined twice.
-/// 'trace time' of fractals.
+/// Least number of rounds of iteration of fractals, summed over a bundle's packets, for which the packets of
+/// the next bundle are iterated together. Larger: packets wait for their last lanes; smaller: hits are
+/// determined twice. 'trace time' of fractals.
 constexpr uint32_t kLeastRoundsOfFractals = 1000;
 
-/// Least number of packets in a bundle with two corners on different materials for which the bundle's rays
-/// are sorted by material, if sorting is found to pay. Smaller: materials are counted in vain; larger:
-/// packets with several materials stay. 'trace time' of scenes with many small objects; of other scenes the
-/// cost.
+/// Least number of a bundle's packets with two corners on different materials for which the bundle's rays are
+/// sorted by material, if sorting is found to pay. Smaller: materials are counted in vain; larger: packets
+/// with several materials stay. 'trace time' of scenes with many small objects; other scenes show the cost.
 constexpr uint32_t kLeastMixedPackets = 4;
 
-/// Most nodes that a bundle's frustum alone is tested against before its rays are made. Larger: more of the
-/// bundles without a hit are found; smaller: the tighter frusta of packets are tested from an earlier node
-/// on. Rays of the models, and of legocar most of all, which leaves much of its picture empty.
+/// Most nodes that are tested against a bundle's frustum before the bundle's rays are made. Larger: more of
+/// the bundles without a hit are found; smaller: the tighter frusta of packets are tested from an earlier
+/// node on. Rays of the models, above all legocar, whose picture is largely empty.
 constexpr uint32_t kMaxEnteredNodes = 24;
 
-/// Nodes hit by a packet's frustum, but none of its rays, from which on the packet counts as incoherent, and
-/// its rays are tested as well. Larger: more nodes are hit in vain; smaller: rays are tested where frusta
-/// would do. Matters at silhouettes, where origins of shadow rays lie far apart. Rays of models; also SPEs.
+/// Number of nodes, hit by a packet's frustum but by none of its rays, from which on the packet counts as
+/// incoherent and its rays are tested as well. Larger: more nodes are hit in vain; smaller: rays are tested
+/// where frusta would do. Matters at silhouettes, where origins of shadow rays lie far apart. Rays of the
+/// models; also for SPEs.
 constexpr uint32_t kMissesOfIncoherent = 2;
-/// Factor by which the rectangle of a packet of shadow rays, seen from the light, exceeds its share of the
-/// bundle's if the packet is incoherent: its origins lie on several surfaces, and only its frustum hits
-/// leaves between. Its rays are tested against leaves' bounds as well. Larger: triangles tested in vain;
-/// smaller: rays are tested where frusta would do. 'refitted every frame/(hills|random)-100000'.
+/// A packet of shadow rays counts as incoherent if its rectangle, seen from the light, exceeds its share of
+/// the bundle's rectangle by this factor. Its origins then lie on several surfaces, and its frustum hits
+/// leaves in between that no ray hits. Therefore its rays are tested against leaves' bounds as well. Larger:
+/// triangles are tested in vain; smaller: rays are tested where frusta would do. 'refitted every
+/// frame/(hills|random)-100000'.
 constexpr float kIncoherentOrigins = 1.5f;
 
-/// Most objects of a scene, besides planes, in which packets are tested against all objects instead of a
-/// bundle's traversal. Larger: objects are tested that a frustum would miss; smaller: frusta are computed for
-/// a single leaf. 'trace time' of scenes with one or two objects.
+/// Most objects of a scene, besides planes, with which packets are tested against all objects without a
+/// traversal of the bundle. Larger: objects are tested that a frustum would miss; smaller: frusta are
+/// computed for a single leaf. 'trace time' of scenes with one or two objects.
 constexpr uint32_t kMostListedObjects = 2;
 
 // --- when packets of a bundle part ---
@@ -89,8 +90,9 @@ constexpr uint32_t kMostListedObjects = 2;
 /// more nodes are tested for packets that do not hit them. Rays of the bunny, whose triangles are smaller
 /// than pixels.
 constexpr uint32_t kMaxSplitPackets = 4;
-/// Pixels, or rays of a stream in a unit square, per object below which up to kMaxSplitPackets packets split,
-/// as each hits other nodes. Larger: packets split at larger triangles, too. Rays of the models.
+/// Number of pixels per object, or of a stream's rays in a unit square per object, below which up to
+/// kMaxSplitPackets packets split: each hits other nodes. Larger: packets split at larger triangles, too.
+/// Rays of the models.
 constexpr uint32_t kPixelsOfSmallObject = 2;
 
 // Cache sizes are those of a usual PC, not of the computer that renders: they decide the order in which a
@@ -128,8 +130,8 @@ constexpr uint32_t kMaxInterleaved = 4;
 // --- objects that move ---
 
 /// Factor by which refitting may raise the expected cost of a ray, by the surface area heuristic, before the
-/// BVH is built again. Larger: rays go through looser nodes; smaller: builds that cost several times what a
-/// refit does. Frames of 'refitted every frame/'.
+/// BVH is built again. Larger: rays go through looser nodes; smaller: more builds, which cost several times
+/// as much as refits. Frames of 'refitted every frame/'.
 constexpr double kMostDecay = 1.5;
 
 // --- tests of triangles ---
@@ -163,23 +165,23 @@ constexpr uint32_t kMostAreaPackets = 16;
 /// are in more cells, each lane is compared with the feature points around its own cell. 'trace time' of
 /// scenes with crackle near by and as far as the horizon.
 constexpr uint32_t kMostCellsOfFeatures = 2;
-/// The corresponding limit where gathered feature points are kept for neighbouring points.
+/// The corresponding limit if gathered feature points are kept for neighbouring points.
 constexpr uint32_t kMostCellsInCache = 8;
 
 // --- building the BVH ---
 
 /// Rule that decides whether the objects of a range share a leaf. A triangle has weight 1. Two or three
-/// objects that would not fill a node always share one, except in a scene of few objects.
+/// objects that would not fill a node always share a leaf, except in a scene of few objects.
 struct LeafRule {
   uint32_t certain;       ///< total weight up to which objects share a leaf
-  uint32_t most;          ///< total weight above which they do not; between the two, the SAH decides
+  uint32_t most;          ///< total weight above which objects share none; between the two, the SAH decides
   float cost;             ///< cost of testing an object of weight 1, relative to expanding a node
   uint32_t sphere_weight; ///< weight of a sphere, which is tested in little time and fills most of its bounds
   uint32_t other_weight;  ///< weight of other objects; most tests of thin cylinders are in vain
 };
-/// Rule for large leaves, whose triangles SPEs test many at once. Larger: fewer nodes are built and expanded;
-/// smaller: fewer objects are tested in vain. 'rebuilt every frame' and rays of the models; for weights
-/// 'trace time' of molecules and of scenes with a few simple shapes.
+/// Rule for large leaves, in which SPEs test many triangles at once. Larger: fewer nodes are built and
+/// expanded; smaller: fewer objects are tested in vain. 'rebuilt every frame' and rays of the models; for
+/// weights 'trace time' of molecules and of scenes with a few simple shapes.
 constexpr LeafRule kLargeLeaves = {12, 32, 0.5f, 2, 3};
 /// Most rays of a packet that are traced one by one in an instance's mesh. Larger: fewer lanes idle; smaller:
 /// fewer nodes are expanded more than once. 'trace time' of scenes with many instances.
@@ -191,7 +193,7 @@ constexpr LeafRule kSmallLeaves = {3, 16, 2.0f, 2, 2};
 /// copy, and rays would wait for it longer than the tests take. 'first frame' of a scene with many instances
 /// of one mesh.
 constexpr LeafRule kCopiedLeaves = {4, 8, 2.0f, 1, 1};
-/// Bytes of a scene up to which leaves are large: the cache that a PC's cores share holds all of them.
+/// Bytes of a scene up to which leaves are large: the cache that a PC's cores share holds the whole scene.
 /// Larger: objects that no ray hits are fetched from main memory; smaller: more nodes are built and expanded.
 /// Rays of generated models, '--primitives 100000 1000000'.
 constexpr uint32_t kSharedCacheBytes = 50'000'000;

@@ -23,7 +23,7 @@ struct alignas(32) GroupRecord {
 };
 static_assert(sizeof(GroupRecord) == 32, "four groups a line");
 /// Largest number of objects of a group that is a copy of an earlier group, its prototype. A copy has as many
-/// objects as its prototype, and object i of either has the same place among its neighbours.
+/// objects as its prototype, and object i of both groups has the same place among its neighbours.
 constexpr uint32_t kMaxCopiedObjects = 256;
 
 /// The uniform grid. Voxel (x, y, z) has index x + y*cells[0] + z*cells[0]*cells[1].
@@ -35,7 +35,7 @@ struct alignas(16) GridRecord {
   float cell_size[3];
   uint32_t list_capacity; ///< words
   float inverse_cell_size[3];
-  uint32_t list_count; ///< words in use, set by PREPARE FRAME
+  uint32_t list_count; ///< words in use; PREPARE FRAME sets this number
   uint32_t cells[3];
   uint32_t row_of_cells; ///< cells[0] * cells[1]
 };
@@ -79,7 +79,7 @@ constexpr uint32_t kReadableBytes = sizeof(ObjectRecord);
 struct alignas(16) BvhRecord {
   uint32_t node_offset;
   uint32_t node_capacity; ///< nodes
-  uint32_t node_count;    ///< number of nodes in use, set by PREPARE FRAME
+  uint32_t node_count;    ///< nodes in use; PREPARE FRAME sets this number
   uint32_t list_offset;   ///< offset of one word per object, in the order of the leaves; lists of leaves are
                           ///< parts of this table
 };

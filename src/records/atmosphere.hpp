@@ -8,8 +8,8 @@
 namespace celltrace::kernel {
 
 namespace fog_flag {
-constexpr uint32_t ground = 0x1;          ///< grows thinner with height
-constexpr uint32_t turbulent = 0x2;       ///< `turbulence` thins it out in places
+constexpr uint32_t ground = 0x1;          ///< the fog grows thinner with height
+constexpr uint32_t turbulent = 0x2;       ///< `turbulence` thins the fog out in places
 constexpr uint32_t first_generator = 0x4; ///< noise generator 1, as with pattern_flag::first_generator
 } // namespace fog_flag
 

@@ -9,24 +9,22 @@ namespace celltrace::kernel {
 /// plane, and `made` rays are computed by the code module of cameras.
 enum class RaySheaf : uint32_t { pinhole, parallel, made };
 
-/// A camera.
-///
 /// Flat cameras: base + (x - middle_x)*dx + (y - middle_y)*dy belongs to pixel (x, y). The sum is the
-/// direction (not normalised) of a ray from `origin`, or for parallel rays the ray's origin, and `origin` is
-/// the direction. `middle_y` may differ from the middle row.
+/// direction (not normalised) of a ray from `origin`, or, for parallel rays, the origin of a ray in the
+/// direction `origin`. `middle_y` may differ from the middle row.
 ///
 /// Curved cameras: `origin` is the location; `base`, `dx` and `dy` are the axes forward, right and up. Pixel
 /// (x, y) is at ((x - middle_x) * step_x, (middle_y - y) * step_y) of the camera's picture, and the kind of
 /// camera turns this position into a ray.
 ///
 /// Rays of a distant camera start just before the scene, in the plane at distance `ahead` along the unit
-/// vector `base`. Unless they are parallel, they are then `made`, even if the camera is flat, and `origin` is
-/// the start of the middle ray.
+/// vector `base`. Unless these rays are parallel, `sheaf` is `made`, even if the camera is flat, and `origin`
+/// is the start of the middle ray.
 struct alignas(16) CameraRecord {
   float origin[3];
   uint32_t kind; ///< index of the camera's type in cameras/list.hpp
   float base[3];
-  float bend; ///< further parameter of a curved camera
+  float bend; ///< parameter of a curved camera whose meaning depends on the kind
   float dx[3];
   float middle_x;
   float dy[3];

@@ -8,9 +8,9 @@
 
 namespace celltrace::kernel {
 
-// The surfaces of CSG parts are objects. A crossing with one counts if the part's condition holds at each
-// level of the CSG tree: inside all other parts of an intersection, outside all other parts of a merge. As in
-// POV-Ray, parts of a merge that are invisible to a ray do not hide other parts from it.
+// The surfaces of CSG parts are objects. A crossing with a part's surface counts if the part's condition
+// holds at each level of the CSG tree: inside all other parts of an intersection, outside all other parts of
+// a merge. As in POV-Ray, parts of a merge that are invisible to a ray do not hide other parts from it.
 
 /// The condition of a part at one level of the CSG tree. Its program, a sequence of CsgSteps, decides whether
 /// a point is inside the other parts; steps [skip_begin, skip_end) belong to the part itself and are skipped.
@@ -28,7 +28,7 @@ static_assert(sizeof(CsgRecord) == 32, "four a line");
 struct alignas(16) CsgStep {
   uint32_t solid; ///< offset of a SolidRecord
   uint32_t if_inside, if_outside;
-  /// Flags of object_flag::selective. If it is not 0, the solid is not tested: rays to which objects with
+  /// Flags of object_flag::selective. If any is set, the solid is not tested: rays to which objects with
   /// these flags are invisible continue at `if_outside`, others at `if_inside`.
   uint32_t unseen_by;
 };

@@ -34,17 +34,18 @@ struct alignas(128) FrameBlock {
   ea_t grid_points;
   ea_t sample_store; ///< sample_store_bytes() per SPE, for its own use; no address if all frames are pictures
   /// Work memory of a command. PREPARE FRAME: both blocks, each for `work_entries` pairs of 8 bytes.
-  /// SYNCHRONIZE: in the first block alone the list of cache lines that are out of date, of `work_entries`
+  /// SYNCHRONIZE: the first block, with the list of cache lines that are out of date, of `work_entries`
   /// words, filled up to whole cache lines.
   ea_t work_memory[2];
-  uint32_t prepare_spes; ///< number of SPEs that build the accelerator step by step; 0: one takes all steps
+  uint32_t
+      prepare_spes; ///< number of SPEs that build the accelerator step by step; 0: one SPE takes all steps
   uint32_t prepare_step; ///< current step of building
 
   uint32_t width, height; ///< size in pixels, or in points of the grid
   uint32_t packet_columns, packet_rows;
   uint32_t bundle_columns;
-  /// Range of rows of packets that `surface` and `grid_points` have room for; it may be a part of the
-  /// picture.
+  /// First row and number of the rows of packets that `surface` and `grid_points` have room for; they may be
+  /// a part of the picture.
   uint16_t surface_row, surface_rows;
   uint32_t surface_pitch;
   uint32_t work_entries;
@@ -72,7 +73,8 @@ struct alignas(128) FrameBlock {
   uint32_t group_offset, group_count; ///< GroupRecords
   uint32_t longest_group;             ///< number of objects
   uint32_t prototype_offset;          ///< offset of one word per group; 0: no group is a copy
-  uint32_t units_per_word;  ///< number of units between an SPE's reports of progress; 0: none; or kEachUnit
+  uint32_t
+      units_per_word; ///< number of units between an SPE's reports of progress; 0: no reports; or kEachUnit
   uint32_t large_leaves;    ///< 0 or 1: leaves of the BVH have many triangles, which SPEs test together
   uint32_t far_nodes;       ///< 0 or 1: the BVH exceeds the caches, and SPEs wait long for a node
   uint32_t unbounded_count; ///< number of objects in no accelerator, which precede the others in the table
@@ -84,16 +86,16 @@ struct alignas(128) FrameBlock {
   uint32_t fog_offset, fog_count;
   uint32_t light_features; ///< bits of light_feature
   uint32_t rainbow_offset, rainbow_count;
-  /// Share of what is behind the scene that the background lets through; used with light_feature::alpha,
-  /// and 1 with light_feature::no_backdrop.
+  /// Share of the light from behind the scene that the background lets through; used with
+  /// light_feature::alpha, and 1 with light_feature::no_backdrop.
   float background_transparency;
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 
-/// FrameBlock::work_entries of SYNCHRONIZE if all cache lines are out of date.
+/// Value of FrameBlock::work_entries of SYNCHRONIZE if all cache lines are out of date.
 constexpr uint32_t kAllLines = 0xFFFFFFFF;
-/// FrameBlock::units_per_word if an SPE reports the number of each unit once the unit's pixels are in main
-/// memory.
+/// Value of FrameBlock::units_per_word if an SPE reports the number of each unit once the unit's pixels are
+/// in main memory.
 constexpr uint32_t kEachUnit = 0xFFFFFFFF;
 
 /// A unit of work: a run of bundles that begins at bundle (column, row) and continues at the beginning of the

@@ -22,8 +22,8 @@ constexpr uint32_t dimmed = 0x20000;    ///< fogs dim the light
 /// Largest number of columns or rows of places on a light.
 constexpr uint32_t kMaxLightPlaces = 256;
 
-/// A light. A beam (spotlight or cylinder light) has an axis; the offset of a point from the axis is 0 on it
-/// and 1 where the light ends.
+/// A light. A beam (spotlight or cylinder light) has an axis; the offset of a point from the axis is 0 on the
+/// axis and 1 where the light ends.
 struct alignas(128) LightRecord {
   float location[3];
   uint32_t kind_and_flags;
@@ -48,7 +48,8 @@ struct alignas(128) LightRecord {
   /// `selective`: offset of words with a bit for each set of lights, which is set if the set contains this
   /// light.
   uint32_t lit_sets;
-  uint32_t projector, projector_count; ///< `projected`: offset of the projector's first ObjectRecord; number
+  uint32_t projector,
+      projector_count; ///< `projected`: offset of the projector's first ObjectRecord; number of these
   /// Factor from |d|^fade_power to d^fade_power for a negative distance d in units of the fade distance: 1 or
   /// -1, or large enough to leave no light if the power is no real number. As in POV-Ray, distances behind a
   /// parallel light are negative.

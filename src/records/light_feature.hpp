@@ -17,8 +17,8 @@ constexpr uint32_t projectors = 0x10; ///< some lights have projectors
 /// A shadow ray that crosses two translucent surfaces within kShadowEpsilon may continue behind the second
 /// one, also without `stepwise`.
 constexpr uint32_t near_surfaces = 0x200;
-/// With `stepwise`: fading interiors are the only reason; the light that surfaces let through depends on
-/// points alone.
+/// With `stepwise`: fading interiors are the only reason for `stepwise`; the light that surfaces let through
+/// depends on points alone.
 constexpr uint32_t only_fading = 0x400;
 constexpr uint32_t unseen = 0x1000; ///< some objects have object_flag::no_image
 /// With `near_surfaces`: the surfaces that a shadow ray crosses depend on where the ray restarted last.
@@ -27,7 +27,7 @@ constexpr uint32_t restarts = 0x2000;
 constexpr uint32_t alpha = 0x20; ///< the transparency of each pixel is also computed
 /// With `alpha`: only rays that came by a mirror see the sky and the background.
 constexpr uint32_t no_backdrop = 0x40;
-/// With `alpha`: reflected rays see FrameBlock::background; other rays see a part of it, as it is
+/// With `alpha`: reflected rays see FrameBlock::background; other rays see a part of it, as the background is
 /// transparent.
 constexpr uint32_t mirrored_background = 0x800;
 constexpr uint32_t first_hits = 0x80; ///< the first hit of each primary ray is also written

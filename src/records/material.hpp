@@ -9,8 +9,8 @@ namespace celltrace::kernel {
 /// space.
 struct alignas(64) NormalRecord {
   uint32_t pattern; ///< offset of a PatternRecord
-  /// 0 or 1: the pattern's entries are NormalRecords, and the members below are unused. If it is 0, entries
-  /// of the pattern are a slope map.
+  /// 1: the pattern's entries are NormalRecords, and the members below are unused. 0: the entries are a slope
+  /// map.
   uint32_t is_mapped;
   float amount;
   float accuracy;  ///< distance at which slopes of the pattern are measured
@@ -40,7 +40,7 @@ constexpr uint32_t reflection_exponent = 0x4000; ///< the exponent of reflection
 constexpr uint32_t transmits = 0x8000; ///< constants let light through; a pattern may do so without this flag
 } // namespace material_flag
 
-/// A texture or one layer of it: pigment, normal and finish, with numbers that are constant in a frame
+/// A texture or one layer of it: pigment, normal and finish. Numbers that are constant in a frame are
 /// computed beforehand.
 struct alignas(128) MaterialRecord {
   float pigment[3];
@@ -66,7 +66,7 @@ struct alignas(128) MaterialRecord {
   uint32_t below;       ///< offset of the layer's MaterialRecord
   uint32_t finish;      ///< offset of a FinishRecord, or kNoOffset
   uint32_t inside;      ///< for two_sided objects: offset of the MaterialRecord that is seen from inside
-  float diffuse_behind; ///< share of the light that falls on the other side which this side sends on
+  float diffuse_behind; ///< share of the light on the surface's other side that this side sends on
 };
 static_assert(sizeof(MaterialRecord) == 128, "one material a line");
 

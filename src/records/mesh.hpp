@@ -8,9 +8,9 @@
 namespace celltrace::kernel {
 
 // Meshes with an inside vector. A point is inside if the ray from it along the vector crosses an odd number
-// of triangles. A grid across the vector limits the triangles that have to be tested: coordinates (column,
-// row, height) belong to a space whose third axis is parallel to the vector, and cell (i, j) reaches from (i,
-// j) to (i + 1, j + 1).
+// of triangles. A grid perpendicular to the vector limits the triangles that have to be tested: coordinates
+// (column, row, height) belong to a space whose third axis is parallel to the vector, and cell (i, j) reaches
+// from (i, j) to (i + 1, j + 1).
 
 /// Kind of the SolidRecord of a mesh with an inside vector. `geometry` is the map from the world to the
 /// coordinates of the grid, whose MeshGridRecord is at `extra`.
@@ -44,8 +44,8 @@ static_assert(sizeof(MeshTriangleRecord) == 64, "two a line");
 // which a ray enters them, and stops before the first box that the ray enters behind the crossing found last.
 // CSG shows the crossings found until then.
 
-/// Kind of the SolidRecord of a mesh without an inside vector, by which those crossings are found. `geometry`
-/// is the map from the world to the mesh's own space, `extra` the offset of the mesh's first
+/// Kind of the SolidRecord of a mesh without an inside vector, by which CSG finds the mesh's crossings.
+/// `geometry` is the map from the world to the mesh's own space, `extra` the offset of the mesh's first
 /// CrossedMeshRecord.
 constexpr uint32_t kCrossedMeshSolid = kEmptySolid - 2;
 

@@ -13,7 +13,7 @@ constexpr uint32_t kMaxPrimitives = 48;
 namespace object_flag {
 constexpr uint32_t kind_mask = 0x7F;
 constexpr uint32_t smooth = 0x100;          ///< triangle with vertex normals
-constexpr uint32_t no_shadow = 0x200;       ///< shadow rays ignore it
+constexpr uint32_t no_shadow = 0x200;       ///< shadow rays ignore the object
 constexpr uint32_t opaque = 0x400;          ///< stops shadow rays
 constexpr uint32_t blended = 0x800;         ///< `material` is the offset of a BlendRecord
 constexpr uint32_t open = 0x1000;           ///< cylinder or cone without caps
@@ -21,14 +21,16 @@ constexpr uint32_t csg = 0x2000;            ///< part of a CSG: crossings count 
 constexpr uint32_t no_image = 0x10000;      ///< visible only to rays that came by a mirror
 constexpr uint32_t no_reflection = 0x20000; ///< invisible to rays that came by a mirror
 constexpr uint32_t selective = no_image | no_reflection;
-constexpr uint32_t two_sided = 0x40000;   ///< has another material where it is seen from inside
-constexpr uint32_t inverse = 0x80000;     ///< inside and outside are swapped
-constexpr uint32_t by_surface = 0x100000; ///< some of its patterns need more of a surface than points
-constexpr uint32_t flat_map = 0x200000;   ///< an ellipsoid whose surface coordinates are x and y
+constexpr uint32_t two_sided = 0x40000; ///< has another material where it is seen from inside
+constexpr uint32_t inverse = 0x80000;   ///< inside and outside are swapped
+constexpr uint32_t by_surface =
+    0x100000; ///< some of its patterns read the surface's normals or coordinates, not only points
+constexpr uint32_t flat_map = 0x200000; ///< an ellipsoid whose surface coordinates are x and y
 /// Light that falls on the other side of the surface counts as if it fell on this side.
 constexpr uint32_t lit_through = 0x800000;
-constexpr uint32_t light_set_shift = 24; ///< number of its set of lights; 0: all global lights
-constexpr uint32_t unused = 0x40C080;    ///< free bits
+constexpr uint32_t light_set_shift =
+    24; ///< shift of the number of the object's set of lights; 0: all global lights
+constexpr uint32_t unused = 0x40C080; ///< free bits
 } // namespace object_flag
 
 /// ObjectRecord::material: an offset, which is a multiple of 16, and flags that the shading of hits reads
@@ -74,7 +76,7 @@ static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 
 /// Further data of some objects. `value` of a smooth triangle: the normals at its three vertices, xyz each,
 /// which are interpolated linearly and have any common length; of a shape in its own space: its parameters;
-/// of a polygon: those of its PolygonEdges; of an instance: the bits of its InstanceRecord's offset.
+/// of a polygon: its PolygonEdges; of an instance: the bits of its InstanceRecord's offset.
 struct alignas(64) ExtraRecord {
   float value[9];
   uint32_t csg; ///< for objects with object_flag::csg: offset of a CsgRecord

@@ -85,15 +85,15 @@ constexpr uint32_t exponent_mask = 0xFF;
 constexpr uint32_t exterior_shift = 8; ///< POV-Ray's number of the exterior's colouring, 0 to 8
 constexpr uint32_t interior_shift = 12;
 constexpr uint32_t type_mask = 0xF;
-constexpr uint32_t magnet_shift = 16; ///< 0 to 2
+constexpr uint32_t magnet_shift = 16; ///< type of magnet, 0 to 2
 constexpr uint32_t magnet_mask = 0x3;
 constexpr uint32_t julia = 0x40000;
 } // namespace fractal_word
 
-/// A warp followed by a map. `value` of a repeat: its width, 1 or -1 (flipped) for each axis, and the offset;
-/// of a black hole: its centre, radius, strength, falloff, and the distance of its copies for each axis, 0 if
-/// it is not repeated (`turbulence` then is that of the copies); of other warps: the orientation (a unit
-/// vector), the distance's exponent, and the major radius.
+/// A warp followed by an affine map. `value` of a repeat: its width, 1 or -1 (flipped) for each axis, and the
+/// offset; of a black hole: its centre, radius, strength, falloff, and the distance of its copies for each
+/// axis, 0 if it is not repeated (`turbulence` then is that of the copies); of other warps: the orientation
+/// (a unit vector), the distance's exponent, and the major radius.
 struct alignas(128) SpaceStepRecord {
   TurbulenceWords turbulence;
   float to_space[12];
@@ -116,8 +116,8 @@ static_assert(sizeof(SlopeRecord) == 32, "four a line");
 /// An entry of a map: what a value of a pattern stands for.
 struct alignas(32) MapEntryRecord {
   float position; ///< value of the pattern, or weight in an average
-  /// 1 / width of the interval from the previous entry; 0 if there is none, or if that entry alone counts
-  /// because both are equal.
+  /// 1 / width of the interval from the previous entry; 0 if there is no previous entry, or if both entries
+  /// are equal, so that the previous one alone counts.
   float inverse_width;
   float rgb[3]; ///< colour of a pigment without a map
   float filter, transmit;

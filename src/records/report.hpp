@@ -14,13 +14,13 @@ struct alignas(128) ReportRecord {
   uint64_t accelerator_visits;             ///< visits of voxels by rays, or of nodes by beams
   uint64_t cache_hits[4], cache_misses[4]; ///< index: DataKind
   uint64_t dropped_rays;                   ///< rays beyond the depth of the interior stack
-  uint32_t packets;                        ///< rendered
+  uint32_t packets;                        ///< packets rendered
   uint32_t exchanges;                      ///< balance exchanges that brought this SPE units
   uint32_t units_received;
   uint32_t busy_ticks; ///< decrementer ticks in which the SPE did not wait for work
   uint32_t spilled_nodes;
   uint32_t list_entries; ///< PREPARE FRAME: entries of the lists of a grid, or nodes of a BVH
-  uint64_t pixel_bytes;  ///< bytes of pixels that left while tracing
+  uint64_t pixel_bytes;  ///< bytes of pixels written to main memory during tracing
   uint64_t block_error;  ///< for pixels in blocks: squared differences, summed over red, green and blue
   uint32_t unused[26];
 };
@@ -41,7 +41,8 @@ constexpr uint32_t synchronize = 0x4;
 constexpr uint32_t quit = 0x8;
 } // namespace command
 
-/// Kind of a word in the outbound mailbox, from SPE to PPE: the kind is in the top four bits, a count below.
+/// Kind of a word in the outbound mailbox, from SPE to PPE: the kind is in the top four bits, the count
+/// below.
 enum class ReportKind : uint32_t {
   prepared = 1,     ///< count: 0
   needs_memory = 2, ///< PREPARE FRAME lacks memory for pairs; list_entries is their number

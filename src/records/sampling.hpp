@@ -35,18 +35,19 @@ static_assert(sizeof(FirstHitRecord) == 320, "crosses DMA");
 
 /// Parameters of sampling.
 struct SamplingRecord {
-  uint32_t method;     ///< SamplingMethod
-  uint32_t depth;      ///< fixed: samples per row, and rows; adaptive: levels of squares, the pixel the first
-  float threshold;     ///< least difference of two colours that counts, summed over the channels
-  float jitter;        ///< total range of random moves of a sample, in pixels
+  uint32_t method; ///< SamplingMethod
+  uint32_t depth;  ///< fixed: rows, and samples per row; adaptive: levels of squares, of which the pixel is
+                   ///< the first
+  float threshold; ///< least difference of two colours that counts, summed over the channels
+  float jitter;    ///< total range of random moves of a sample, in pixels
   float inverse_gamma; ///< exponent applied to colours before comparison
-  /// Bytes of a row of ColourRecords, one per pixel. The rows follow those of the surface; 0: colours are not
-  /// requested.
+  /// Bytes of a row of ColourRecords, one per pixel, or 0 if colours are not requested. The rows of
+  /// ColourRecords follow the rows of the surface.
   uint32_t colours_pitch;
 };
 
-/// The linear colour of a pixel as traced, and the share of what is behind the scene that the pixel lets
-/// through (light_feature::alpha).
+/// The linear colour of a pixel as traced, and the share of the light from behind the scene that the pixel
+/// lets through (light_feature::alpha).
 struct alignas(16) ColourRecord {
   float channel[4];
 };

@@ -26,8 +26,8 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
   objects.for_each(
       frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
         const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
-        // Records of smooth triangles need not be read for their normals, but CSG parts have their bounds
-        // there.
+        // An ExtraRecord of a smooth triangle has normals, which are not needed, and bounds if the triangle
+        // is part of a CSG.
         constexpr uint32_t kSmoothAndWhole = object_flag::smooth | object_flag::csg;
         if (object.extra != kNoOffset && (object.kind_and_flags & kSmoothAndWhole) != object_flag::smooth)
           Strategy<Spu>::fetch(spu, extra, frame.image + object.extra, kExtraTag);

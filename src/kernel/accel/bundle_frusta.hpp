@@ -5,7 +5,6 @@
 
 namespace celltrace::kernel {
 
-/// An interval in each lane.
 template <class S> struct LaneInterval {
   typename S::F low, high;
 

@@ -15,7 +15,7 @@ namespace celltrace::kernel {
 
 /// Traverses the BVH with bundles. A strategy's BundleSteps have:
 ///
-///   intersect_mixed(query)              traverses a packet with rays of several octants; false if it did not
+///   intersect_mixed(query)              traverses a packet with rays of several octants; false: not done
 ///   end_view()                          is called if the bundle's rays do not pass through one point
 ///   view()                              BundleView of the bundle if its rays pass through a point, else null
 ///   trusts_frusta()                     true if frusta suffice at leaves, without slab tests of rays
@@ -75,8 +75,8 @@ private:
       const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(remaining)));
       uint32_t same = remaining & lanes_in_octant<S>(rays, octant);
       remaining &= ~same;
-      // All rays of the octant if they are coherent; otherwise blocks of 2x2 rays, and divergent blocks ray
-      // by ray.
+      // All rays of the octant are traversed together if they are coherent, otherwise blocks of 2x2 rays, and
+      // divergent blocks ray by ray.
       uint32_t level = 0;
       while (same != 0) {
         const uint32_t subset = same & subset_of(level, static_cast<uint32_t>(__builtin_ctz(same)));
@@ -116,7 +116,7 @@ private:
     for_each_lane(remaining, [&](uint32_t packet) { intersect_packet(queries[packet]); });
   }
 
-  /// Traverses the packets whose rays all have similar directions in one octant together. Returns these
+  /// Traverses together the packets whose rays all have similar directions in one octant. Returns these
   /// packets.
   uint32_t intersect_bundle(RayQuery* queries, uint32_t packets) {
     const RayQuery& first = queries[__builtin_ctz(packets)];
@@ -148,8 +148,8 @@ private:
     return bundled;
   }
 
-  /// Traverses the nodes on the stack with the frusta of the packets `bundled`. `order` is for slab tests
-  /// with frusta, `ray_order` for those with rays: they differ if frusta are those of reversed rays.
+  /// Traverses the nodes on the stack with the frusta of the packets `bundled`. `order` is for slab tests of
+  /// frusta, `ray_order` for slab tests of rays; the orders differ if frusta contain reversed rays.
   void traverse_bundle(RayQuery* queries, const SlabOrder& order, const SlabOrder& ray_order,
                        uint32_t bundled) {
     max_tfar_ = PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance; // until the first leaf has been tested
@@ -197,8 +197,8 @@ private:
     static constexpr bool pauses() { return false; }
   };
 
-  /// Traverses a node separately with one packet, by its entry `first`. Where interleaving pays, the next
-  /// entries on the stack are traversed at the same time if they are of other single packets.
+  /// Traverses the node of stack entry `first` with the one packet of the entry. If interleaving pays, the
+  /// next entries on the stack are traversed at the same time if each is of another single packet.
   CELLTRACE_ONE_COPY void traverse_split(RayQuery* queries, const SlabOrder& order,
                                          typename Stack::Entry first) {
     objects_.scene().spu().compute(scalar_work::kPacketAlone);
@@ -235,7 +235,7 @@ private:
     return {&ray_groups_[packet], &query, query.lanes, entry.rays, entry.ref};
   }
 
-  /// Returns the rays of a packet prepared for slab tests, which happens on first use.
+  /// Returns the rays of a packet, which are prepared for slab tests on first use.
   const OctantRays<S>& rays_of(const RayQuery& query, uint32_t packet) {
     if ((known_rays_ & (1u << packet)) == 0) {
       objects_.scene().spu().compute(scalar_work::kRaysOfPacket);
@@ -286,7 +286,7 @@ private:
   }
 
   /// Sets how many packets may split: kMaxSplitPackets if triangles are probably smaller than the gaps
-  /// between `rays`, the number of rays in the picture, otherwise one.
+  /// between the picture's `rays`, otherwise one.
   void set_max_split_packets(float rays) {
     constexpr uint32_t kMost = PacketTraversal<Spu>::kMaxSplitPackets;
     if constexpr (kMost != 1)
@@ -298,7 +298,7 @@ private:
     return static_cast<uint32_t>(__builtin_popcount(packets)) <= max_split_packets_;
   }
 
-  /// Returns the packets that have no ray that hits child `i`. hit_rays_ receives the rays that hit it.
+  /// Returns the packets without a ray that hits child `i`. Stores the rays that hit the child in hit_rays_.
   uint32_t packets_that_miss(const float (&bounds)[6][4], const SlabOrder& order, uint32_t i,
                              const RayQuery* queries, uint32_t packets) {
     uint32_t missing = 0;
@@ -350,11 +350,10 @@ private:
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;
   Frustum<S> bundle_frustum_;              ///< contains all of frusta_
   uint32_t hit_rays_[kBundlePackets<Spu>]; ///< index: packet; rays that hit the child that was tested last
-  uint32_t misses_[kBundlePackets<Spu>]; ///< index: packet; number of nodes that its frustum hit, but none of
-                                         ///< its rays
-  uint32_t incoherent_ = 0;              ///< packets whose frusta hit nodes in vain
-  float max_tfar_ = 0.0f;                ///< maximum of tfar_
-  uint32_t octant_ = 0;                  ///< octant of all rays of the bundle
+  uint32_t misses_[kBundlePackets<Spu>];   ///< index: packet; nodes hit by its frustum but by no ray
+  uint32_t incoherent_ = 0;                ///< packets whose frusta hit nodes in vain
+  float max_tfar_ = 0.0f;                  ///< maximum of tfar_
+  uint32_t octant_ = 0;                    ///< octant of all rays of the bundle
   uint32_t known_rays_ = 0, known_frusta_ = 0; ///< packets whose rays or frusta in ray_groups_ are set
   /// Greatest distance of each packet, measured in its frustum. Negative: the packet hits nothing.
   alignas(64) float tfar_[kBundlePackets<Spu>] = {};

@@ -17,8 +17,8 @@ inline bool is_single(uint32_t lanes) {
 
 namespace detail {
 
-/// Least absolute value of a direction's components: smaller ones are replaced by it, with the same sign, so
-/// that 1 / direction stays finite.
+/// Least absolute value of a direction's components. Smaller components are set to this value, with the same
+/// sign, so that 1 / direction stays finite.
 constexpr float kTinyDirection = 1e-12f;
 /// Relative epsilon of the distance to a node's far plane, as a factor. The distance is rounded three times,
 /// and a ray that only grazes the node must not miss it.
@@ -114,14 +114,14 @@ struct RayBounds {
   }
 };
 
-/// Returns the bounds of the rays in `lanes`, which are at least one.
+/// Returns the bounds of the rays in `lanes`, which must not be empty.
 template <class S> CELLTRACE_ONE_COPY RayBounds bounds_of(const RayPacket& rays, uint32_t lanes) {
   using F = typename S::F;
   const auto active = S::M::from_bits(lanes);
   const uint32_t active_lane = static_cast<uint32_t>(__builtin_ctz(lanes));
   const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
   const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
-  // Inactive lanes take the value of an active one, so that they do not widen the interval.
+  // Inactive lanes take the value of an active lane, so that they do not widen the interval.
   const auto interval = [&](const FloatLanes& values) {
     return interval_of<S>(S::select(active, F::load(values.lane), F(values.lane[active_lane])));
   };
@@ -140,7 +140,6 @@ template <class S> CELLTRACE_ONE_COPY RayBounds bounds_of(const RayPacket& rays,
   return bounds;
 }
 
-/// Returns the bounds of one ray.
 inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
   const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
@@ -153,10 +152,10 @@ inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   return bounds;
 }
 
-/// Operands of the slab test for a frustum on one axis. The least distance to a near plane is that from the
-/// nearest origin along the steepest ray; the greatest distance to a far plane is that from the farthest
-/// origin along the flattest ray. The distance of a plane behind the origins is negative, whose size does not
-/// matter: for near planes it is clamped to 0, and for far planes it is a miss.
+/// Operands of the slab test for a frustum on one axis. The least distance to a near plane is measured from
+/// the nearest origin along the steepest ray, the greatest distance to a far plane from the farthest origin
+/// along the flattest ray. The size of a negative distance, to a plane behind the origins, does not matter:
+/// for near planes it is clamped to 0, and for far planes it is a miss.
 struct Slab {
   float near_origin, near_inverse, far_origin, far_inverse;
 };
@@ -190,7 +189,7 @@ public:
   }
 
   /// Returns the children of a node that the frustum hits from `tnear` up to `tfar`, bit i for child i.
-  /// `enter` receives lower bounds of the distances to them.
+  /// `enter` receives lower bounds of the distances to these children.
   uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& order, float tfar, float (&enter)[4],
                      float tnear = 0.0f) const {
     F4 t_enter = F4::splat(tnear);

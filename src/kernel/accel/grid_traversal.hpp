@@ -1,8 +1,8 @@
 // Traversal of the uniform grid with packets. Kernel dialect.
 //
 // All rays of a packet step at once, each through voxels of its own. An object in a voxel of one ray is
-// tested against the whole packet, and the hit filter keeps the other rays from testing it again when they
-// come to it. A ray stops when its closest hit lies within its current voxel.
+// tested against the whole packet. The hit filter keeps rays that come to the object later from testing it
+// again. A ray stops when its closest hit lies within its current voxel.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -50,8 +50,7 @@ public:
     return lit;
   }
 
-  // --- one voxel, for callers that step through the grid themselves; the hit filter has to know the packet
-  // ---
+  // --- one voxel, for callers that step through the grid; the hit filter has to know the packet ---
 
   /// Tests the objects of a voxel for closest hits.
   void find_closest_in(uint32_t cell, const RayPacket& rays, HitPacket& hits) {

@@ -54,8 +54,8 @@ public:
            S::template shift_left<2 * kPlaceBits>(z_.voxel(grid.cells[2]));
   }
 
-  /// Steps `lanes` to their next voxels and drops all other lanes. Each ray must have a next voxel: it leaves
-  /// the last one at kFarAway, beyond any hit and any light.
+  /// Steps `lanes` to their next voxels and drops all other lanes. Each ray must have a next voxel. A ray
+  /// leaves its last voxel at kFarAway, beyond any hit and any light.
   void step(uint32_t lanes) {
     lanes_ = lanes;
     cell_ = cell_ + of_axis(x_.stride, y_.stride, z_.stride);
@@ -71,9 +71,9 @@ private:
 
   struct Axis {
     F steps;   ///< voxels between the current one and the grid's border
-    F last;    ///< distance to that border
+    F last;    ///< distance to the grid's border
     F spacing; ///< distance between planes of voxels
-    I stride;  ///< step from a voxel's index to the next one's
+    I stride;  ///< difference of index between a voxel and the next
 
     /// Returns the distance at which the voxel is left. The distance is computed from the voxel's number, as
     /// a sum of steps would drift over hundreds of voxels.
@@ -106,7 +106,7 @@ private:
     span.enter = S::select(parallel, span.enter, S::max(span.enter, S::min(to_low, to_high)));
     span.leave = S::select(parallel, span.leave, S::min(span.leave, S::max(to_low, to_high)));
     span.outside = span.outside | (parallel & ((origin < low) | (origin > high)));
-    // The border of the grid is computed as those of its voxels are, so that they agree.
+    // The grid's border is computed as the borders of its voxels are, so that both agree.
     const M backward = direction < F(0.0f);
     const F far_border(grid.min[axis] + static_cast<float>(grid.cells[axis]) * grid.cell_size[axis]);
     a.last = S::select(parallel, F(kFarAway), (S::select(backward, low, far_border) - origin) * inverse);

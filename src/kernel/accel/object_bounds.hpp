@@ -8,8 +8,7 @@
 
 namespace celltrace::kernel {
 
-/// Returns true if the object's ExtraRecord has its bounds. Triangles with surface coordinates have these
-/// instead.
+/// Returns true if the object's ExtraRecord has bounds instead of a triangle's surface coordinates.
 constexpr bool has_own_bounds(uint32_t flags) {
   constexpr uint32_t kMapped = object_flag::by_surface | static_cast<uint32_t>(ObjectKind::triangle);
   return (flags & object_flag::csg) != 0 &&
@@ -36,8 +35,8 @@ inline bool overlaps(const ObjectRecord& object, const Aabb& box, const ExtraRec
   return result;
 }
 
-/// Returns the kind whose charges are used: shapes without charges of their own have those of the ellipsoid,
-/// to which they are most similar.
+/// Returns the kind whose charges are used: shapes without charges of their own are charged as ellipsoids, to
+/// which they are most similar.
 inline uint32_t charged_kind(uint32_t kind) {
   constexpr auto kLast = static_cast<uint32_t>(ObjectKind::ellipsoid);
   return kind < kLast ? kind : kLast;

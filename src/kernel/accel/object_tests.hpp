@@ -46,7 +46,7 @@ private:
   uint32_t packet_ = 0, last_packet_ = 0;
 };
 
-/// The segment of each ray beyond `enter` and up to `leave`; the whole ray if these are null.
+/// The segment of each ray beyond `enter` and up to `leave`, or the whole ray if both are null.
 struct RaySegment {
   const FloatLanes* enter;
   const FloatLanes* leave;
@@ -66,9 +66,9 @@ struct RaySegment {
 ///   dims_at_once(at, crossings, lanes, light, dark)   true if a crossed translucent surface attenuates
 ///                                       `light`, which may become another one, at once; if not, shadow rays
 ///                                       of `dark` lanes end there
-///   test_closest_shortly(rays, record, self, hits)    tests an object that is not simple; false: it did not
+///   test_closest_shortly(rays, record, self, hits)    tests an object that is not simple; false: not tested
 ///   test_occlusion_shortly(rays, record, self, distance, light, dark)   tests an opaque object that is not
-///                                       simple against shadow rays; false: it did not
+///                                       simple against shadow rays; false: not tested
 ///   clear_shadow_cache()                is called when the records may be another scene's
 template <class Spu>
 class ObjectTests : public Strategy<Spu>::template ObjectShortcuts<ObjectTests<Spu>, Spu> {
@@ -95,10 +95,10 @@ public:
     test_closest_of_other(rays, object, self, hits);
   }
 
-  /// Returns the lanes that an object occludes. An opaque object is tested against all lanes of the packet,
-  /// the first time only. A translucent object attenuates the light of `lanes` by each crossing within
-  /// `segment`: an object in several voxels is tested in each of them, but every crossing counts once. Lanes
-  /// without light after that are returned, too.
+  /// Returns the lanes that an object occludes. An opaque object is tested once, against all lanes of the
+  /// packet. A translucent object attenuates the light of `lanes` by each crossing within `segment`: an
+  /// object in several voxels is tested in each of them, but every crossing counts once. Lanes left without
+  /// light are returned, too.
   CELLTRACE_ONE_COPY uint32_t occluded(const RayPacket& rays, uint32_t self, uint32_t lanes,
                                        const FloatLanes& distance, VectorLanes& light,
                                        const RaySegment& segment = {nullptr, nullptr}) {
@@ -122,8 +122,7 @@ public:
     return dark;
   }
   /// Tests the unbounded objects, which are in no accelerator, and the first `others` of the other objects.
-  /// Unbounded objects precede the others: as in POV-Ray, they are seen if another object is at the same
-  /// distance.
+  /// Unbounded objects come first: as in POV-Ray, they are seen if another object is at the same distance.
   void test_unbounded(const FrameBlock& frame, RayQuery& query, uint32_t others = 0) {
     test_list(frame.object_offset - frame.unbounded_count * kObjectBytes, frame.unbounded_count + others,
               query);
@@ -152,15 +151,14 @@ public:
 
   static constexpr auto kObjectBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
 
-  /// Sets the lanes of the rays under test that come from a mirror, as the visibility of some objects depends
-  /// on that.
+  /// Sets the lanes of rays from a mirror: some objects are invisible to these rays or to all others.
   void set_reflected(uint32_t lanes) { reflected_ = lanes; }
 
   SceneAccess<Spu>& scene() { return scene_; }
   HitFilter& hit_filter() { return hit_filter_; }
   TraversalCounters& counters() { return counters_; }
   const TraversalCounters& counters() const { return counters_; }
-  /// Resets counters and forgets occluders: the records may be another scene's from now on.
+  /// Resets counters and forgets occluders: the records may now be another scene's.
   void begin_frame() {
     counters_ = TraversalCounters();
     Shortcuts::clear_shadow_cache();
@@ -221,7 +219,7 @@ private:
         accept(rays, other.csg(), near, far, false, reflected_, c);
       }
       keep_closest<S>(c, self, hits);
-      const F least(kMinHitDistance); // other crossings of rays with a hit are farther
+      const F least(kMinHitDistance); // a ray with a hit needs no other crossings, which are farther
       other.end(((c.near_hit & (c.near > least)) | (c.far_hit & (c.far > least))).bits());
     }
   }
@@ -273,8 +271,8 @@ private:
   /// The crossings of a packet with an object that is not simple.
   class Other {
   public:
-    /// Looks for crossings up to `limit`. If a ray has one beyond `enough`, its others need not be found,
-    /// unless the object is part of a CSG.
+    /// Looks for crossings up to `limit`. If a ray has a crossing beyond `enough`, its other crossings need
+    /// not be found, unless the object is part of a CSG.
     Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self, float enough,
           const FloatLanes& limit)
         : tests_(tests), rays_(rays), self_(self) {
@@ -330,7 +328,7 @@ private:
   };
 
   /// Removes crossings that do not satisfy the condition; `near` and `far` are the candidates. If a ray's
-  /// near crossing is accepted, its far one may be left out unless `needs_both`.
+  /// near crossing is accepted, its far crossing may be left out unless `needs_both`.
   void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, bool needs_both,
               uint32_t reflected, Crossings<S>& c) {
     c.near_hit = accepted(rays, condition, c.near, near.bits(), reflected);
@@ -347,7 +345,7 @@ private:
   }
 
   /// Multiplies the light of `lanes` by the transmittance of a translucent surface that they cross at `at`.
-  /// Returns the lanes with hardly any light left: a ray can stop with less than 1e-10 in each channel.
+  /// Returns the lanes left with less than 1e-10 in each channel, whose rays can stop.
   CELLTRACE_ONE_COPY uint32_t attenuate(const RayPacket& rays, const F& at, const Crossings<S>& c,
                                         uint32_t flags, uint32_t material, uint32_t lanes,
                                         VectorLanes& light) {
@@ -355,8 +353,7 @@ private:
     using RF = typename R::F;
     scene_.spu().compute(scalar_work::kFilter);
     const V3<S> points = rays.origin.template load<S>() + rays.direction.template load<S>() * at;
-    // The copies avoid a copy of all crossings by reference, which would be made even if nothing is
-    // translucent.
+    // If the lambda referred to `c`, all crossings would be copied even if nothing is translucent.
     const F all_u = c.u, all_v = c.v;
     uint32_t dark = 0;
     for_each_part<Spu>([&](uint32_t first) {

@@ -24,9 +24,9 @@ template <class S> struct RayGroup {
 ///   kMaxInterleaved                     largest number of interleaved traversals
 ///   interleaves()                       true if traverse_interleaved() is faster than one after the other
 ///   tnear(query)                        distance up to which nodes may be left out, as hits are too near
-///   test_leaf(leaf, group, query)       tests the objects of a leaf together; false if it did not
+///   test_leaf(leaf, group, query)       tests the objects of a leaf together; false: not tested
 ///   Deferred                            type of the deferred leaves, which wait until there `are_enough()`
-///   defer(slot, state, leaf, query)     defers a leaf; false if it did not
+///   defer(slot, state, leaf, query)     defers a leaf; false: not deferred
 ///   test_deferred(slot, state, query)   tests the deferred leaves
 template <class Spu>
 class PacketTraversal : public Strategy<Spu>::template PacketSteps<PacketTraversal<Spu>, Spu> {
@@ -44,8 +44,8 @@ public:
   static constexpr uint32_t kMaxSplitPackets = kBundlePackets<Spu> >= 16 ? tuning::kMaxSplitPackets : 1;
   using Stack = TraversalStack<kMaxSplitPackets>;
 
-  /// A node to traverse with a packet. `lanes` are the packet's rays in `group`, `hit` those of them that hit
-  /// the node.
+  /// A node to traverse with a packet. `lanes` are the packet's rays in `group`, `hit` the rays of `lanes`
+  /// that hit the node.
   struct Task {
     const RayGroup<S>* group;
     RayQuery* query;
@@ -146,7 +146,7 @@ private:
   struct Interleaved {
     NodeRef ref; ///< the next node to traverse
     TraversalState state;
-    uint32_t floor, packet; ///< `packet` identifies it for the hit filter
+    uint32_t floor, packet; ///< `packet` identifies the packet for the hit filter
   };
 
   /// A traversal for traverse_nodes(). An interleaved one is suspended when it needs a node that has just
@@ -159,7 +159,7 @@ private:
     RayQuery& query;
     TraversalState state;
     const uint32_t lanes, floor;
-    bool hinted = false; ///< true after the last node was expanded if one of its children is traversed next
+    bool hinted = false; ///< true if the last step was to expand a node and one of its children is next
 
     [[gnu::always_inline]] bool expand(NodeRef& ref) {
       [[maybe_unused]] const uint32_t size = slot.stack.size();
@@ -191,9 +191,9 @@ private:
     return state;
   }
 
-  /// Pops the next node or leaf; false if there is none. A node that only one ray of the group `whole` hits
-  /// is traversed for that ray only, whose own frustum is tighter and hits fewer children. The group
-  /// continues once the stack is back at the group's entries.
+  /// Pops the next node or leaf; returns false if there is none. If only one ray of the group `whole` hits a
+  /// node, the node is traversed for this ray with its own, tighter frustum. The group continues once the
+  /// stack is back at the group's entries.
   bool pop_next(Slot& slot, TraversalState& state, const TraversalState& whole, const RayQuery& query,
                 NodeRef& ref) {
     const uint32_t lanes = whole.group;
@@ -227,8 +227,7 @@ private:
   }
 
   /// Tests the objects of a leaf, or defers the leaf with a few others until after a node is expanded.
-  /// Meanwhile its objects are prefetched; and while they are tested, the children of that node are
-  /// prefetched.
+  /// Meanwhile the objects are prefetched; and while they are tested, the node's children are prefetched.
   void intersect_leaf(Slot& slot, TraversalState& state, const NodeRef& leaf, RayQuery& query) {
     if (Steps::defer(slot, state, leaf, query)) return;
     test_objects(leaf, state.group, query);
@@ -242,8 +241,8 @@ private:
       slot.stack.shrink(state.floor);
   }
 
-  /// Intersects the children of node `ref` with the group. If its frustum hits one child, `ref` becomes that
-  /// child and the result is true. If it hits several, the children that a ray hits are pushed.
+  /// Intersects the children of node `ref` with the group. If the group's frustum hits one child, stores the
+  /// child in `ref` and returns true. If it hits several, pushes the children that a ray hits.
   bool expand(Slot& slot, const TraversalState& state, const OctantRays<S>& rays, const SlabOrder& order,
               const RayQuery& query, NodeRef& ref) {
     objects_.scene().spu().compute(scalar_work::kBvhNode);

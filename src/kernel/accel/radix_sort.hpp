@@ -58,8 +58,8 @@ private:
 
   Spu& spu_;
   StreamReader<Spu, SortPair>& reader_;
-  uint32_t* next_;  ///< index: bucket; index of its next pair
-  uint32_t* begin_; ///< index: bucket; index of its first pair
+  uint32_t* next_;  ///< index: bucket; index of the bucket's next pair
+  uint32_t* begin_; ///< index: bucket; index of the bucket's first pair
   /// Stores pairs at the next places of their buckets; after finish() they are in main memory.
   typename Strategy<Spu>::template SortTarget<Spu> target_;
 };

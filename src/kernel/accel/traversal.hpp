@@ -16,7 +16,7 @@ constexpr uint32_t kAnyAccelerator = kGridOnly | kBvhOnly;
 
 /// Answers ray queries with the uniform grid or the BVH. A strategy's BundleQueries have:
 ///
-///   intersect_toward(queries, count, light)   answers the queries toward a light together; false: it did not
+///   intersect_toward(queries, count, light)   answers the queries toward a light together; false: not done
 ///   lists_all()                         true if all objects are tested, without an accelerator
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 class Traversal : public Strategy<Spu>::template BundleQueries<Traversal<Spu, kAccelerators>, Spu> {
@@ -48,7 +48,7 @@ public:
   }
 
   /// Shortens shadow rays to their first crossing with the projector of a light. Returns the lanes that cross
-  /// it before the light; the light of the other lanes becomes 0.
+  /// the projector before the light; the light of the other lanes becomes 0.
   CELLTRACE_ONE_COPY uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                       FloatLanes& distance, VectorLanes& colour) {
     HitPacket hits;

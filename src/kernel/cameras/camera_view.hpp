@@ -10,15 +10,14 @@ namespace celltrace::kernel {
 /// The common property of all rays of a camera.
 enum class SharedByRays { origin, direction, nothing };
 
-/// Traits of curved cameras, of which a kind redefines those that differ; see list.hpp.
+/// Traits of curved cameras; a kind redefines the traits in which it differs; see list.hpp.
 struct CurvedCamera {
   static constexpr bool kIsFlat = false;
   static constexpr bool kHasUnitAxes = true;
   static constexpr SharedByRays kShared = SharedByRays::origin;
 };
 
-/// Parameters of a curved camera's picture, from which the kind computes a CameraPicture for the
-/// CameraRecord.
+/// Parameters from which a kind of curved camera computes its CameraPicture.
 struct CameraView {
   double angle, vertical_angle; ///< radians
   double width, height;         ///< lengths of right and up

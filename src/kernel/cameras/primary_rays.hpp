@@ -75,7 +75,7 @@ uint32_t make_rays_through(Spu& spu, const CameraRecord& camera, const typename 
 }
 
 /// Return the positions of the pixels of the packet at (column, row), both counted in packets. Positions are
-/// relative to the middle that the record specifies, as nothing cancels there.
+/// relative to the middle that the record specifies, so that nothing cancels.
 template <class S> typename S::F pixels_across(const FrameBlock& frame, uint32_t column) {
   using F = typename S::F;
   return F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - frame.camera.middle_x);

@@ -13,7 +13,7 @@ struct SphericalCamera : CurvedCamera {
     return {view.angle / 2, view.vertical_angle / 2};
   }
 
-  /// Computes directions for axes at right angles, as those in records of distant cameras are.
+  /// Computes directions for axes at right angles, such as those of distant cameras.
   template <class S> static uint32_t bend(const CameraRecord&, CameraRays<S>& rays) {
     typename S::F sine_x, cosine_x, sine_y, cosine_y;
     sin_cos<S>(rays.x, sine_x, cosine_x);

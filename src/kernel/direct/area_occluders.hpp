@@ -1,9 +1,9 @@
 // Possible occluders between surfaces and an area light. Kernel dialect.
 //
-// The points of a packet and the places of the light are in a box each. The space between them is swept by a
-// box that changes from one to the other as time t goes from 0 to 1: on each axis, both of its planes move
-// evenly, so that a node is touched while two linear inequalities hold (shaft culling: Haines and Wallace,
-// Shaft culling for efficient ray-traced radiosity, 1991).
+// The points of a packet are in one box, the places of the light in another. A shaft is the space that is
+// swept by a box that changes from the first to the second as time t goes from 0 to 1. On each axis, both
+// planes of the box move evenly, so that a node is touched while two linear inequalities hold (Haines and
+// Wallace, Shaft culling for efficient ray-traced radiosity, 1991).
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
@@ -13,7 +13,7 @@
 
 namespace celltrace::kernel {
 
-/// A box that moves from surfaces to a light.
+/// A shaft from surfaces to a light.
 template <class S> class Shaft {
 public:
   using F = typename S::F;
@@ -89,7 +89,7 @@ private:
   static constexpr float kEpsilon = 1e-6f;
   static constexpr float kTiny = 1e-30f;
 
-  /// A plane of the moving box, the plane of a node that it has to pass, and whether this begins or ends the
+  /// A plane of the moving box, and the plane of a node that it passes at the beginning or end of the
   /// contact.
   struct Side {
     float begin, inverse;
@@ -103,7 +103,7 @@ private:
     const float moved = backward ? smaller(way, -kTiny) : larger(way, kTiny);
     sides_[number] = {begin, 1.0f / moved, row, is_low != backward};
   }
-  /// Returns half the extent of a light in units of its axis: places are jittered by half the distance
+  /// Returns half the extent of a light in units of its axis: jitter moves places by half the distance
   /// between them, and circles are slightly off the middle.
   static float half_extent(uint32_t places, float inverse) {
     return places > 1 ? 0.502f + 0.5f * inverse : 0.002f;
@@ -122,8 +122,8 @@ template <class Spu> class AreaOccluders {
 public:
   using S = typename Spu::simd;
 
-  /// Result of gather(): the objects, all of them opaque; or only the nodes of the BVH that are touched and
-  /// have leaves; or nothing, if there are too many or the light is parallel.
+  /// Result of gather(): `objects`, all of them opaque; or only the touched `nodes` of the BVH that have
+  /// leaves; or `nothing`, if there are too many nodes or the light is parallel.
   enum class Gathered { objects, nodes, nothing };
 
   Gathered gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
@@ -151,7 +151,7 @@ public:
 
   static constexpr uint32_t kMostPackets = tuning::kMostAreaPackets;
 
-  /// Removes occluded lanes from queries for the light of places, of which there are at most kMostPackets.
+  /// Removes occluded lanes from the queries, at most kMostPackets, toward places of the light.
   void test(ObjectTests<Spu>& tests, RayQuery* queries, uint32_t count) const {
     uint32_t packets = 0;
     for (uint32_t i = 0; i < count; ++i)
@@ -169,8 +169,8 @@ private:
     uint32_t self, node, child;
   };
 
-  /// Adds an object unless all rays of `lanes` to the light certainly miss it. Returns false if it cannot be
-  /// added.
+  /// Adds an object unless all rays of `lanes` to the light certainly miss it. Returns false if the object
+  /// cannot be added.
   bool add(ObjectTests<Spu>& tests, const RayPacket& rays, uint32_t lanes, const Shaft<S>& shaft,
            const Occluder& occluder) {
     const uint32_t self = occluder.self;

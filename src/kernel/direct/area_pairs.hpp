@@ -1,10 +1,10 @@
 // Sampling of area lights in pairs of a place and a surface that needs it. Kernel dialect, for direct memory.
 //
-// Only few surfaces of a packet need a given place for the small quads of the light's grid. Therefore all
-// places that the quads of one size need are gathered. Pairs of a surface and a place fill packets, which are
-// tested together: an object is read once for many of them, and none waits for the result of another. For
-// this reason the pairs are not lanes of a WavefrontQueue, whose body has one packet at a time (soft.pov
-// takes 0.82 of its time by sixteen).
+// For the small quads of a light's grid, only few surfaces of a packet need a given place. Therefore all
+// places that quads of one size need are gathered, and pairs of a surface and a place fill packets. These
+// packets are tested together: an object is read once for many packets, and no packet waits for the result of
+// another. The body of a WavefrontQueue would test one packet at a time (soft.pov takes 0.82 of its time by
+// sixteen).
 #pragma once
 
 #include "kernel/lights/area_shadow.hpp"
@@ -13,7 +13,8 @@
 
 namespace celltrace::kernel {
 
-/// Positions of a light's places on its grid, in rows. The first ones are computed on first use.
+/// Positions of a light's places on its grid, in rows. The first kKept of them are computed once, on first
+/// use.
 class LightGrid {
 public:
   struct Place {
@@ -21,7 +22,8 @@ public:
   };
 
   static bool has_room_for(const LightRecord& light) { return light.columns * light.rows <= kMostPlaces; }
-  /// Larger: AreaPairs takes more of the stack; smaller: more lights are sampled one place at a time.
+  /// Most places of a light. Larger: AreaPairs takes more of the stack; smaller: more lights are sampled one
+  /// place at a time.
   static constexpr uint32_t kMostPlaces = 41 * 41;
 
   /// Sets the light whose places are used from now on.
@@ -39,8 +41,8 @@ public:
   }
 
 private:
-  /// Larger: less local store is left for others; smaller: places of more lights are computed again for each
-  /// packet.
+  /// Number of places that are kept. Larger: less local store is left for others; smaller: places of more
+  /// lights are computed again for each packet.
   static constexpr uint32_t kKept = 17 * 17;
   static constexpr float kUnknown = -1.0f;
 
@@ -54,7 +56,7 @@ private:
   Place places_[kKept];
 };
 
-/// Tints: the shares of the light that come through tinted, by place and lane.
+/// Tints of the light that comes through translucent objects, by place and lane.
 template <class S> class AreaTints {
 public:
   /// Forgets all tints.
@@ -63,7 +65,7 @@ public:
       lanes_[i] = 0;
     count_ = 0;
   }
-  /// Sets the tint of a lane, which has none yet. Returns false if there is no room for it.
+  /// Sets the tint of a lane without one. Returns false if there is no room for the tint.
   bool set(uint32_t place, uint32_t lane, const VectorLanes& from, uint32_t from_lane) {
     if (lanes_[place] == 0) {
       if (count_ == kMost) return false;
@@ -77,7 +79,7 @@ public:
     return true;
   }
   uint32_t lanes(uint32_t place) const { return lanes_[place]; }
-  /// Returns the tint in lanes that have one; in others white if they are lit, and black if not.
+  /// Returns the tints of lanes; a lane without a tint has white if it is lit, and black if not.
   [[gnu::always_inline]] V3<S> of(uint32_t place, uint32_t lit) const {
     using F = typename S::F;
     const F white = S::select(S::M::from_bits(lit), F(1.0f), F(0.0f));
@@ -87,7 +89,7 @@ public:
   }
 
 private:
-  /// Capacity in places, 192 bytes each. If more are tinted, the light is sampled one place at a time.
+  /// Capacity in places, 192 bytes each. If more places are tinted, the light is sampled place by place.
   static constexpr uint32_t kMost = 512;
 
   uint32_t count_ = 0;
@@ -95,7 +97,7 @@ private:
   VectorLanes tints_[kMost];
 };
 
-/// Samples an area light; if `kTinted`, its light may be tinted by translucent objects.
+/// Samples an area light. If `kTinted`, translucent objects may tint the light.
 template <class Spu, bool kTinted> class AreaPairs {
 public:
   using S = typename Spu::simd;
@@ -220,8 +222,8 @@ private:
   struct Places {
     F column, row, jitter_x, jitter_y;
   };
-  /// Returns the ray of the light from places; nothing else is set. `of_surface(lanes)` picks the values of
-  /// the surfaces' lanes.
+  /// Returns the light from places, with nothing but its rays. `of_surface(lanes)` selects values by the
+  /// pairs' surfaces.
   template <class OfSurface>
   [[gnu::always_inline]] IncidentLight<S> aim(const V3<S>& to_middle, Places at,
                                               const OfSurface& of_surface) const {
@@ -310,7 +312,7 @@ private:
     }
   }
 
-  /// Adds the mean of a quad's corners where they agree, and divides the quad elsewhere.
+  /// Adds the mean of a quad's corners in lanes where these agree, and divides the quad in other lanes.
   template <class Push> void finish(const LightQuad& q, F (&share)[kCorners], const Push& push) {
     const Corners corners = corners_of(q);
     uint32_t lit[kCorners], any = 0, all = ~0u;
@@ -416,14 +418,13 @@ private:
   [[no_unique_address]] Present<AreaTints<S>, kTinted> tints_;
   const uint32_t columns_;
   bool is_full_ = false; ///< true if there was no room for all tints
-  // Lanes by place: those that want it, are queued for it, and are lit. The places beyond the last one are
-  // unused.
+  // By place: lanes that want it, are queued for it, and are lit. Places beyond the last one are unused.
   alignas(64) int32_t wanted_[kMostPlaces + kSlack], queued_[kMostPlaces + kSlack];
   uint16_t lit_[kMostPlaces];
-  LightQuad quads_[2][kMostPlaces];   ///< quads of one size each, in turn
+  LightQuad quads_[2][kMostPlaces];   ///< in turn: quads of one size, and of the next
   LightQuad blocks_[kMostPlaces / 4]; ///< quads of 3 x 3 places that are to be divided
   uint32_t block_count_ = 0;
-  // Pairs to be tested: runs with one place each, and by pair its lane and the position of its place.
+  // Pairs to be tested: runs with one place each, and by pair the lane and the position of the place.
   Run runs_[kMostPackets * S::kLanes];
   uint32_t run_count_ = 0, pair_count_ = 0;
   alignas(64) int32_t lane_[kMostPairs + kSlack];

@@ -103,7 +103,6 @@ template <class S> struct Range {
   uint32_t count() const { return end - begin; }
 };
 
-/// Returns the range [begin, end) of `references`, with its weight and bounds.
 template <class S> Range<S> range_of(const Reference* references, uint32_t begin, uint32_t end) {
   Range<S> range = {begin, end, 0, LaneAabb<S>::empty()};
   for (uint32_t i = begin; i < end; ++i) {

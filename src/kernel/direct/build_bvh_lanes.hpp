@@ -10,12 +10,12 @@ namespace celltrace::kernel::bvh {
 
 constexpr uint32_t kFewReferences = tuning::kFewReferences;
 
-/// The split plane of each lane. If two have the same cost, the one in the lower lane is taken.
+/// The split plane of each lane. If two planes have the same cost, the lower lane's is taken.
 template <uint32_t kBins> struct CutLanes {
   static constexpr uint32_t kCuts = 3 * (kBins - 1);
   static_assert(kCuts <= kSimdLanes, "a lane for each");
 
-  uint32_t is_x = 0, is_y = 0;              ///< a bit for each lane
+  uint32_t is_x = 0, is_y = 0;              ///< a bit for each lane: axis of its plane; neither: z
   alignas(64) int32_t bin[kSimdLanes] = {}; ///< first bin on the right; 0: the lane is unused
 
   constexpr CutLanes() {

@@ -1,4 +1,4 @@
-// Leaves of the BVH: decides which objects share one. Kernel dialect.
+// Leaves of the BVH: decides which objects share a leaf. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_subtree.hpp"
@@ -27,13 +27,13 @@ inline uint32_t weight_of(const ObjectRecord& object, const LeafRule& rule) {
   }
 }
 
-/// The ends of a SubtreeBuilder over objects. The list of a leaf has the same position in the BVH's list as
-/// the leaf's range has in the references.
+/// The leaves at which a SubtreeBuilder over objects ends. The list of a leaf has the same position in the
+/// BVH's list as the leaf's range has in the references.
 template <class S> class Leaves {
 public:
   static constexpr uint32_t kMaxSplitDepth = 32;
 
-  /// Makes an object for ranges of objects; those of fewer than `fewest` always share a leaf.
+  /// Makes leaves of ranges of objects; ranges of fewer than `fewest` objects always are a leaf.
   Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, const LeafRule& rule,
          uint32_t fewest)
       : image_(image), list_offset_(list_offset), references_(references), rule_(rule), fewest_(fewest) {}
@@ -67,8 +67,7 @@ public:
   }
 
 private:
-  /// Returns the distance from each object to the next one in the table, in objects, if it is always the
-  /// same; otherwise 0.
+  /// Returns the distance between successive objects in the table, in objects, or 0 if distances differ.
   static int32_t step_of(const Reference* objects, uint32_t count) {
     if (count == 1) return 1;
     const uint32_t bytes = objects[1].value - objects[0].value;

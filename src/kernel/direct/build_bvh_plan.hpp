@@ -14,8 +14,6 @@ constexpr uint32_t kMaxBuilders = 32;
 /// previous one.
 constexpr uint32_t kSteps = 3;
 
-/// Largest number of objects of a treelet, a subtree that one SPE builds, unless they are in fewer than four
-/// groups.
 constexpr uint32_t kTreeletObjects = tuning::kTreeletObjects;
 /// Number of references that fit into local store.
 constexpr uint32_t kLocalReferences = 768;
@@ -40,7 +38,7 @@ constexpr uint32_t most_treelet_nodes(uint32_t objects) {
 }
 
 /// Returns the largest number of nodes of a BVH. Without groups a node may have only two or three objects as
-/// children: at worst all objects are in pairs, with two thirds as many nodes as objects. Above copies nodes
+/// children: at worst all objects are in pairs, with two thirds as many nodes as objects. Nodes above copies
 /// may have two or three children.
 constexpr uint32_t most_nodes(uint32_t objects, uint32_t groups, bool copies) {
   return (groups == 0 ? 2 * objects : objects) / 3 + 2 + (copies ? groups : 0);
@@ -49,15 +47,14 @@ constexpr uint32_t most_nodes(uint32_t objects, uint32_t groups, bool copies) {
 /// The size of the work memory.
 struct WorkSize {
   uint32_t groups;
-  uint32_t references; ///< objects, if those of a treelet might exceed kLocalReferences
+  uint32_t references; ///< number of objects if a treelet's might exceed kLocalReferences, otherwise 0
 
   constexpr WorkSize(uint32_t objects, uint32_t group_count, uint32_t longest_group)
       : groups(group_count),
         references((group_count == 0 ? objects : uint64_t{3} * longest_group) > kLocalReferences ? objects
                                                                                                  : 0) {}
   /// Returns the size of each of the two blocks, in pairs of 8 bytes: 4 for each reference to a group or an
-  /// object; 5 for each treelet, of which there are as many as groups, or a word for each in the other block;
-  /// and a cache line.
+  /// object; 5 for each treelet, at most one per group, or a word for each in the other block; a cache line.
   constexpr uint64_t pairs() const {
     return uint64_t{9} * groups + uint64_t{4} * references + kLineBytes / 8;
   }

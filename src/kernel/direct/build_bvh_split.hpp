@@ -30,8 +30,8 @@ template <class S, uint32_t kBins> class BinnedSplitter {
 public:
   using F4 = typename S::F4;
 
-  /// Splits `range`, of at least two references, and reorders these stably so that those of `left` come
-  /// first. `spare` has room for all of them.
+  /// Splits a `range` of at least two references and reorders them stably: the references of `left` come
+  /// first. `spare` has room for the range.
   CELLTRACE_ONE_COPY static void split(Reference* references, Reference* spare, const Range<S>& range,
                                        Range<S>& left, Range<S>& right) {
     // If the range lies on a line along an axis, every SAH cost is 0.
@@ -97,7 +97,7 @@ private:
     uint32_t weight[3][kBins];
   };
 
-  /// A split. `bin` is the first one on the right; 0: there is no split.
+  /// A split. `bin` is the first bin on the right; 0: there is no split.
   struct Cut {
     uint32_t axis, bin;
   };
@@ -179,7 +179,6 @@ private:
   }
 };
 
-/// Splits a range.
 template <class S>
 void split_range(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
                  Range<S>& right) {

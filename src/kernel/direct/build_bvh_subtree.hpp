@@ -49,8 +49,8 @@ template <class S> void set_child_bounds(NodeRecord& node, const LaneAabb<S> (&c
 ///   bool end(const Range<S>&)                          true if a range ends without a node of its own
 ///   bool end(const Range<S>&, const Range<S> (&)[4])   the same decision if its children would be these
 ///   void add(const Range<S>&, const Place&)            stores a range that ends in its parent
-/// Halving bounds the depth. A single reference must end. Nodes have four children, unless a range of fewer
-/// references does not end: then each reference is a child.
+/// Halving bounds the depth. A single reference must end. A node has four children; if its range has fewer
+/// references, each reference is a child.
 template <class S, class Ends> class SubtreeBuilder {
 public:
   /// A range whose nodes have not been built.
@@ -58,7 +58,7 @@ public:
     Range<S> range;
     Place place;
   };
-  /// Capacity of the stack: depth first, each level leaves at most three of four children on it.
+  /// Capacity of the stack: depth first, each level leaves at most three of four children on the stack.
   static constexpr uint32_t kStackTasks = 3 * kMaxDepth + kChildren;
 
   /// Makes a builder. `spare` has room for as many references as `references`, `stack` for kStackTasks.
@@ -78,7 +78,7 @@ public:
   }
 
 private:
-  /// Stores a child in its parent if it ends, otherwise pushes it.
+  /// Stores a child that ends in its parent, or else pushes it.
   void add_child(const Range<S>& range, const Place& place) {
     if (range.count() == 0)
       place.parent->child[place.slot] = place.parent->leaf[place.slot] = 0;

@@ -39,14 +39,13 @@ private:
   const uint32_t* of_group_;
 };
 
-/// The ends of a SubtreeBuilder over groups, which are treelets. A prototype is a treelet of its own, and so
-/// is each copy.
+/// The treelets at which a SubtreeBuilder over groups ends. Each prototype and each copy is a treelet.
 template <class S> class Treelets {
 public:
   static constexpr uint32_t kMaxSplitDepth = 16;
   static constexpr uint32_t kObjects = kTreeletObjects;
 
-  /// Makes an object; `groups` are the references that the SubtreeBuilder reorders.
+  /// Makes treelets of `groups`, the references that the SubtreeBuilder reorders.
   Treelets(const Reference* groups, const Prototypes& prototypes, Treelet* treelets)
       : groups_(groups), prototypes_(prototypes), treelets_(treelets) {}
 

@@ -11,8 +11,8 @@
 namespace celltrace::kernel {
 
 /// Tests of leaves. The objects of consecutive leaves of triangles are deferred, so that they fill the SIMD
-/// lanes. For each triangle test() then culls packets, which lie in lanes, and tests those that are left,
-/// with their rays in lanes.
+/// lanes. For each triangle test() culls packets, one in each lane, and tests the remaining packets, one ray
+/// in each lane.
 template <class Spu> class BundleLeafTests {
 public:
   using S = typename Spu::simd;
@@ -20,17 +20,18 @@ public:
   using M = typename S::M;
   using Tests = ObjectTests<Spu>;
 
-  /// Makes the tests for a bundle with a `view`. If it is null, no function may be called.
+  /// Makes the tests for a bundle with a `view`. If `view` is null, no function may be called.
   BundleLeafTests(Tests& tests, const BundleView<S>* view)
       : tests_(tests), view_(view), triangles_(tests.scene().image()) {}
 
   /// Returns true if objects have been deferred to test().
   bool has_deferred() const { return triangles_.count() != 0; }
-  /// Returns true if all objects of another leaf can be deferred with them.
+  /// Returns true if there is room to defer all objects of another leaf.
   bool has_room_for(const NodeRef& leaf) const { return triangles_.has_room_for(leaf); }
 
-  /// Defers the objects of a leaf that `packets` have hit. If the first one is no triangle, or there is not
-  /// enough room, the other objects are tested at once. Returns the packets whose results may have changed.
+  /// Defers the objects of a leaf that `packets` have hit. If the first object is no triangle, or there is
+  /// not enough room, objects that are not deferred are tested now. Returns packets whose results may have
+  /// changed.
   uint32_t add(RayQuery* queries, uint32_t packets, const NodeRef& leaf) {
     uint32_t all[kMost]; // filled and copied as a vector
     for (uint32_t& of_one : all)
@@ -45,8 +46,7 @@ public:
     return changed;
   }
 
-  /// Tests the deferred objects, of which there is at least one. Returns the packets whose results may have
-  /// changed.
+  /// Tests the deferred objects, at least one. Returns the packets whose results may have changed.
   uint32_t test(RayQuery* queries) {
     triangles_.fill();
     const uint32_t unfit = triangles_.all() & ~triangles_.lanes_with(wanted());
@@ -87,8 +87,8 @@ private:
     else
       tests_.test_closest_of_all(queries, packets, self);
   }
-  /// Tests the deferred objects that are not triangles, or are translucent, and removes their packets.
-  /// Returns these packets.
+  /// Tests the deferred objects that are not triangles or are translucent; test() then skips them. Returns
+  /// their packets.
   CELLTRACE_ONE_COPY uint32_t test_others(RayQuery* queries, uint32_t others) {
     uint32_t packets = 0;
     for_each_lane(others, [&](uint32_t i) {

@@ -1,5 +1,5 @@
-// The rays of a bundle that leave their packets, and the light that they bring to its pixels. Kernel dialect,
-// for direct memory.
+// Rays of a bundle that leave their packets, and the light that these rays bring to the bundle's pixels.
+// Kernel dialect, for direct memory.
 //
 // Primary rays are sorted by the materials that they hit if that pays; secondary rays, shadow rays from their
 // hits, and secondary rays without a hit are gathered into full packets.
@@ -18,7 +18,7 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// Allocates memory. `samples` receive the transparency of each sample; null: it is not wanted.
+  /// Allocates memory. `samples` receive the transparency of each sample, unless `samples` is null.
   BundlePool(Spu& spu, SampleBundle<Spu>* samples)
       : rays(room_for<PooledRays>(spu)), hits(room_for<EndingHits>(spu)),
         shadows(room_for<ShadowPoints>(spu)), skies(room_for<SkyRays>(spu)), samples_(samples), sorter_(spu),
@@ -85,7 +85,6 @@ public:
           transparency.lane[lane];
     });
   }
-  /// Adds light to pixels.
   void add(const WordLanes& pixels, uint32_t lanes, const VectorLanes& light) {
     for_each_lane(lanes, [&](uint32_t lane) {
       VectorLanes& sum = light_[pixels.lane[lane] / kSimdLanes];
@@ -102,14 +101,13 @@ public:
     more.template store<S>(round.template sum<S>());
     add(sorter_.places(member), lanes, more);
   }
-  /// Returns the light of a member's pixels, with that of a round as in add().
+  /// Returns the light of a member's pixels, with a round's light as in add().
   V3<S> light_of(uint32_t member, uint32_t lanes, const LightRound& round) const {
     const V3<S> seen = light_[member].template load<S>();
     if (is_sorted(member) || lanes == 0) return seen;
     return select<S>(S::M::from_bits(lanes), seen + round.template sum<S>(), seen);
   }
 
-  /// Drops all rays.
   void drop() {
     rays.clear();
     hits.clear();

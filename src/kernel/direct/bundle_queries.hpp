@@ -80,8 +80,7 @@ public:
     traversal().intersect(queries, count);
   }
 
-  /// Starts the traversal for a bundle of rays from one point. Returns false if certainly no ray hits
-  /// anything.
+  /// Starts the traversal for a bundle of rays from one point. Returns false if no ray can hit anything.
   template <class Bundle> bool enter(const Bundle& bundle) {
     if constexpr (Traversal::kHasBvh)
       return !traversal().uses_bvh() || bundle.packets == 0 ||
@@ -90,7 +89,7 @@ public:
     else
       return true;
   }
-  /// Finds the closest hits of the bundle that was entered last; query i belongs to its packet i.
+  /// Finds the closest hits of `bundle`, for which enter() was called last; query i belongs to packet i.
   void intersect_from_pinhole(RayQuery* queries, const PinholeBundle<S>& bundle) {
     if (!traversal().searches_bvh() || bundle.packets == 0)
       return traversal().intersect(queries, kBundlePackets<Spu>);
@@ -104,7 +103,7 @@ protected:
     if constexpr (Traversal::kHasBvh) {
       if (traversal().searches_bvh() && !is_parallel(light)) {
         traversal().intersect_listed(queries, count);
-        // Planes may leave packets without rays, which a bundle must not have.
+        // Planes may occlude all rays of a packet, which a bundle must not contain then.
         const uint32_t with_rays =
             traversal().frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
         if (with_rays != 0) traversal().bvh_.intersect_toward(queries, with_rays, light.location);
@@ -133,7 +132,7 @@ private:
     traversal().objects_.set_translucency(Translucency::attenuates);
   }
 
-  /// Moves queries with rays in front of those without; returns their number.
+  /// Moves queries with rays in front of queries without rays; returns the number of the former.
   static uint32_t queries_with_rays(RayQuery* queries, uint32_t count) {
     uint32_t with_rays = 0;
     for (uint32_t i = 0; i < count; ++i) {

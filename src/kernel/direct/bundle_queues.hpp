@@ -26,8 +26,8 @@ struct PooledRays : WorkKind {
     const WordLanes& pixels;
   };
   static constexpr uint32_t kKeys = 8;
-  /// Capacity in packets: packets that are being filled, some for each packet of a bundle, and full ones that
-  /// wait on the way down the trees.
+  /// Capacity in packets: packets that are being filled, some more for each packet of a bundle, and full
+  /// packets that wait on the way down the trees.
   static constexpr uint32_t kPackets = 58;
   static constexpr bool kMixesKeys = true;
 
@@ -61,7 +61,7 @@ struct EndingHits : WorkKind {
     PooledRays::Source rays;
     const HitPacket& hits;
   };
-  static constexpr uint32_t kPackets = 5; ///< number that a tree may leave until it is complete
+  static constexpr uint32_t kPackets = 5; ///< most packets that a tree may leave until it is complete
   static constexpr bool kOldestFirst = true;
 
   PooledRays rays;
@@ -84,9 +84,9 @@ struct ShadowPoints : WorkKind {
     const WordLanes& object;
     const VectorLanes& light;
     const WordLanes& pixels;
-    const RayInteriors* interiors; ///< null: not wanted
+    const RayInteriors* interiors; ///< null: interiors are not wanted
   };
-  static constexpr uint32_t kKeys = 8, kPackets = kKeys; ///< lights of a frame with a queue
+  static constexpr uint32_t kKeys = 8, kPackets = kKeys; ///< number of a frame's lights that have a queue
 
   VectorLanes point;
   WordLanes object;       ///< object that each point lies on
@@ -134,8 +134,8 @@ struct RayPooling {
   WavefrontQueue<PooledRays>* queue = nullptr;
   WordLanes pixels; ///< by lane, pixel of the bundle for the rays that are being traced
 
-  /// Puts rays into the queue. Returns false, and leaves the rays, if there is no queue or no room, or if the
-  /// rays are not few.
+  /// Puts rays into the queue. Returns false, and leaves the rays, if there is no queue or no room, or if
+  /// there are many rays.
   bool takes(const RayNode& node) {
     if (queue == nullptr || !had_better_wait(node.lanes) || !queue->has_room()) return false;
     for_each_lane(node.lanes, [&](uint32_t lane) {

@@ -1,5 +1,6 @@
-// Steps of a bundle's traversal in direct memory: with a view of the scene from the point that all of its
-// rays pass through. Packets whose rays are in several octants are traversed as a whole. Kernel dialect.
+// Steps of a bundle's traversal in direct memory, with a view of the scene from the point that all rays of
+// the bundle pass through. Packets whose rays are in several octants are traversed as a whole. Kernel
+// dialect.
 #pragma once
 
 #include "kernel/accel/bvh_traversal.hpp"
@@ -17,15 +18,14 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// Finds the closest hits of the primary rays of a bundle that has just been entered; query i belongs to
-  /// its packet i.
+  /// Finds the closest hits of primary rays of `bundle`, just entered; query i belongs to packet i.
   void intersect_from_pinhole(RayQuery* queries, const PinholeBundle<S>& bundle) {
     for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet)
       search().tfar_[packet] = queries[packet].lanes != 0 ? Packets::kTfarSlack * kMaxHitDistance : -1.0f;
     bundle.shortening.store(shortening_);
     traverse_view(queries, bundle);
   }
-  /// Finds the closest hits of `queries`, each of which has some lanes; `bundle` has some of their packets.
+  /// Finds the closest hits of `queries`, each with at least one lane; `bundle` has some of their packets.
   void intersect_from_origin(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
     if (bundle.packets != 0) {
       bundle.shortening.store(shortening_);
@@ -37,7 +37,7 @@ public:
     }
     search().intersect(queries, count, bundle.packets);
   }
-  /// Answers queries of shadow rays toward the point `light`. Each of them has some lanes.
+  /// Answers queries of shadow rays toward the point `light`. Each query has at least one lane.
   void intersect_toward(RayQuery* queries, uint32_t count, const float (&light)[3]) {
     const LightBundle<S> bundle(light, queries, count);
     if (bundle.packets != 0) {
@@ -48,7 +48,7 @@ public:
     search().intersect(queries, count, bundle.packets);
   }
 
-  /// Answers a query of shadow rays that come only to these leaves.
+  /// Answers a query of shadow rays that can hit objects of these leaves only.
   void intersect_leaves(RayQuery& query, const NodeLeaves* nodes, uint32_t count) {
     search().objects_.hit_filter().begin_packet();
     const MixedRays<S> rays(*query.rays);
@@ -83,8 +83,8 @@ protected:
       : mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays),
         mixes_always_(frame.object_count <= tuning::kMostObjectsWithoutFrusta) {}
 
-  /// Traverses a packet with rays of several octants at once. Returns false, without doing it, if it does not
-  /// pay.
+  /// Traverses a packet with rays of several octants at once. Returns false, without a traversal, if that
+  /// does not pay.
   bool intersect_mixed(RayQuery& query) {
     const RayPacket& rays = *query.rays;
     if (__builtin_popcount(query.lanes) < tuning::kLeastMixedRays || !mixes_octants_) return false;
@@ -105,7 +105,7 @@ protected:
     reversed_ = false;
   }
   const BundleView<S>* view() const { return view_; }
-  /// Returns true if all rays pass through one point, as their frusta are then tight.
+  /// Returns true if all rays pass through one point, so that their frusta are tight.
   bool trusts_frusta() const { return view_ != nullptr; }
   uint32_t untrusted_at(const NodeRef& child) const { return child.is_leaf() ? incoherent_origins_ : 0; }
   void set_own_frustum(uint32_t packet, const RayQuery& query, Frustum<S>& frustum) {
@@ -127,8 +127,8 @@ protected:
     else
       search().objects_.test_occlusion_of_all(queries, packets, self);
   }
-  /// Tests deferred triangles, unless they can wait for those of the next leaf. If the next entry is a node
-  /// they cannot: their hits should shorten tfar before it is expanded.
+  /// Tests deferred triangles, unless the next entry is a leaf whose triangles can join them. If it is a
+  /// node, hits should shorten tfar before the node is expanded.
   [[gnu::always_inline]] void test_deferred(LeafTests& leaves, RayQuery* queries, uint32_t bundled) {
     if (!leaves.has_deferred()) return;
     const auto& stack = search().packet_traversal_.stack();
@@ -157,7 +157,7 @@ private:
   }
 
   /// The traversal of a bundle's frustum, for traverse_nodes(). The traversal ends at a leaf or when some
-  /// nodes have been expanded, and leaves the next ones on the stack.
+  /// nodes have been expanded, and leaves the next entries on the stack.
   struct FrustumVisitor {
     Search& traversal;
     const SlabOrder order;

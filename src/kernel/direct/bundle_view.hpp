@@ -63,7 +63,7 @@ template <class S> struct ViewBundle {
   RayBounds all; ///< contains the bounds of all packets
   uint32_t octant = 0;
   bool turned = false;     ///< true if bounds and octant are those of reversed rays
-  uint32_t packets = 0;    ///< packets of the bundle; all else is undefined for others
+  uint32_t packets = 0;    ///< packets of the bundle; members are undefined for other packets
   uint32_t incoherent = 0; ///< packets whose frusta hit many leaves that none of their rays hits
   float density = 0.0f;    ///< rays in a unit square at depth 1; 0: unknown
 };

@@ -2,7 +2,7 @@
 // for direct memory.
 //
 // A ray crosses the faces of a convex solid twice at most. Therefore the condition on a part's crossings is
-// known before they are found: they have to be between those two, or not.
+// known before they are found: they have to lie between the two crossings of faces, or outside.
 #pragma once
 
 #include "kernel/primitives/csg.hpp"
@@ -44,7 +44,7 @@ template <class S> SlabInterval<S> interval_in_half_space(const RayPacket& rays,
 
 /// A clipping solid in which the intervals of rays are found quickly: a box or a plane.
 struct ClippingObject {
-  const ObjectRecord* object; ///< null: it is another solid
+  const ObjectRecord* object; ///< null: the solid is no box and no plane
   bool is_box, keeps_inside;
 
   template <class Spu> static ClippingObject of(SceneAccess<Spu>& scene, uint32_t condition) {

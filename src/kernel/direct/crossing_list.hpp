@@ -50,9 +50,9 @@ template <class S> struct CrossingList : VectorLanes {
     return &pool_->transmittance[place];
   }
   bool empty() const { return count_ == 0; }
-  /// Multiplies the light by the transmittance of the surfaces that count: as POV-Ray starts a ray again at
-  /// each surface, it does not see the next one within kShadowEpsilon. If two surfaces are at one distance,
-  /// the one found first counts.
+  /// Multiplies the light by the transmittance of the surfaces that count. As in POV-Ray, a ray starts again
+  /// at each surface and does not see the next one within kShadowEpsilon. If two surfaces are at one
+  /// distance, the one found first counts.
   void finish() {
     V3<S> light = this->template load<S>();
     for (uint32_t i = 0; i < count_; ++i) {
@@ -67,8 +67,8 @@ template <class S> struct CrossingList : VectorLanes {
     this->template store<S>(light);
   }
 
-  /// Removes the nearest surfaces of `lanes`, of two at one distance the one found first. Returns the lanes
-  /// that have one, and stores the hits and the surfaces' transmittance.
+  /// Removes the nearest surface of each of `lanes`, the one found first if two are at one distance. Stores
+  /// the hits and the surfaces' transmittance, and returns the lanes that had a surface.
   uint32_t take(uint32_t lanes, HitPacket& hits, VectorLanes& transmittance) {
     using I = typename S::I;
     const F one(1.0f), nowhere(kMaxHitDistance);

@@ -1,4 +1,4 @@
-// The feature points in and around a unit cell, for all lanes that are in it. If lanes are farther apart, see
+// The feature points in and around a unit cell, for all lanes in this cell. If lanes are in many cells, see
 // neighbours_of_lanes.hpp. Kernel dialect, for direct memory.
 #pragma once
 
@@ -41,8 +41,8 @@ private:
   float place_[3][kCount];
 };
 
-/// A cache of the feature points around the cells with a packet's points, for further points beside these: a
-/// normal evaluates four points that are close together. All are from one table.
+/// A cache of the feature points around the cells with a packet's points, for further points near by: a
+/// normal evaluates four points that are close together. All feature points are from one table.
 template <class S> class NeighbourCache {
 public:
   NeighbourCache() {
@@ -52,7 +52,7 @@ public:
 
   /// Returns the points around a cell in `features`, which are valid until the next call.
   template <class Table> const FeatureNeighbours<S>& around(Table& features, const uint32_t (&cell)[3]) {
-    // The name has as many bits of each coordinate as there are numbers of cells.
+    // The name has the coordinates modulo kFeatures, after which cells repeat.
     uint64_t name = 0;
     for (const uint32_t coordinate : cell)
       name = name * kFeatures + coordinate % kFeatures;

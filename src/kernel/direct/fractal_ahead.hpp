@@ -1,10 +1,10 @@
 // Values of a fractal at the hits of a bundle's rays, computed before they are needed. Kernel dialect, for
 // direct memory.
 //
-// Near the edge of the Mandelbrot set one point stays for ten rounds and the one beside it for ten thousand:
-// a packet continues until its last lane has ended, and each round waits for the previous one. Here the
-// points of all packets are iterated in lanes that are filled again, two vectors at a time. A WavefrontQueue
-// has a body that ends for all lanes of a packet, but here each lane is followed by another.
+// Near the edge of the Mandelbrot set one point takes ten rounds and its neighbour ten thousand. Packet by
+// packet, all lanes would wait for the last one, and each round for the previous one. Here lanes that have
+// ended are filled with points of other packets, and two vectors are iterated at a time. A WavefrontQueue
+// cannot refill single lanes: its body ends for all lanes of a packet.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -24,8 +24,8 @@ public:
 
   /// Adds the rounds of a packet that has been iterated separately.
   void count(uint32_t rounds) { rounds_ += rounds; }
-  /// Forgets all values. Returns true if the values of the next packets should be found together, as those of
-  /// the last ones took long.
+  /// Forgets all values. Returns true if the values of the next packets should be found together, because the
+  /// last packets' values took long.
   bool begin() {
     const bool takes_long = rounds_ >= tuning::kLeastRoundsOfFractals;
     rounds_ = 0;
@@ -39,7 +39,7 @@ public:
     return !iteration.wants_least() && iteration.most() > kFirstRounds;
   }
   /// Adds points of some lanes of a packet, in the space of a pattern for which takes() is true. Points of
-  /// another pattern than the first one are ignored, and have to be evaluated separately. Points that leave
+  /// another pattern than the first one are ignored, and have to be evaluated separately. Points that escape
   /// soon get their values at once.
   void add(uint32_t packet, const PatternRecord& r, uint32_t lanes, const Complex<S>& at) {
     if (pattern_ == nullptr) begin_pattern(r);
@@ -98,8 +98,8 @@ public:
           const F rounds = squares[k].rounds;
           const M iterating = squares[k].bounded & (rounds < most) & !squares[k].is_at(kept[k]);
           ended[k] = streams[k].busy & ~iterating.bits();
-          // Detects cycles (Brent): the number of each round is compared with a kept one. A number is kept
-          // whenever the count of rounds is a power of 2.
+          // Detects cycles (Brent): the number of each round is compared with a kept number, which is
+          // replaced whenever the count of rounds is a power of 2.
           const I whole = S::to_int(rounds);
           const M keeps = (whole & (whole - I::splat(1))) == I::splat(0);
           kept[k] = {S::select(keeps, squares[k].z.a, kept[k].a),
@@ -137,8 +137,8 @@ private:
   /// Rounds between two checks for ended lanes; and rounds of a packet by itself before lanes are filled
   /// again.
   static constexpr uint32_t kRounds = 8, kFirstRounds = 4 * kRounds;
-  /// Number of vectors that are iterated together: a round of one takes half as long as the latency of its
-  /// result.
+  /// Number of vectors that are iterated together: a round of one vector takes half as long as the latency of
+  /// its result.
   static constexpr uint32_t kStreams = 2;
 
   struct ComplexLanes {

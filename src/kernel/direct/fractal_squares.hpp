@@ -1,4 +1,4 @@
-// Fractals that iterate squares, which are most. Kernel dialect, for direct memory.
+// Fractals that iterate squares, as most do. Kernel dialect, for direct memory.
 #pragma once
 
 #include "kernel/direct/fractal_ahead.hpp"
@@ -28,10 +28,10 @@ struct FractalSquares {
     return value;
   }
 
-  /// Iterates numbers that are squared, except those of `known`, whose values are undefined. A number that
-  /// comes back after some rounds would do so for ever, as convergent ones do: it is not followed further
-  /// (Brent 1980). All later numbers have occurred by then, so that the least size is known. The check is
-  /// made after several rounds at a time only. Not inlined, so that the loop has all registers for itself.
+  /// Iterates numbers that are squared, except in `known` lanes, whose values are undefined. A number that
+  /// comes back after some rounds, as convergent ones do, would do so for ever and is not followed further
+  /// (Brent 1980): all later numbers have occurred, so that the least size is known. This is checked after
+  /// several rounds at a time only. Not inlined, so that the loop has all registers for itself.
   template <class S, bool kWantsLeast>
   [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
                                                          const typename S::M& known,

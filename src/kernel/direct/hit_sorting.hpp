@@ -1,9 +1,9 @@
-// Sorting of a bundle's rays by the materials of their hits, so that few packets have several. Kernel
-// dialect, for direct memory.
+// Sorting of a bundle's rays by the materials of their hits, so that few packets have several materials.
+// Kernel dialect, for direct memory.
 //
 // A packet is shaded once for each of its materials, and hits with one material are mostly close together, so
-// that their shadow rays are coherent. No lane waits, and so this is no WavefrontQueue: all are present at
-// once, and change places by counting.
+// that their shadow rays are coherent. This is no WavefrontQueue, as no lane waits: all lanes are present at
+// once and sorted by counting.
 #pragma once
 
 #include "kernel/packet.hpp"
@@ -19,8 +19,8 @@ public:
 
   explicit HitSorter(Spu& spu) : sorted_(spu.template allocate<Sorted>(kPackets)) {}
 
-  /// Sorts the mixed packets of a bundle, if that pays: rays, hits and their lanes, which are filled from the
-  /// first one on. Other packets stay as they are. Returns the packets that were sorted.
+  /// Sorts the rays and hits of a bundle's mixed packets into lanes from the first one on, if that pays.
+  /// Other packets stay as they are. Returns the packets that were sorted.
   template <class Packet> uint32_t sort(SceneAccess<Spu>& scene, Packet* packets) {
     if (!looks_mixed(scene, packets)) return 0;
     materials_count_ = rays_ = mixed_ = sorted_count_ = 0;
@@ -50,8 +50,8 @@ public:
 
 private:
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
-  /// Number of materials that are distinguished. All further materials count as the last of them, and rays
-  /// without a hit have none.
+  /// Number of materials that are distinguished. All further materials count as the last one; rays without a
+  /// hit have kNone.
   static constexpr uint32_t kMaterials = 16, kNone = kMaterials;
 
   struct Sorted {
@@ -60,8 +60,8 @@ private:
     WordLanes places;
   };
 
-  /// Returns the material of an object. Triangles of instances count as one material: theirs would take long
-  /// to find.
+  /// Returns the material of an object. Triangles of instances count as one material, as theirs take long to
+  /// find.
   static uint32_t material_at(SceneAccess<Spu>& scene, uint32_t object) {
     return is_instanced(object) ? kInstancedBit : scene.object(object)->material;
   }
@@ -137,7 +137,7 @@ private:
   uint32_t count_[kMaterials + 1],
       next_[kMaterials + 1]; ///< index: material; rays, and place of the next one
   uint32_t rays_ = 0;
-  uint32_t mixed_ = 0; ///< total number of materials of these packets
+  uint32_t mixed_ = 0; ///< sum of the sorted packets' numbers of materials
 };
 
 } // namespace celltrace::kernel

@@ -1,5 +1,5 @@
-// The cells around the points at which crackle is evaluated, whose feature points are all known at once.
-// Kernel dialect, for direct memory.
+// The search for nearest points of crackle in inner cells: the cells around each point, whose feature points
+// are all known at once. Kernel dialect, for direct memory.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -135,7 +135,7 @@ private:
       nearest.point = select<S>(S::M::from_bits(nearer), p + offset.template load<S>(), nearest.point);
   }
 
-  /// Returns true if no point beyond the inner cells, which are at least 1 away along an axis, is nearer.
+  /// Returns true if no point beyond the inner cells, at least 1 away along an axis, can be nearer.
   [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power,
                                                         const typename S::M& here) {
     return (here & (power > typename S::F(1.0f))).bits() == 0;

@@ -16,7 +16,7 @@ public:
   using M = typename S::M;
   using Stack = TraversalStack<1, kMaxMeshLevels>;
 
-  /// Stores a packet's rays in the mesh's space; `inverse` is that of their direction.
+  /// Stores a packet's rays in the mesh's space; `inverse` is 1 / direction.
   [[gnu::always_inline]] InstanceRays(const RayPacket& world, const V3<S>& origin, const V3<S>& direction,
                                       const V3<S>& inverse)
       : world_(world) {

@@ -39,8 +39,8 @@ public:
   /// Adds the objects of a leaf, for which there must be room, if the first of them is a `wanted` triangle.
   /// The other objects may be of any kind: see lanes_with().
   [[gnu::always_inline]] bool add(const NodeRef& leaf, const ObjectFlags& wanted) {
-    // All lanes are set without a loop whose end could not be predicted; those beyond the leaf's are not in
-    // use. A leaf without a list has an object at its offset, which is as long.
+    // All lanes are set without a loop whose end could not be predicted; lanes beyond the leaf's objects are
+    // not in use. A leaf without a list has an object at its offset, which is as long.
     uint32_t next[kMost];
     static_assert(sizeof next == leaf_word::kReadableBytes);
     __builtin_memcpy(next, image_ + leaf.child, sizeof next);

@@ -52,7 +52,7 @@ private:
     return magnitude(rays.direction[axis].lane[lane]) > magnitude(rays.direction[than].lane[lane]);
   }
 
-  /// Reads the active lanes of a packet's vectors. Other lanes take the value of an active one, so that they
+  /// Reads the active lanes of a packet's vectors. Other lanes take the value of an active lane, so that they
   /// do not widen intervals.
   struct ActiveLanes {
     typename S::M lanes;
@@ -138,7 +138,7 @@ private:
     for (uint32_t i = 0; i < 2; ++i)
       view.slope[i] = (light[axes[i]] - view.origin[axes[i]]) / depth;
     // By packet: the places where its rays cross the plane through the view's origin, and the least height of
-    // their origins above it.
+    // their origins above this plane.
     FloatLanes lowest;
     F(0.0f).store(lowest.lane);
     float extent = 0.0f;
@@ -187,7 +187,7 @@ private:
       all.origin[axis] = bounds.origin[axis].all();
   }
 
-  /// Sets the origins relative to one of them.
+  /// Sets the rays' origins relative to one of these.
   void set_origins(const float (&light)[3]) {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       shadows_.light[axis] = light[axis];

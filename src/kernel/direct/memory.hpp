@@ -35,7 +35,7 @@ struct DirectMemory {
   template <class Spu, class T> using StreamWriter = DirectStreamWriter<T>;
   template <class Spu> using SortTarget = DirectSortTarget;
 
-  /// Copies of memory for one `Owner`; most are so small that a transfer by DMA would take longer.
+  /// Copies of memory for one `Owner`. Most copies are so small that DMA would take longer.
   template <class Spu, class Owner> class Transfers {
   protected:
     explicit Transfers(Spu&) {}

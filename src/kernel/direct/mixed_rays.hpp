@@ -16,7 +16,7 @@ public:
   using F = typename S::F;
   using F4 = typename S::F4;
 
-  /// Returns the children that a node has. Without an order of planes, an empty box is like any other.
+  /// Returns the children that a node has: without an order of planes, slab tests do not reject empty boxes.
   static uint32_t children_of(const float (&bounds)[6][4]) {
     return not_above_bits(F4::load(bounds[0]), F4::load(bounds[1]));
   }
@@ -53,8 +53,8 @@ private:
     const F a = (F(low) - origin) * inverse, b = (F(high) - origin) * inverse;
     return {S::min(a, b), S::max(a, b)};
   }
-  /// Returns the lanes that hit child `i` of a node from `from` up to their own `tfar`; `from` increases to
-  /// their distances.
+  /// Returns the lanes that hit child `i` of a node from `from` up to their own `tfar`; raises `from` to the
+  /// rays' distances.
   [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
                                              F& from) const {
     const Range x = slab(bounds[0][i], bounds[1][i], origin_.x, inverse_.x);
@@ -81,7 +81,7 @@ public:
   struct Entry {
     NodeRef ref;
     uint32_t lanes; ///< rays that hit the node
-    uint32_t place; ///< index of their distances in `enter_`
+    uint32_t place; ///< index of the rays' distances in `enter_`
   };
 
   bool empty() const { return size_ == 0; }
@@ -92,8 +92,8 @@ public:
   }
   F enter(const Entry& entry) const { return F::load(enter_[entry.place].lane); }
 
-  /// Pushes the children, hit by some rays, of the node that was popped last, without a branch: in the order
-  /// in which the ray `any` enters them.
+  /// Pushes the children, hit by some rays, of the node that was popped last. Their order is that in which
+  /// the ray `any` enters them, found without a branch.
   [[gnu::always_inline]] void push(const NodeRecord& node, uint32_t any, const uint32_t (&hit)[4],
                                    const F (&enter)[4]) {
     // The level above has the siblings' distances.
@@ -149,8 +149,8 @@ template <class Spu> struct MixedVisitor {
     if (lanes != 0) stack.push(node, static_cast<uint32_t>(__builtin_ctz(lanes)), hit, enter);
     return false;
   }
-  /// Tests the leaves of a node that has no inner nodes, one after another: they are too few for an order to
-  /// pay. Returns false if the node has inner nodes.
+  /// Tests the leaves of a node that has no inner nodes, one after another: sorting so few would not pay.
+  /// Returns false if the node has inner nodes.
   [[gnu::always_inline]] bool test_leaves(const NodeRecord& node) {
     const uint32_t present = MixedRays<S>::children_of(node.bounds);
     uint32_t inner = 0;

@@ -63,9 +63,10 @@ public:
     }
   }
 
-  /// Calls `take(offsets, lanes, count)` for the other cells of the 26 around each lane's cell, in pairs:
-  /// lanes[i] is the lane of the i-th vector. `along(gap)` returns the contribution of a gap along one axis
-  /// to distance^metric, `reaching(sum)` the lanes that need points whose gaps add up to `sum`.
+  /// Calls `take(offsets, lanes, count)` for the other cells of the 26 around each lane's cell, in pairs of a
+  /// lane and a cell: lanes[i] is the lane of the i-th vector. `along(gap)` returns the contribution of a gap
+  /// along one axis to distance^metric, `reaching(sum)` the lanes that need points whose gaps add up to
+  /// `sum`.
   template <class Along, class Reaching, class Take>
   void for_each_far(const Along& along, const Reaching& reaching, const Take& take) const {
     Pairs pairs;
@@ -89,8 +90,7 @@ public:
 
 private:
   static constexpr uint32_t kStay = 0, kNear = 1, kFar = 2, kSteps = 3;
-  /// Pairs of lanes and cells, which are `factor` steps to the near side away. Vectors are stored at any
-  /// lane.
+  /// Pairs of a lane and a cell `factor` steps away toward the near side. Vectors are stored at any lane.
   struct Pairs : WorkKind {
     struct Source {
       float factor[3];

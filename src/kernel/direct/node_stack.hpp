@@ -5,7 +5,7 @@
 
 namespace celltrace::kernel {
 
-/// A stack on which nodes are made in place: pushing one copies nothing.
+/// A stack on which nodes are made in place: pushing copies nothing.
 class NodeStack {
 public:
   /// Uses memory for `nodes` at `memory`, one of which is always next().

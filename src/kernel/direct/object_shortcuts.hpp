@@ -158,9 +158,9 @@ private:
   SceneAccess<Spu>& scene() { return tests().scene(); }
   auto& counters() { return tests().counters(); }
 
-  /// Tests an object of a kind with one pair of crossings, which no further record changes, against several
-  /// packets: keeps their closest hits, or removes the lanes that it occludes, if it is opaque, from queries
-  /// of shadow rays. Returns false if the object is of another kind.
+  /// Tests an object against several packets if its kind has one pair of crossings that no further record
+  /// changes. Keeps the closest hits, or removes the lanes that an opaque object occludes from queries of
+  /// shadow rays. Returns false if the object is of another kind.
   bool test_plain(RayQuery* queries, uint32_t packets, const ObjectRecord& object, uint32_t self) {
     if ((object.kind_and_flags & (object_flag::csg | object_flag::selective)) != 0) return false;
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
@@ -185,7 +185,7 @@ private:
     return Shape::kCrossingPairs == 1 && !Shape::kIsHeavy && kKind != kPrimitiveKind<TrianglePrimitive> &&
            kKind != kPrimitiveKind<PlanePrimitive> && kKind != kPrimitiveKind<PolygonPrimitive>;
   }
-  /// Flattened, as otherwise the test of a shape would be inlined nowhere.
+  /// Does test_plain() for one shape. Flattened, as otherwise the shape's test would be inlined nowhere.
   template <class Shape, bool kForHits>
   [[gnu::noinline, gnu::flatten]] void test_all(RayQuery* queries, uint32_t packets,
                                                 const ObjectRecord& object, uint32_t self) {
@@ -212,8 +212,8 @@ private:
       if constexpr (decltype(shape)::kHasShadowTest) test(shape);
     });
   }
-  /// Finds the lanes that an opaque object with kHasShadowTest occludes, if none of them starts on it. False:
-  /// the condition of its CSG is not known before the crossings are.
+  /// Finds the lanes that an opaque object with kHasShadowTest occludes, if none of them starts on it.
+  /// Returns false if the condition of its CSG depends on the crossings.
   [[gnu::noinline]] bool test_shadows(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
                                       const FloatLanes& distance, uint32_t& dark) {
     const ExtraRecord& extra = *scene().extra(object.extra);
@@ -233,7 +233,8 @@ private:
     });
     return true;
   }
-  /// Removes the lanes that such an object occludes from several queries; candidates are `lanes` by packet.
+  /// Removes from several queries the lanes that such an object occludes; candidates are `lanes` by packet.
+  /// Returns false as test_shadows() does.
   [[gnu::noinline]] bool test_shadows_of_some(RayQuery* queries, uint32_t packets, const uint32_t* lanes,
                                               const ObjectRecord& object, uint32_t self) {
     const ExtraRecord& extra = *scene().extra(object.extra);

@@ -5,7 +5,7 @@
 
 namespace celltrace::kernel {
 
-/// The coherent packets of a bundle, as PinholeBundle, but for any rays from one point.
+/// The coherent packets of a bundle as in PinholeBundle, but for any rays that start at one point.
 template <class S> class OriginBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
@@ -51,7 +51,7 @@ private:
     return true;
   }
 
-  /// Finds the slopes of all packets. Returns those whose slopes are finite and in the octant.
+  /// Finds the slopes of all packets. Returns the packets whose slopes are finite and in the octant.
   uint32_t find_slopes(const RayQuery* queries, uint32_t count) {
     F slopes[2][kSimdLanes];
     uint32_t aside = 0; // packets with rays that are not along the major axis
@@ -60,7 +60,7 @@ private:
       const RayQuery& query = queries[packet < count ? packet : 0];
       const auto active = S::M::from_bits(query.lanes);
       const auto any_lane = static_cast<uint32_t>(__builtin_ctz(query.lanes));
-      // Inactive lanes take the value of an active one, so that they do not widen intervals.
+      // Inactive lanes take the value of an active lane, so that they do not widen intervals.
       const auto along = [&](uint32_t axis) {
         const FloatLanes& all_lanes = query.rays->direction[axis];
         return S::select(active, F::load(all_lanes.lane), F(all_lanes.lane[any_lane]));
@@ -87,7 +87,7 @@ private:
   }
 
   /// Finds the least and the greatest lane of each of sixteen packets. All packets are reduced at once,
-  /// because in the reduction of one packet each step waits for the one before.
+  /// because in the reduction of one packet each step waits for the previous step.
   static void find_extremes(const F (&values)[kSimdLanes], FloatLanes& low, FloatLanes& high) {
     using F4 = typename S::F4;
     for (uint32_t first = 0; first < kSimdLanes; first += 4) {
@@ -121,7 +121,7 @@ private:
       packets |= 1u << packet;
     });
     if (packets == 0) return;
-    // Lanes of packets that are not included get the values of one that is.
+    // Lanes of packets that are not included get the values of an included packet.
     const auto included = S::M::from_bits(packets);
     const auto any = static_cast<uint32_t>(__builtin_ctz(packets));
     for (uint32_t i = 0; i < 2; ++i) {

@@ -6,8 +6,8 @@
 namespace celltrace::kernel {
 
 struct DirectPackets {
-  /// Returns the distance at which a search for hits of some lanes begins. Other lanes hit nothing, as tests
-  /// of instances take long.
+  /// Returns the greatest distance of a search for hits: below 0 in lanes other than `lanes`, which then hit
+  /// nothing, as tests of instances take long.
   template <class S> static typename S::F farthest(uint32_t lanes) {
     using F = typename S::F;
     return S::select(S::M::from_bits(lanes), F(kMaxHitDistance), F(-1.0f));

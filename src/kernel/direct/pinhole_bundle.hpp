@@ -1,4 +1,4 @@
-// The primary rays of a bundle, before they exist, for a pinhole camera. Kernel dialect.
+// Bounds of a bundle's primary rays for a pinhole camera, before the rays exist. Kernel dialect.
 #pragma once
 
 #include "kernel/cameras/primary_rays.hpp"

@@ -1,5 +1,5 @@
-// The ray trees of a bundle in direct memory: rays that leave their packets fill others with those of other
-// trees. Kernel dialect.
+// The ray trees of a bundle in direct memory: rays that leave their packets fill new packets together with
+// rays of other trees. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/bundle_pool.hpp"
@@ -87,7 +87,7 @@ protected:
   template <class Member> void begin_tree(const Member& member) {
     pool_.begin_tree(member.number, tracer().pooling().pixels);
   }
-  /// Returns true for a root: shade_end() has already found its points.
+  /// Returns true for a root, whose points shade_end() has already found.
   static bool has_hit_points(const void* root) { return root != nullptr; }
   uint32_t take_hits() {
     return tracer().take_hits([&](uint32_t missed) { return defer_sky(missed); });
@@ -124,8 +124,8 @@ protected:
 
   // --- light ---
 
-  /// Leaves light of a few lanes of the current node to light_points(). Returns false if it has to be traced
-  /// now, as it does not go to pixels or its rays have a packet of their own.
+  /// Leaves light of a few lanes of the current node to light_points(). Returns false if the light has to be
+  /// traced now, as it does not go to pixels or its rays have a packet of their own.
   bool defer_light(uint32_t number, uint32_t lanes, const VectorLanes& colour) {
     if (lanes == 0 || !may_wait(lanes) || number >= ShadowPoints::kKeys) return false;
     VectorLanes point;
@@ -176,7 +176,7 @@ public:
     light.template store<S>(tracer().behind(rays.direction, lanes) * rays.throughput.template load<S>());
     pool_.add(rays.pixels, lanes, light);
   }
-  /// Adds the light of a lamp that reaches points to their pixels.
+  /// Adds the light that points receive from a lamp to their pixels.
   void light_points(uint32_t number, ShadowPoints& points, uint32_t lanes) {
     for_each_light(all().scene_, all().frame_, number, 1, [&](uint32_t, const LightRecord& light) {
       all().shadows_.set_interiors(&points.interiors);

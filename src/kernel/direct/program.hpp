@@ -32,8 +32,8 @@ struct DirectProgram {
   }
 
 private:
-  /// Performs the part of this SPE in a build step by step. The first SPE knows the number of nodes from its
-  /// first step on.
+  /// Performs this SPE's part of one step of a build. The first SPE knows the number of nodes from its first
+  /// step on.
   template <class Spu> static PrepareResult take_step(Spu& spu, const FrameBlock& frame) {
     uint8_t* const marked = spu.mark();
     bvh::Builder<Spu> builder(spu, frame, spu.id());

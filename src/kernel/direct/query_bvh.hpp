@@ -37,7 +37,6 @@ struct alignas(16) TriangleBlock {
   uint32_t offset[4]; ///< offsets of the triangles' records in the scene image
 };
 
-/// The tables of the BVH.
 struct QueryBvh {
   const QueryNode* nodes; ///< the first is the root
   const TriangleBlock* blocks;

@@ -17,7 +17,7 @@ struct DirectShading {
 
   // --- surfaces ---
 
-  /// Ends of trees are shaded without the code for secondary rays.
+  /// True: ends of trees are shaded without the code for secondary rays.
   static constexpr bool kShadesEndsApart = true;
   /// Gives lanes a material; the first material fills all lanes.
   template <class Spu>
@@ -31,7 +31,7 @@ struct DirectShading {
 
   // --- light ---
 
-  /// Begins a round, which is fresh; shading stores the rays toward its first light.
+  /// Begins a fresh round, in which shading stores the rays toward the first light.
   template <class S, class LitPoints> static void begin_round(LightRound& round, LitPoints& lit) {
     round.is_fresh = true;
     round.to_first = &lit.to_light;
@@ -44,8 +44,8 @@ struct DirectShading {
   /// Returns true if shading has stored the rays toward a light, in a round that begins with light `first`.
   static bool is_aimed(uint32_t light, uint32_t first) { return light == first; }
 
-  /// Removes lanes from `lanes` whose surfaces send on no light: they are black or diffuse nothing, and have
-  /// no highlights. True if none is left.
+  /// Removes surfaces that send on no light from `lanes`: they are black or diffuse nothing, and have no
+  /// highlights. Returns true if no lane is left.
   template <class Spu>
   static bool are_dark(const Surfaces<typename Spu::simd>& s, const MaterialLanes<typename Spu::simd>& m,
                        uint32_t& lanes) {

@@ -25,8 +25,8 @@ protected:
     const float(&eye)[3] = frame.camera.origin;
     return light.location[0] == eye[0] && light.location[1] == eye[1] && light.location[2] == eye[2];
   }
-  /// Returns true if rays toward a light are walked. Walks are only necessary if the light is dimmed on its
-  /// way, or if walks restart, as crossings are kept.
+  /// Returns true if rays toward a light are walked. As crossings are kept, this is necessary only if the
+  /// light is dimmed on its way, or if walks restart.
   bool walks(const LightRecord& light) const { return is_dimmed(light) || restarts_shadows(tracer().frame_); }
 
   /// Answers the queries of a bundle where the order of crossings matters: the crossings are kept. Only rays
@@ -59,7 +59,7 @@ protected:
   }
 
   /// Samples an area light with all possible occluders if they are known, otherwise with the shadow cache.
-  /// Returns false if it did not.
+  /// Returns false if the light was not sampled.
   bool sample_area(const LightRecord& light, uint32_t lanes, VectorLanes& colour) {
     using Gathered = typename AreaOccluders<Spu>::Gathered;
     if (is_projected(light) || tracer().walks_all(light)) return false;
@@ -81,8 +81,8 @@ private:
   Tracer& tracer() { return static_cast<Tracer&>(*this); }
   const Tracer& tracer() const { return static_cast<const Tracer&>(*this); }
 
-  /// Returns true if the transmittance of surfaces depends on where rays come from: it is then found surface
-  /// by surface.
+  /// Returns true if surfaces have to be passed one by one: their transmittance depends on where rays come
+  /// from.
   bool lists_crossings() const {
     return walks_translucent(tracer().frame_) && !walks_for_fading(tracer().frame_);
   }
@@ -135,8 +135,7 @@ private:
     cross_surfaces(tracer().scene_, interior, counts, *walk.ray, tracer().counters_.dropped);
     walk.ray->lanes = hit;
   }
-  /// Completes the light of a query: `answered` in lanes that are left; `walked` lanes still have to be
-  /// walked.
+  /// Stores the light of a query: `answered` in the query's lanes; `walked` lanes are walked first.
   void walk_some(const LightRecord& light, const RayQuery& query, const VectorLanes& answered,
                  uint32_t walked, VectorLanes& colour) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
@@ -166,8 +165,8 @@ private:
     }
     tracer().take_area_light(colour);
   }
-  /// Samples an area light: occluders of one place are tested first for the next one. `occluders` has the
-  /// nodes that may contain others; null: they are not known.
+  /// Samples an area light: occluders of one place are tested first for the next place. `occluders` has the
+  /// nodes that may contain further occluders; null: these nodes are not known.
   void sample_occluded_area(const LightRecord& light, const AreaOccluders<Spu>* occluders,
                             VectorLanes& colour) {
     AreaShadow<S>& area = *tracer().area_;

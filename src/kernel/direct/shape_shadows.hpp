@@ -1,9 +1,9 @@
 // Shadow rays of several packets against one object of a shape with kHasShadowTest. Kernel dialect, for
 // direct memory.
 //
-// In most packets that reach such an object's bounds only few rays come near its surface, such as the tube of
-// a torus. The near rays of all packets wait for each other, so that its equation is solved for as many at a
-// time as a vector has lanes.
+// In most packets that reach such an object's bounds, only few rays come near its surface, such as the tube
+// of a torus. The near rays of all packets are gathered, so that the object's equation is solved for as many
+// rays at a time as a vector has lanes.
 #pragma once
 
 #include "kernel/direct/clipping.hpp"

@@ -6,8 +6,8 @@
 namespace celltrace::kernel {
 
 struct DirectShapes {
-  /// Returns rays in the space of a shape. As in POV-Ray, a ray in the plane of a face is inside of it;
-  /// rounding moves it off the face.
+  /// Returns rays in the space of a shape. As in POV-Ray, a ray in the plane of a face counts as inside: its
+  /// origin is moved off the face by as much as rounding.
   template <class S, class Shape>
   [[gnu::always_inline]] static LocalRays<S> off_faces(const LocalRays<S>& rays) {
     LocalRays<S> inside = rays;

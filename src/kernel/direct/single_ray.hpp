@@ -106,8 +106,8 @@ private:
       return not_above_bits(near, far * Eight::splat(detail::kRoundedUp));
     }
 
-    /// Bound for the rounding of both products, relative to origin * inverse: near planes are moved nearer by
-    /// it, far planes farther, as the difference may be much smaller than the products.
+    /// Bound of the rounding of both products, relative to origin * inverse. Near planes are moved nearer and
+    /// far planes farther by this bound, as the difference may be much smaller than the products.
     static constexpr float kRounding = 5e-7f;
 
     Eight inverse[3], near_origin[3], far_origin[3];

@@ -63,7 +63,7 @@ private:
     const V3<S> corner1 = corner + edge1, corner2 = corner + edge2;
     const M is_bounded = S::min(S::min(corner.z, corner1.z), corner2.z) > F(2.0f) * reach;
     const F inverse = F(1.0f) / corner.z, inverse1 = F(1.0f) / corner1.z, inverse2 = F(1.0f) / corner2.z;
-    // Depths may be less than the corners' by `reach`, which is up to half of them.
+    // Hits may be less deep than the corners by `reach`, which is up to half of the corners' depths.
     const F relative = F(2.0f) * reach * S::max(S::max(inverse, inverse1), inverse2);
     const F* const axes[2][3] = {{&corner.x, &corner1.x, &corner2.x}, {&corner.y, &corner1.y, &corner2.y}};
     for (uint32_t i = 0; i < 2; ++i) {

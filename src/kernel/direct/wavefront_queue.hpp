@@ -26,7 +26,7 @@ struct WorkKind {
 ///
 ///   Source                     source of lanes
 ///   put(from, lanes, to)       copies `lanes` of a Source into the packet's lanes from `to` on, in order
-///   source()                   returns the packet as a Source for others; only with kMixesKeys
+///   source()                   returns the packet as a Source for other packets; only with kMixesKeys
 ///   run(key, lanes, worker...) the body: does the work of the packet's `lanes`, which are the first ones
 ///
 /// Lanes of one key run in the order in which they were pushed, unless full packets wait for each other.
@@ -36,7 +36,6 @@ public:
   explicit WavefrontQueue(Kind* packets) : packets_(packets) { clear(); }
 
   bool empty() const { return full_count_ == 0 && count_of_all() == 0; }
-  /// Returns true if a full packet waits.
   bool has_full() const { return full_count_ != 0; }
   /// Returns true if all lanes of a packet can be pushed whatever their keys are; always, if full packets do
   /// not wait.

@@ -1,5 +1,5 @@
-// Shadows of area lights, sampled as in POV-Ray: a grid of places on the light, of which only those are
-// sampled about which the surrounding places disagree. Kernel dialect.
+// Shadows of area lights, sampled as in POV-Ray: a light has a grid of places, and a place is sampled only if
+// the places around it disagree. Kernel dialect.
 //
 // The value of a quad of the grid is the mean of its corners, or of its quarters if it is divided. The value
 // is computed with a stack of quads, each with the weight of its mean. Results of places are kept in a small
@@ -186,7 +186,7 @@ CELLTRACE_ONE_COPY void aim_shadow_rays(Spu& spu, const LightRecord& light,
 
 /// The state of sampling a light that surfaces of a packet face. The caller gets places one by one from
 /// next_place(), and stores the light that comes from a place in light(), or reports with answer() the lanes
-/// in which all of it comes.
+/// that the whole light reaches.
 template <class S> struct AreaShadow {
   ShadowRays* to_place; ///< rays to the current place
   /// Returns the light of the current place: before sampling the whole light, afterwards the part that comes
@@ -323,8 +323,8 @@ CELLTRACE_ONE_COPY void add_tinted(AreaShadow<typename Spu::simd>& a, uint32_t l
   a.is_tinted |= lanes;
 }
 
-/// Finishes a quad of which all corners are known: adds their mean where they agree, and divides the quad
-/// elsewhere.
+/// Finishes a quad with known corners: adds their mean in lanes where they agree, and divides the quad in
+/// other lanes.
 template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -389,8 +389,8 @@ CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShad
   }
 }
 
-/// Scales the light that surfaces would send on if the whole light came to them by the sampled share of that
-/// light. Channels of which the whole light has nothing become 0.
+/// Scales `sent`, the light that surfaces send on if nothing occludes the light, by the sampled share of the
+/// light. Channels that the light does not have become 0.
 template <class Spu>
 CELLTRACE_ONE_COPY void dim(Spu& spu, const AreaShadow<typename Spu::simd>& a, VectorLanes& sent) {
   using R = typename Spu::rare_simd;
@@ -441,9 +441,9 @@ template <class S> void answer(AreaShadow<S>& shadow, uint32_t lit) {
   module_areas::take_answer(shadow, lit, 0);
 }
 
-/// Samples an area light and scales `sent`, the light that surfaces would send on if the whole light came to
-/// them, by the result. `trace(shadow)` stores in `shadow.light()` the light that comes from `shadow.place`.
-/// Returns the number of rays.
+/// Samples an area light and scales `sent`, the light that surfaces send on if nothing occludes the light, by
+/// the result. `trace(shadow)` stores in `shadow.light()` the light that comes from `shadow.place`. Returns
+/// the number of rays.
 template <class Spu, class Trace>
 uint32_t sample_area(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                      const IncidentLight<typename Spu::simd>& incident, ShadowRays& to_place,

@@ -7,7 +7,7 @@
 
 namespace celltrace::kernel {
 
-/// Share of a light below which none is assumed.
+/// Share of a light below which the light counts as none.
 constexpr float kLeastShare = 1e-10f;
 
 /// Returns the share of a beam's light at the offset `off_axis` from the axis. The edge of the beam is a
@@ -21,8 +21,8 @@ template <class S> typename S::F beam_share(const LightRecord& light, const type
   return S::select(off_axis < one, share, zero);
 }
 
-/// Returns the light at `distance` relative to that at the fade distance. The result is negative where an odd
-/// power of a negative distance is below -1.
+/// Returns the light at `distance` relative to the light at the fade distance. The result is negative where
+/// an odd power of a negative distance is below -1.
 template <class Spu>
 typename Spu::simd::F fade_share(const LightRecord& light, const typename Spu::simd::F& distance) {
   using S = typename Spu::simd;

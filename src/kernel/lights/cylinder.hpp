@@ -11,8 +11,8 @@ struct CylinderLight {
   static constexpr bool kIsBeam = true;
   static constexpr bool kIsParallel = true;
 
-  /// Returns the distance of surfaces from the axis, in units of the radius at which the light ends; 1, where
-  /// there is no light, behind the location.
+  /// Returns the distance of surfaces from the axis, in units of the radius at which the light ends. Surfaces
+  /// behind the location get 1, as no light goes there.
   template <class S>
   static typename S::F off_axis(const LightRecord& light, const Surfaces<S>& s, const IncidentLight<S>&) {
     using F = typename S::F;

@@ -59,7 +59,7 @@ CELLTRACE_ONE_COPY void attenuate(SceneAccess<Spu>& scene, const LightRecord& li
   incident.facing &= (S::abs(share) > F(kLeastShare)).bits();
 }
 
-/// Turns the light of a point light at the same place into that of a source that is not plain.
+/// Turns the light of a point light at the same place into the light of a source that is not plain.
 template <class Spu>
 CELLTRACE_ONE_COPY void shape(SceneAccess<Spu>& scene, const LightRecord& light,
                               const Surfaces<typename Spu::simd>& s, uint32_t lanes,

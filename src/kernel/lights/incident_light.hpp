@@ -24,8 +24,8 @@ template <class S> struct IncidentLight {
     direction = to_light * (F(1.0f) / S::max(distance, F(1e-30f)));
   }
   /// Sets the cosine and the lanes that face the light, from its direction. Light along a surface counts as
-  /// light from behind it. POV-Ray's least cosine is 1e-10; in single precision rounding alone makes one of
-  /// 1e-7, whose sign would speckle highlights, which do not fade toward that angle.
+  /// light from behind it. POV-Ray's least cosine is 1e-10. In single precision rounding alone makes cosines
+  /// of 1e-7, whose sign would speckle highlights, which do not fade toward that angle.
   void face(const Surfaces<S>& s, uint32_t lanes) {
     constexpr float kLeastCosine = 1e-6f;
     cosine = dot<S>(direction, s.normal);
@@ -33,7 +33,6 @@ template <class S> struct IncidentLight {
   }
 };
 
-/// Returns a part of the lanes.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const IncidentLight<typename Spu::simd>& light,
                                                      uint32_t first) {

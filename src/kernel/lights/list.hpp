@@ -55,7 +55,7 @@ constexpr bool has_areas(const FrameBlock& frame) {
 constexpr bool walks_translucent(const FrameBlock& frame) {
   return (frame.light_features & light_feature::stepwise) != 0;
 }
-/// Returns true if such walks only need to know all surfaces that a ray crosses.
+/// Returns true if walks only need to know all surfaces that a ray crosses.
 constexpr bool walks_for_fading(const FrameBlock& frame) {
   return (frame.light_features & light_feature::only_fading) != 0;
 }

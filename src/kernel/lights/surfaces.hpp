@@ -14,7 +14,6 @@ template <class S> struct Surfaces {
   uint32_t lit_through = 0; ///< lanes in which light from behind counts as if it came from the front
 };
 
-/// Returns a part of the lanes.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const Surfaces<typename Spu::simd>& s, uint32_t first) {
   return whole_or<Spu>(

@@ -21,7 +21,7 @@ protected:
 
   static void end_view() {}
   static constexpr const void* view() { return nullptr; }
-  /// False, as fetching an object costs more than testing the rays.
+  /// Returns false, as fetching an object costs more than testing the rays.
   static constexpr bool trusts_frusta() { return false; }
   static constexpr uint32_t untrusted_at(const NodeRef&) { return 0; }
   [[gnu::always_inline]] void set_own_frustum(uint32_t packet, const RayQuery&, Frustum<S>& frustum) {

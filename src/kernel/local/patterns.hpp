@@ -18,7 +18,7 @@ struct LocalPatterns {
     static constexpr int32_t kTaken = 0;
     template <class... Arguments> static constexpr bool suffice(const Arguments&...) { return false; }
     template <class... Arguments> static constexpr bool suffice_in(const Arguments&...) { return false; }
-    /// Returns a bound for the usual metric, and 0, which is no bound, for others.
+    /// Returns a bound for the usual metric, and 0, which is no bound, for other metrics.
     [[gnu::always_inline]] static typename S::F least_along(const typename S::F& offset, float metric) {
       return metric == 2.0f ? offset * offset : typename S::F(0.0f);
     }

@@ -36,7 +36,7 @@ struct LocalShading {
   static void end_fresh(const LightRound&) {}
   static constexpr bool is_aimed(uint32_t, uint32_t) { return false; }
 
-  /// Returns false without a test: light on dark surfaces is no light anyway.
+  /// Returns false without a test: dark surfaces send on no light anyway.
   template <class Spu>
   static constexpr bool are_dark(const Surfaces<typename Spu::simd>&,
                                  const MaterialLanes<typename Spu::simd>&, uint32_t) {

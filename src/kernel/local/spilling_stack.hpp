@@ -6,8 +6,8 @@
 
 namespace celltrace::kernel {
 
-/// A stack whose first nodes are in local store; deeper ones are spilled to main memory, at most
-/// `spill_nodes` of them.
+/// A stack whose first nodes are in local store; at most `spill_nodes` deeper nodes are spilled to main
+/// memory.
 template <class Spu, uint32_t kResident> class SpillingStack {
 public:
   SpillingStack(Spu& spu, ea_t spill, uint32_t spill_nodes, uint32_t resident, RayNode& next)

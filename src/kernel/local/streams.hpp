@@ -107,8 +107,8 @@ private:
     SortPair pairs[kPairsPerLine];
   };
 
-  /// Puts the current line of a bucket by DMA. The first and the last line of a bucket may be shared with its
-  /// neighbours; their pairs are put one by one.
+  /// Puts the current line of a bucket by DMA. If neighbouring buckets share the line, puts the bucket's
+  /// pairs one by one.
   void send(ea_t target, uint32_t bucket) {
     const uint32_t end = next_[bucket];
     const uint32_t line = (end - 1) & ~(kPairsPerLine - 1);

@@ -58,7 +58,7 @@ struct alignas(16) OutgoingWord {
 };
 
 /// Rings an SPE after all commands of `tag`, without waiting for them: the receiver may rely on the data that
-/// they put. `word` must not change until the tag group is complete.
+/// these commands put. `word` must not change until the tag group is complete.
 template <class Spu>
 void ring_behind(Spu& spu, uint32_t spe, uint32_t bits, OutgoingWord& word, uint32_t tag) {
   word.value = bits;

@@ -35,7 +35,7 @@ public:
     report();
   }
 
-  /// Tag groups of everything that it puts.
+  /// Tag groups of all puts.
   static constexpr uint32_t kTags = 0xFu << 24;
 
 private:
@@ -73,8 +73,8 @@ private:
     }
   }
 
-  /// Tells the PPE how far the frame is, if it listens, and when it is complete. A frame is complete only
-  /// after every shader has reported: nothing may ring in an SPE that has left.
+  /// Tells the PPE how far the frame is, if the PPE listens, and when the frame is complete. A frame is
+  /// complete only after every shader has reported: nothing may ring in an SPE that has left.
   void report() {
     const bool all_issued = stopped_ || row_ >= frame_.packet_rows;
     const bool complete = all_issued && busy_ == 0 && (reported_ & stage_.announced) == stage_.announced;

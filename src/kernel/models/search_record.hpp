@@ -25,9 +25,8 @@ struct alignas(128) JobRecord {
 };
 static_assert(sizeof(JobRecord) == 128, "crosses DMA");
 
-/// Light from a source to the origins of shadow rays: the distance of the source, and the colour that is left
-/// of the light that the points would reflect. For light from a place on an area it is the colour that is
-/// left of the light itself.
+/// Light from a source to the origins of shadow rays. `distance` is the source's distance; `colour` is what
+/// is left of the light that the points reflect, or, from a place on an area light, of the light itself.
 struct ShadowRayLight {
   FloatLanes distance;
   VectorLanes colour;
@@ -37,7 +36,7 @@ struct ShadowRayLight {
 struct alignas(128) SearchRecord {
   RayPacket rays;
   union {
-    HitPacket hits;       ///< closest
+    HitPacket hits;       ///< closest hits
     ShadowRayLight light; ///< for shadow searches; before the search, the colour is that of unoccluded light
   };
   uint32_t kind;    ///< SearchKind

@@ -1,7 +1,7 @@
 // The part of a search that an SPE performs: all of it or, in the split pipeline, one half. Kernel dialect.
 //
-// In the split pipeline one SPE walks every ray to the next voxel with objects. Another one tests these and
-// sends back the rays that hit nothing there. Neither depends on how the other one works.
+// In the split pipeline one SPE walks every ray to the next voxel with objects. Another SPE tests these
+// objects and sends back the rays that hit none of them. Neither depends on how the other one works.
 #pragma once
 
 #include "kernel/accel/traversal.hpp"
@@ -33,7 +33,7 @@ private:
   Traversal<Spu> traversal_;
 };
 
-/// Counts primary rays that hit something, and those that were sent back at least once.
+/// Counts primary rays that hit something, and primary rays that were sent back at least once.
 inline void count_primary(const SearchRecord& search, StageReport& report) {
   if (search.primary == 0) return;
   uint32_t hits = 0;
@@ -46,7 +46,7 @@ inline void count_primary(const SearchRecord& search, StageReport& report) {
   report.primary_hits_returned += count(search.returned & hits);
 }
 
-/// Returns the distance up to which a ray is searched: that of its closest hit so far, or of the light.
+/// Returns the distance up to which a ray is searched: to its closest hit so far, or to the light.
 inline float limit_of(const SearchRecord& search, uint32_t lane) {
   return static_cast<SearchKind>(search.kind) == SearchKind::closest ? search.hits.distance.lane[lane]
                                                                      : search.light.distance.lane[lane];
@@ -61,7 +61,7 @@ public:
 
   GridWalk(SceneAccess<Spu>& scene, const FrameBlock& frame) : scene_(scene), grid_(frame.grid) {}
 
-  /// Walks the pending rays; those that leave the grid are no longer pending. Calls `on_begin(search)` before
+  /// Walks the pending rays; rays that leave the grid are no longer pending. Calls `on_begin(search)` before
   /// the first step of the search.
   template <class OnBegin> void run(SearchRecord& search, OnBegin on_begin) {
     const bool begins = search.walked == 0;
@@ -154,7 +154,7 @@ public:
     darken(search);
   }
 
-  /// Tests the pending rays; those that are complete are no longer pending.
+  /// Tests the pending rays; rays that are complete are no longer pending.
   void run(SearchRecord& search) {
     objects_.hit_filter().begin_packet();
     objects_.set_reflected(search.reflected);

@@ -9,7 +9,7 @@ namespace celltrace::kernel::models {
 
 template <class Spu> class SearchWriter {
 public:
-  /// Tag groups of everything that it puts.
+  /// Tag groups of all puts.
   static constexpr uint32_t kTags = 0xFu << 10;
 
   SearchWriter(Spu& spu, JobSender<Spu>& sender)

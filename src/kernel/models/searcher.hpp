@@ -1,5 +1,5 @@
-// The program of an SPE that searches: takes jobs from main memory, one record after another while the next
-// one is fetched, and passes them on. Kernel dialect.
+// The program of an SPE that searches: takes jobs from main memory record by record, while the next record is
+// fetched, and passes them on. Kernel dialect.
 #pragma once
 
 #include "kernel/entry/strategies.hpp"

@@ -84,7 +84,7 @@ private:
 
   uint32_t tag() const { return 1u << (kFirstTag + current_); }
 
-  /// Creates as many of its contexts as local store has room for.
+  /// Creates as many of this SPE's contexts as local store has room for.
   void place_contexts() {
     constexpr uint32_t bytes = sizeof(ContextStorage) + (kResident + 1) * kRayNodeBytes;
     for (uint32_t context = 0; context < kMaxContexts; ++context) {

@@ -53,7 +53,7 @@ struct alignas(128) StageReport {
                  ///< or shader
   uint64_t searches;     ///< number of completed searches
   uint64_t primary_hits; ///< primary rays that hit something
-  /// Primary rays that were sent back for traversal at least once, and those of them that hit something.
+  /// Primary rays sent back for traversal at least once, and how many of them hit something.
   uint64_t primary_returned, primary_hits_returned;
   uint64_t returns; ///< number of times that a ray was sent back
   uint64_t unused[10];

@@ -41,8 +41,8 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
 
   /// Returns the normal of the face whose plane is nearest in the world: in the box's own space, the error of
   /// a point across a thin box is larger than its distance from the narrow sides. `ratio` and `second` are
-  /// the excess of the lengths along x and y over that along z, relative to that along z; 0 where it does not
-  /// matter.
+  /// the excess of the lengths along x and y over the length along z, relative to the latter; 0 where it does
+  /// not matter.
   template <class S>
   [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
@@ -76,7 +76,7 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
   }
 
   /// Returns the distance of a point from its face. If a ray's path is more than a million times the box's
-  /// thickness, its distance does not tell two faces apart: it has hit the nearer one.
+  /// thickness, the path does not tell two faces apart: the ray has hit the nearer face.
   template <class S>
   [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient,
                                                        const V3<S>& path) {

@@ -18,7 +18,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     using F = typename S::F;
     const V3<S>& d = rays.direction;
     const F zero(0.0f), one(1.0f);
-    // The equation is about the point of the ray that is nearest to the middle, so that little cancels.
+    // The equation starts from the point of the ray that is nearest to the middle, so that little cancels.
     const F length_square = S::max(dot<S>(d, d), F(1e-30f));
     const V3<S> from_middle = {rays.origin.x, rays.origin.y, rays.origin.z - F(0.5f)};
     const F shift = -dot<S>(from_middle, d) / length_square;
@@ -38,7 +38,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     const F q = -(b + S::select(b < zero, -root, root));
     const F first = q * finite_inverse<S>(a), second = k * finite_inverse<S>(q);
     const F low = S::min(first, second), high = S::max(first, second);
-    // The inside is between the crossings or, for a steep ray, beyond the one in the nappe where r > 0.
+    // The inside is between the crossings or, for a steep ray, beyond the crossing of the nappe where r > 0.
     const F far_away(1e20f);
     const auto upward = d.z > zero;
     const F enter = S::select(steep, S::select(upward, high, -far_away), low);

@@ -1,5 +1,5 @@
-// Crossings with a mesh without an inside vector that CSG sees, which are those that POV-Ray's search finds
-// before it ends. A part of the code module of meshes. Kernel dialect.
+// Crossings that CSG sees with a mesh without an inside vector: those that POV-Ray's search finds before it
+// ends. A part of the code module of meshes. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -13,7 +13,7 @@ namespace celltrace::kernel {
 
 namespace module_meshes {
 
-/// Relative error in single precision of the distance to the points in question.
+/// Relative error in single precision of the distance to the points that are tested.
 constexpr float kNearCrossing = 3e-5f;
 
 template <class S> V3<S> least_of(const V3<S>& a, const V3<S>& b) {
@@ -23,7 +23,6 @@ template <class S> V3<S> greatest_of(const V3<S>& a, const V3<S>& b) {
   return {S::max(a.x, b.x), S::max(a.y, b.y), S::max(a.z, b.z)};
 }
 
-/// The interval of rays inside a box.
 template <class S> struct BoxCrossing {
   typename S::F enter, leave;
 
@@ -105,7 +104,7 @@ uint32_t found_crossings_of_part(SceneAccess<Spu>& scene, const ObjectRecord& so
 /// Returns the points of `lanes`, on triangles of a mesh, that POV-Ray's search along rays from `origins`
 /// finds. The search visits triangles in the order in which their boxes are entered, and ends at a triangle
 /// whose box begins behind the last crossing that was found. `solid` is part of a SolidRecord. Distances are
-/// relative to that of the point.
+/// relative to the point's distance.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t found_crossings(SceneAccess<Spu>& scene, const ObjectRecord& record,
                                             const V3<typename Spu::simd>& origins,

@@ -9,15 +9,14 @@ namespace celltrace::kernel {
 
 /// Hands out the crossings of a packet's rays with one object in the order of their distance, one pair of
 /// each ray at a time. Shapes whose crossings are roots of a polynomial find all at once. If
-/// `kIsIncremental`, the shape finds the first ones, and is asked for the next ones beyond those that were
-/// handed out, until there are none.
+/// `kIsIncremental`, the shape finds the first pairs, and is asked for further pairs until there are none.
 template <class S, bool kIsIncremental> class CrossingSequence {
 public:
   using F = typename S::F;
 
   /// Returns the place for the shape's pairs.
   Crossings<S>* pairs() { return pairs_; }
-  /// Begins with the `count` pairs that the shape has stored; if it `is_incremental`, it may find more.
+  /// Begins with the `count` pairs that the shape has stored; if `is_incremental`, the shape may find more.
   void begin(uint32_t count, bool is_incremental) {
     count_ = count;
     next_ = 0;
@@ -45,11 +44,11 @@ public:
   }
 
 private:
-  /// Rays with more pairs are assumed to leave the object.
+  /// Most pairs of a ray; rays with more are assumed to leave the object.
   static constexpr uint32_t kMostPairs = 256;
 
   struct Further {
-    uint32_t lanes = 0; ///< rays that may have more
+    uint32_t lanes = 0; ///< rays that may have more pairs
     uint32_t found = 0; ///< number of pairs after the first ones
     FloatLanes after;   ///< the farthest crossing of each ray that was handed out
   };
@@ -66,7 +65,8 @@ private:
     S::select(active, F::load(further_.after.lane), F(kEveryCrossing)).store(further_.after.lane);
     find_after(further_.after, c);
     const F after = F::load(further_.after.lane);
-    c.near_hit = c.near_hit & active & (c.near > after); // ends though shapes may find it again
+    c.near_hit =
+        c.near_hit & active & (c.near > after); // the search ends though shapes may find this crossing again
     c.far_hit = c.far_hit & active & (c.far > after);
     next_ = 1;
     if ((c.near_hit | c.far_hit).bits() == 0) return false;

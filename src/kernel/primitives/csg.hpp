@@ -31,7 +31,7 @@ uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename
   return module_shapes::inside(scene.spu(), record, points) & lanes;
 }
 
-/// Value in place of lanes that come from a mirror if rays see everything.
+/// Value of `reflected` if rays see all objects.
 constexpr uint32_t kSeesAll = 0x80000000u;
 
 /// Returns the lanes to which an object with these flags is invisible; rays in `reflected` come from a
@@ -43,8 +43,8 @@ inline uint32_t blind_lanes(uint32_t flags, uint32_t reflected) {
 }
 
 /// Returns the points of `lanes`, where rays from `origins` cross the surface of a part, that satisfy the
-/// part's condition and those of all levels above it. Each lane has its own place in the program, which only
-/// advances.
+/// part's condition and the conditions of all levels above. Each lane has its own place in the program, which
+/// only advances.
 template <class Spu>
 [[gnu::noinline]] uint32_t
 csg_accepted(SceneAccess<Spu>& scene, uint32_t condition, const V3<typename Spu::simd>& origins,

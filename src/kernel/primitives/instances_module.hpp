@@ -1,5 +1,5 @@
-// The code module of instances: objects that are meshes of which the scene image has one copy, in a space of
-// its own. Kernel dialect.
+// The code module of instances: objects whose mesh is in the scene image once, in a space of its own. Kernel
+// dialect.
 //
 // A packet's rays are transformed to the mesh's space and traverse the mesh's BVH there. Their directions are
 // not normalised, so that distances are those in the world.
@@ -42,7 +42,7 @@ struct InstanceTest {
   bool any;                              ///< any-hit query: rays end with their first hit
 };
 
-/// The work of a test.
+/// Numbers of nodes expanded and triangles tested.
 struct InstanceWork {
   uint32_t nodes, triangles;
 };
@@ -88,8 +88,7 @@ template <class S> struct MeshRays {
   }
 
 private:
-  /// Finds the distances at which rays enter a child of a node, and returns the rays that do so before
-  /// `reach`.
+  /// Finds the distances at which rays enter a child of a node; returns the rays that enter before `reach`.
   [[gnu::always_inline]] uint32_t find_entry(const float (&bounds)[6][4], uint32_t child,
                                              const typename S::F& reach, typename S::F& enter) const {
     using F = typename S::F;
@@ -105,8 +104,8 @@ private:
   }
 };
 
-/// Replaces hits by closer ones with the object's triangles that are farther than `nearest`. In an `any`
-/// query, `hits` has kInstancedBit in place of objects, and rays end with their first hit.
+/// Replaces hits by closer hits of the object's triangles that are farther than `nearest`. In an `any` query,
+/// `hits` has kInstancedBit in place of objects, and rays end with their first hit.
 template <class Spu>
 CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPacket& rays,
                                           const ObjectRecord& object, float nearest, bool any,

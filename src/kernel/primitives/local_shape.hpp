@@ -6,7 +6,7 @@
 //   intersect_local(rays, parameters, crossings)      finds crossings, in the shape's space
 //   inside_local(point, parameters)                   returns the lanes inside
 //   gradient(point, parameters)                       returns the outward normal, of any length
-//   off_face(point, gradient, path)                   returns the distance from a face, times that length
+//   off_face(point, gradient, path)                   returns the distance from a face times |gradient|
 //   off_parallel_faces(point, path, share)            moves a point toward the middle of faces along `path`
 //   local_bounds(ratio)                               returns its LocalBounds
 #pragma once
@@ -36,14 +36,11 @@ struct ClippedRays {
 
 /// The crossings of a ray that are wanted.
 struct CrossingRequest {
-  /// Distance after which one crossing suffices: once a ray has a crossing beyond it, the others may be left
-  /// out.
+  /// Distance beyond which one crossing suffices: the ray's other crossings may be left out.
   float enough = kEveryCrossing;
-  /// For each ray: crossings that are farther than this or behind the origin may be left out. nullptr: no
-  /// limit.
+  /// By ray: crossings farther than this or behind the origin may be left out. nullptr: no limit.
   const FloatLanes* limit = nullptr;
-  /// For each ray of shapes with kIsIncremental: crossings up to this distance are known. nullptr: all
-  /// crossings beyond the origin are wanted.
+  /// By ray, for kIsIncremental: crossings up to this distance are known; nullptr: up to the origin.
   const FloatLanes* after = nullptr;
 };
 inline constexpr CrossingRequest kAllCrossings;
@@ -95,8 +92,9 @@ template <class Shape, class S>
   return dot<S>(Shape::template gradient<S>(rays.origin, parameters), rays.direction) < typename S::F(0.0f);
 }
 
-/// Removes crossings of rays that start on a convex shape: such a ray does not enter it again, and leaves it
-/// only if it goes inward. The crossing at the origin does not count, wherever rounding puts it.
+/// Removes crossings of rays that start on a convex shape: such a ray does not enter the shape again, and
+/// leaves it only if the ray goes inward. The crossing at the origin does not count, wherever rounding puts
+/// it.
 template <class Shape, class S>
 void drop_start(const LocalRays<S>& rays, const LocalParameters<S>& parameters, Crossings<S>& c) {
   if (rays.starts_here.bits() == 0) return;
@@ -104,8 +102,8 @@ void drop_start(const LocalRays<S>& rays, const LocalParameters<S>& parameters, 
   c.far_hit = c.far_hit & !(rays.starts_here & !go_inward<Shape, S>(rays, parameters));
 }
 
-/// Returns the coordinate `at` of a ray with direction `along` on that axis; if the ray is parallel to the
-/// planes across the axis, the coordinate is moved toward `middle` by a share of the distance.
+/// Returns the coordinate `at` of a ray on an axis on which its direction is `along`. If the ray is parallel
+/// to the planes across the axis, the coordinate is moved toward `middle` by a share of the distance.
 template <class S>
 [[gnu::always_inline]] inline typename S::F
 off_parallel_plane(const typename S::F& at, const typename S::F& along, float middle, float share) {

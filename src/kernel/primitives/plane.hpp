@@ -23,7 +23,7 @@ CELLTRACE_ONE_COPY void intersect_plane(const RayPacket& rays, const ObjectRecor
 struct PlanePrimitive : FlatPrimitive<PlanePrimitive> {
   static constexpr const char* kName = "plane";
   static constexpr bool kHasParameters = false;
-  static constexpr bool kHasFaces = false; // points need not be moved onto it
+  static constexpr bool kHasFaces = false; // points need not be moved onto the plane
   static constexpr bool kIsBounded = false;
 
   template <class S>

@@ -1,5 +1,5 @@
 // The polygon: in the plane z = 0 of its space, within the square from -1 to 1. Its own test finds the
-// crossings with the square; module_polygons removes those outside the polygon. A polygon has no inside.
+// crossings with the square; module_polygons removes crossings outside the polygon. A polygon has no inside.
 // Kernel dialect.
 #pragma once
 

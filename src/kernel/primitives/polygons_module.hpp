@@ -10,8 +10,8 @@ namespace celltrace::kernel {
 
 namespace module_polygons {
 
-/// Removes the crossings outside a polygon: for those inside, an odd number of its edges is to one side. An
-/// end that two edges share counts as part of one of them, as rows are half-open intervals.
+/// Removes the crossings outside a polygon: a crossing is inside if an odd number of edges is to one side of
+/// it. An end that two edges share counts for one of them, as rows are half-open intervals.
 template <class Spu>
 CELLTRACE_ONE_COPY void cut_out(SceneAccess<Spu>& scene, const ExtraRecord& extra,
                                 Crossings<typename Spu::simd>& c) {

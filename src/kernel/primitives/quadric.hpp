@@ -23,7 +23,7 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     F linear, constant;
 
     [[gnu::always_inline]] explicit Factors(const LocalParameters<S>& parameters) {
-      // The last digits are removed separately for each factor, so that none waits for another.
+      // The last digits are removed separately for each factor, so that no factor waits for another.
       const auto without = [&](float base) __attribute__((always_inline)) {
         return S::floor((parameters.ratio + F(0.5f)) * F(1.0f / base));
       };
@@ -47,8 +47,7 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     using M = typename S::M;
     const Factors<S> f(parameters);
     const V3<S>& d = rays.direction;
-    // The equation is about the ray's point that is closest to the middle: far origins would cancel all
-    // digits.
+    // The equation starts from the ray's point closest to the middle: far origins would cancel all digits.
     const F middle = -dot<S>(rays.origin, d) * finite_inverse<S>(dot<S>(d, d));
     const V3<S> o = rays.origin + d * middle;
     const V3<S> bent = f.square * d;

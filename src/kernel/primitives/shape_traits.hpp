@@ -1,5 +1,4 @@
-// Traits of shapes: the hooks that a shape may have, and their defaults. Kernel
-// dialect.
+// Traits of shapes: the hooks that a shape may have, and their defaults. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -21,7 +20,7 @@ struct ShapeTraits {
   static constexpr bool kIsHeavy = false;  ///< intersect() is large and has a code module of its own
   static constexpr bool kHasHeavyPoints = false; ///< inside() and normals have a module of their own
   static constexpr bool kHasFaces = false;       ///< the shape has flat faces, and off_face()
-  /// True if the shape finds a ray's first pair of crossings, and when it is asked again the next pair beyond
+  /// True if the shape finds a ray's first pair of crossings and, when called again, the next pair beyond
   /// rays.after() (crossing_sequence.hpp). Shapes with this trait are heavy.
   static constexpr bool kIsIncremental = false;
   /// True if crossings of the shape's plane count only inside its edges (polygons_module.hpp).
@@ -30,9 +29,9 @@ struct ShapeTraits {
   /// the point.
   static constexpr bool kHasCoordinates = false;
   static constexpr bool kReadsExtraForCoordinates = false;
-  /// True if the shape has may_hit(), crossed() and surely_crossed(), which decide what is in shadow where
-  /// solving for its crossings would take longer. Only direct memory uses them (direct/shape_shadows.hpp).
-  /// Shapes with this trait are local, and have only the first parameter.
+  /// True if the shape has may_hit(), crossed() and surely_crossed(), which test shadow rays faster than
+  /// solving for crossings would. Only direct memory uses them (direct/shape_shadows.hpp). Shapes with this
+  /// trait are local, and have only the first parameter.
   static constexpr bool kHasShadowTest = false;
 };
 

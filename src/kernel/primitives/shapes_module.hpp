@@ -19,7 +19,6 @@ template <class S> struct ObjectLanes {
   uint32_t smooth;
 };
 
-/// Returns the objects of a part of the rays.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const ObjectLanes<typename Spu::simd>& o,
                                                      uint32_t first) {
@@ -45,7 +44,7 @@ constexpr bool is_local(uint32_t kind) {
   return kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>;
 }
 
-/// Returns the unit normals of shapes in a space of their own, of those with heavy points or of the others,
+/// Returns the unit normals of shapes in a space of their own, with heavy points if `kOfHeavy`, else without,
 /// at points of their surfaces: the gradient there is transformed by the transposed map. If `kMoves`, `moved`
 /// receives the points, moved onto flat faces; `path` is the path of each ray to its point.
 template <class S, bool kOfHeavy, bool kMoves>
@@ -248,8 +247,8 @@ CELLTRACE_ONE_COPY uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<
 template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
   return normal_in_own_space<S, false, false>(o, point, point, nullptr);
 }
-/// Returns the unit normals where there is room for more code, and moves `point` onto flat faces. Points
-/// along a ray are only as exact as its distance, and a pattern may have a step on a flat face.
+/// Returns the unit normals where there is room for more code, and moves `point` onto flat faces. A point
+/// along a ray is only as exact as its distance, and a pattern may have a step on a flat face.
 template <class S>
 CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& path, V3<S>& point) {
   const V3<S> along_ray = point;

@@ -86,7 +86,8 @@ struct SpherePrimitive : ShapeTraits {
     return box;
   }
 
-  /// Returns true if the surface may touch a box: its nearest point is inside and its farthest one outside.
+  /// Returns true if the surface may touch a box: the box's nearest point is inside, its farthest point
+  /// outside.
   static bool overlaps(const ObjectRecord& object, const ExtraRecord&, const Aabb& box) {
     const float* g = object.geometry;
     float nearest = 0.0f;

@@ -1,11 +1,11 @@
 // The superellipsoid: (|x|^p + |y|^p)^(q/p) + |z|^q = 1 of its space, where p is `ratio` and q is `second`.
 // Kernel dialect.
 //
-// Rays are followed by the sum's root, to the power 1/q: like a distance, it grows in proportion to a point's
-// distance from the centre, so that single precision suffices for any exponents. If p and q are 1 or more the
-// shape is convex: no tangent rises above the root, so that Newton's method leads from outside to the
-// crossing and not beyond it. Otherwise the shape is thin along the planes between the octants, which divide
-// the line into intervals with at most one turn of the root.
+// Crossings are sought by the sum's root, to the power 1/q: like a distance, this root grows in proportion to
+// a point's distance from the centre, so that single precision suffices for any exponents. If p and q are 1
+// or more the shape is convex: no tangent rises above the root, so that Newton's method leads from outside to
+// the crossing and not beyond it. Otherwise the shape is thin along the planes between the octants, which
+// divide the line into intervals with at most one turn of the root.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -34,7 +34,7 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
     const F one(1.0f);
     // All rays have one shape.
     const bool is_convex = ((parameters.ratio >= one) & (parameters.second >= one)).bits() != 0;
-    // A ray that starts here goes inward, and leaves the shape next, or outward, and enters it next; another
+    // A ray that starts here leaves the shape next if it goes inward, and otherwise enters the shape next. A
     // crossing before that is the start itself.
     const M inward = line.goes_inward(rays.starts_here);
     if (!is_convex) return line.cross_thin(rays.starts_here, inward, crossings);
@@ -214,8 +214,8 @@ private:
       slope = dot<S>(terms.gradient(p), d);
     }
 
-    /// Returns the rays of `wanted` that cross a convex shape: `near` and `far`, which are outside in front
-    /// of and behind it, move to the crossings. If kHasRoom, `near` does not move for rays that start on the
+    /// Returns the rays of `wanted` that cross a convex shape: `near` and `far`, outside in front of and
+    /// behind the shape, move to the crossings. If kHasRoom, `near` does not move for rays that start on the
     /// shape, nor `far` if `near` is enough. The result of a ray depends on no other ray.
     CELLTRACE_ONE_COPY M cross_convex(F& near, F& far, M wanted) const {
       const F zero(0.0f);
@@ -359,7 +359,7 @@ private:
     }
   };
 
-  /// Step below which Newton's method ends: the next one would be in the order of its square.
+  /// Step below which Newton's method ends: the next step would be in the order of its square.
   static constexpr float kConverged = 1e-5f;
 };
 

@@ -37,7 +37,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     f.stationary_points(near_enough, bounds[1], bounds[2], bounds[3]);
     for (int i = 1; i < 4; ++i)
       bounds[i] = S::min(S::max(bounds[i], -end), end);
-    // A ray that starts here goes inward, and leaves the torus next, or outward, and enters it next; another
+    // A ray that starts here leaves the torus next if it goes inward, and otherwise enters the torus next. A
     // crossing before that is the start itself.
     const auto inward =
         rays.starts_here.bits() != 0 ? go_inward<TorusPrimitive, S>(rays, parameters) : S::M::none();
@@ -187,9 +187,9 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
 private:
   /// Ratio below which tori are thin.
   static constexpr float kThin = 0.1f;
-  /// Step below which Newton's method ends: the next one would be in the order of its square.
+  /// Step below which Newton's method ends: the next step would be in the order of its square.
   static constexpr float kConverged = 1e-4f;
-  /// Step below which Halley's method ends: the next one would be in the order of its cube.
+  /// Step below which Halley's method ends: the next step would be in the order of its cube.
   static constexpr float kStationary = 1e-3f;
 
   /// Rays measured from their nearest points to the centre, in units of the torus's space.
@@ -261,10 +261,9 @@ private:
       return S::M::from_bits(crossed & 0xFFFF);
     }
 
-    /// Returns the value. For a thin torus it is computed from the point: r is a difference of numbers of
-    /// which the square of a thin tube is too small a part. The first factor is that of the tube on the
-    /// axis's side of the point. If rays are processed in parts, for lack of room for code, all tori count as
-    /// thin.
+    /// Returns the value. For a thin torus the value is computed from the point, as the square of a thin tube
+    /// is lost in the difference r. Its first factor is for the tube on the axis's side of the point. If rays
+    /// are processed in parts, for lack of room for code, all tori count as thin.
     F at(const F& t) const {
       if constexpr (S::kLanes == kSimdLanes) {
         const uint32_t thin_lanes = thin.bits() & 0xFFFF;
@@ -284,8 +283,8 @@ private:
     }
     F slope(const F& t) const { return (F(4.0f) * t * t + F(2.0f) * p) * t + q; }
 
-    /// Finds the places where the slope is 0 for the rays `wanted`, in rising order; if there is only one,
-    /// all three are that place.
+    /// Finds the places where the slope is 0 for the rays `wanted`, in rising order; all three are equal if
+    /// there is only one.
     void stationary_points(typename S::M wanted, F& a, F& b, F& c) const {
       // x^3 + (p/2) x - |q|/4 is convex for x > 0 and has its greatest zero there: Halley's method descends
       // to it from any bound. No torus reaches farther than 2 from its centre.
@@ -322,8 +321,8 @@ private:
       return F(1.07f) * S::float_of(S::to_int(third) + I::splat(0x2A50'0000));
     }
 
-    /// Returns the distance of a parabola's zeros from `least`, where the slope is 0, the value is `value`,
-    /// and the curvature is the same.
+    /// Returns the distance from `least` of the zeros of a parabola that has slope 0, the value `value` and
+    /// the quartic's curvature there.
     F half_width(const F& least, const F& value) const {
       const F curvature = F(12.0f) * least * least + F(2.0f) * p;
       return S::sqrt(S::max(F(-2.0f) * value / S::max(curvature, F(1e-6f)), F(0.0f)));

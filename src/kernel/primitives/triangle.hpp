@@ -159,7 +159,7 @@ struct TrianglePrimitive : ShapeTraits {
                                        lanes_that_start_on<S>(rays, self), object);
   }
 
-  /// Returns no lanes: a triangle alone has no inside; that of a mesh is found by its inside vector.
+  /// Returns no lanes: a triangle alone has no inside, and meshes have an inside vector.
   template <class S> static typename S::M inside(const V3<S>&, const ObjectRecord&, const ExtraRecord&) {
     return S::M::none();
   }

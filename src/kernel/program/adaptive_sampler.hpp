@@ -100,7 +100,7 @@ private:
   static float edge_of(const Square& square) { return 1.0f / static_cast<float>(1u << square.level); }
 
   /// Compares the corners of the pixels in the next rows: pixels with equal corners are complete, the squares
-  /// of the others wait.
+  /// of other pixels wait.
   CELLTRACE_ONE_COPY void compare_corners() {
     first_row_ = next_row_;
     rows_ = smaller_of(height_ - next_row_, kRows);
@@ -165,7 +165,7 @@ private:
     arrive();
   }
 
-  /// Divides each square with samples in four: squares with equal corners are complete, the others wait.
+  /// Divides each square with samples in four: squares with equal corners are complete, other squares wait.
   CELLTRACE_ONE_COPY void divide_squares() {
     fetch_squares();
     take_channels(requested_ * kSamplesOfSquare);

@@ -1,9 +1,9 @@
 // BC1 encoder: 4x4 pixels in 8 bytes, which are two colours and the position of each pixel between them
 // (BlockImage in image.hpp describes the format). Kernel dialect.
 //
-// The first colours are those of the pixels at the ends of the block's principal axis. Then the pixels'
-// positions and, by least squares, the colours are improved in turn. All numbers are whole, and below 2^24
-// where they are floats, so that nothing rounds: the same pixels become the same block on every machine.
+// The first end colours are those of the pixels at the ends of the block's principal axis. Then the pixels'
+// positions and, by least squares, the end colours are improved in turn. All numbers are whole, and floats
+// are below 2^24, so that nothing rounds: the same pixels become the same block on every machine.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -132,8 +132,8 @@ CELLTRACE_ONE_COPY void fit(const V3<S>& pixels, uint32_t lanes, uint32_t end_a,
       static_cast<int32_t>(sum_of<S>(S::select(S::M::from_bits(lanes), least, F(0.0f)))));
 }
 
-/// Returns the nearest of `most` steps to number / whole, of which each is at most 255; 0 if the number is
-/// negative.
+/// Returns the number of the step, of `most` equal steps from 0 to 255, that is nearest to number / whole; 0
+/// if the number is negative.
 inline uint32_t steps_of(int32_t number, int32_t whole, uint32_t most) {
   if (number <= 0) return 0;
   if (number >= 255 * whole) return most;
@@ -146,7 +146,7 @@ inline uint32_t steps_of(int32_t number, int32_t whole, uint32_t most) {
 }
 
 /// Finds the ends that suit the pixels' positions best, by least squares. Returns false if the positions do
-/// not determine them.
+/// not determine the ends.
 template <class S>
 CELLTRACE_ONE_COPY bool improve_ends(const V3<S>& pixels, const typename S::F& thirds, uint32_t (&ends)[2]) {
   using F = typename S::F;
@@ -185,7 +185,7 @@ template <class S> V3<S> channels_of_pixels(const uint32_t* pixels) {
 } // namespace block
 
 /// Encodes a packet of pixels with bytes R, G, B, A as a block. The pixels in `lanes`, at least one, count;
-/// the others must have colours of those pixels.
+/// other pixels must have colours of these pixels.
 template <class S>
 CELLTRACE_ONE_COPY void encode_block(const WordLanes& pixels, uint32_t lanes, EncodedBlock& encoded) {
   using F = typename S::F;

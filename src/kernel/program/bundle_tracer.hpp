@@ -1,5 +1,5 @@
-// Tracing of bundles: searches for the hits of primary rays and for the light there are made for all packets
-// together; from there on each packet's ray tree is traced by itself. Kernel dialect.
+// Tracing of bundles: the hits of primary rays, and the light at these hits, are found for all packets
+// together. Otherwise each packet's ray tree is traced by itself. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -140,7 +140,7 @@ private:
       member.lanes = member.pixels;
     }
   }
-  /// Makes the rays of a member; returns the lanes that have one.
+  /// Makes the rays of a member; returns the lanes that have a ray.
   uint32_t make_rays(uint32_t number) {
     Member& member = store_.members[number];
     F x = pixels_across<S>(frame_, member.column), y = pixels_down<S>(frame_, member.row);

@@ -142,7 +142,7 @@ private:
       return F(-1.0f);
     return coarse_pow<R>(F(0.3f * sampling.threshold), F(1.0f / sampling.inverse_gamma));
   }
-  /// Returns true if no point of a row can differ from the one to its left or above it.
+  /// Returns true if no point of a row can differ from the point to its left or above it.
   CELLTRACE_ONE_COPY bool is_smooth(const Points& own, const Points& over, const F& step) const {
     F most(0.0f);
     for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes)
@@ -189,7 +189,7 @@ private:
 
   /// Returns the bits of `a` where `which` is set, otherwise those of `b`.
   static uint32_t chosen(uint32_t which, uint32_t a, uint32_t b) { return (a & which) | (b & ~which); }
-  /// Returns the bits of a row each of which depends on the previous one: it is the bit of `after_0` or
+  /// Returns the bits of a row each of which depends on the previous bit: a bit is that of `after_0` or
   /// `after_1`, and the lowest bit follows a 0. A prefix computation: each step doubles the number of bits
   /// over which the dependence is composed.
   static uint32_t in_a_row(uint32_t after_0, uint32_t after_1) {
@@ -269,8 +269,8 @@ private:
     cursor.pixels = wanted_of_tile(0);
     return cursor;
   }
-  /// Moves the cursor to the next pixel that needs samples, unless it is at one. Returns false if there is
-  /// none.
+  /// Moves the cursor to the next pixel that needs samples, unless it is at such a pixel. Returns false if
+  /// there is none.
   bool find_pixel(Cursor& cursor) const {
     while (cursor.pixels == 0) {
       if (cursor.tile == kTiles - 1) return false;

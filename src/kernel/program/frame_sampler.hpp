@@ -20,7 +20,7 @@ public:
     });
   }
 
-  /// Returns true if it is the sampler for these frames.
+  /// Returns true if this is the sampler for frames like `frame`.
   bool serves(const FrameBlock& frame) const { return kind_ == kind_of(frame); }
 
   /// Begins a frame; see PixelSampler.

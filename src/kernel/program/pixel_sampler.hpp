@@ -51,14 +51,14 @@ constexpr uint32_t squares_at_once(uint32_t edge) {
 constexpr uint32_t sampled_rows(uint32_t edge) {
   return edge > tuning::kBundleEdgeInLocalStore ? kSampledEdge : 1;
 }
-/// Returns the largest number of waiting squares: those of the first level, and for each further level one
-/// less than a bundle leaves and adds.
+/// Returns a bound of the number of waiting squares: all squares of the first level, and on each level five
+/// for each square that is divided together with others.
 constexpr uint32_t max_squares(uint32_t edge) {
   return sampled_rows(edge) * kSampledEdge + 5 * squares_at_once(edge) * kMaxSamplingDepth;
 }
 
-/// The channels of a row of points of a block, one point more than it has pixels; the first one is at the
-/// block's left edge. The three channels that are encoded follow each other, in whole vectors.
+/// Channels of a row of a block's points, one point more than the row has pixels, from the block's left edge
+/// on. The three channels that are encoded follow each other, in whole vectors.
 template <uint32_t kChannels> struct alignas(64) PointRow {
   static constexpr uint32_t kPackets = kSampledEdge / kPacketEdge + 1, kPoints = kPackets * kPacketEdge;
   static constexpr uint32_t kEncoded = (3 * kPoints + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
@@ -190,7 +190,7 @@ protected:
   }
 
   /// Returns the packets with a row of the grid's points at the block, beginning with the one to the block's
-  /// upper left. Without direct memory they stay until others are fetched.
+  /// upper left. Without direct memory the packets stay until others are fetched.
   CELLTRACE_ONE_COPY const SampleLanes* packets_of_row(uint32_t row) {
     const ea_t first =
         packet_of_points(column_ * kSampledEdge / kPacketEdge, (row_ * kSampledEdge + row) / kPacketEdge);
@@ -252,8 +252,7 @@ protected:
   }
   static uint32_t smaller_of(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-  /// Moves a sample, in pixels, by a hash of its position, so that it is the same in every run. The hash is
-  /// Wellons' lowbias32.
+  /// Returns Wellons' hash lowbias32. Hashes of positions jitter samples in the same way in every run.
   static uint32_t hash(uint32_t x) {
     x = (x ^ x >> 16) * 0x7FEB352Du;
     x = (x ^ x >> 15) * 0x846CA68Bu;

@@ -67,8 +67,8 @@ template <class Spu>
   return detail::pack<S>(channel(colour.x), channel(colour.y), channel(colour.z));
 }
 
-/// Writes `kRows` rows of packets at once, as pixels or as blocks of BC1. All packets of a block of kRows x
-/// kRows that are in the picture have to be put before one of another block, and before flush().
+/// Writes `kRows` rows of packets at once, as pixels or as blocks of BC1. All packets in the picture of a
+/// block of kRows x kRows have to be put before packets of another block, and before flush().
 template <class Spu, uint32_t kRows = 1> class PixelWriter {
 public:
   using S = typename Spu::simd;
@@ -78,8 +78,8 @@ public:
   PixelWriter(Spu& spu, const FrameBlock& frame)
       : spu_(spu), frame_(frame), runs_(spu.template allocate<Run>(2)) {}
 
-  /// Encodes sixteen colours, which leave together with those of the next packets in the row. `column` and
-  /// `row` count packets.
+  /// Encodes sixteen colours, which leave together with the colours of the next packets in the row. `column`
+  /// and `row` count packets.
   void put(uint32_t column, uint32_t row, const V3<S>& colour) {
     const uint32_t below = row % kRows; // row in its block
     Run& run = run_for(column, row - below);
@@ -183,7 +183,7 @@ private:
     if (columns_ == kRunPackets) {
       spu_.putl(run.pixels[0], corner, run.list, rows, kFirstTag + current_);
     } else {
-      // Elements of a list follow each other in local store; those of an unfinished run do not.
+      // Elements of a list follow each other in local store; elements of an unfinished run do not.
       for (uint32_t y = 0; y < rows; ++y)
         spu_.put(run.pixels[y], corner + y * frame_.surface_pitch, bytes, kFirstTag + current_);
     }

@@ -22,8 +22,8 @@ public:
   }
   void end_frame() { node_.end_frame(); }
 
-  /// Takes a unit. After the last one the node is dry and asks for more, so that answers arrive while it
-  /// works.
+  /// Takes a unit. After the last unit the node is dry and asks for more, so that answers arrive while the
+  /// SPE works.
   bool take_unit(uint32_t& unit) {
     if (!node_.take_unit(unit)) return false;
     if (node_.remaining().empty()) {
@@ -72,7 +72,7 @@ private:
     exchanges_ = 0;
     received_ = 0;
     until_report_ = units_per_report_ = frame.units_per_word;
-    // Words from an earlier frame are removed; those of a neighbour that is a frame ahead are kept.
+    // Words from an earlier frame are removed; words of a neighbour that is a frame ahead are kept.
     drain_mailbox();
     node_.begin_frame(frame.epoch, units, frame.exchange_parameter);
     spu_.write_event_mask(kDomain);

@@ -7,7 +7,7 @@
 namespace celltrace::kernel {
 
 /// Reads the frame's units by cache lines and writes their costs one by one, so that SPEs may share lines of
-/// both.
+/// units and of costs.
 template <class Spu> class WorkUnits {
 public:
   explicit WorkUnits(Spu& spu) : spu_(spu), buffers_(*spu.template allocate<Buffers>()) {}

@@ -43,7 +43,7 @@ template <class S> typename S::F ground_density(const typename S::F& start, cons
   const F length = high - low, above = b - a;
   const F slope = one / (one + a * b);
   const F mean_above = slope * arc_share<S>(above * slope);
-  // Both shares are computed directly: on long segments the one that counts is tiny.
+  // Both shares are computed directly: on long segments the share that counts is tiny.
   const F below = S::min(high, zero) - S::min(low, zero);
   const F inverse = one / S::max(length, F(1e-6f));
   const auto is_level = length < F(1e-6f);
@@ -52,7 +52,7 @@ template <class S> typename S::F ground_density(const typename S::F& start, cons
   return share_below + share_above * mean_above;
 }
 
-/// Returns the effect of one fog on rays of a length.
+/// Returns the effect of one fog on rays of given lengths.
 template <class Spu>
 Passage<typename Spu::rare_simd>
 through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& origin,
@@ -84,7 +84,6 @@ through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& o
   return {splat3<S>(fog.tint) * pass, splat3<S>(fog.colour) * (one - pass)};
 }
 
-/// A colour of a rainbow's map.
 template <class S> struct RainbowColour {
   V3<S> rgb;
   typename S::F filter, transmit;
@@ -118,7 +117,7 @@ void rainbow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow,
 }
 
 /// Finds the effect of a rainbow on rays of a length, and its transparency. `seen` receives the lanes that
-/// see it. The formulas are POV-Ray's.
+/// see the rainbow. The formulas are POV-Ray's.
 template <class Spu>
 [[gnu::noinline]] void
 see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
@@ -200,7 +199,7 @@ template <class S>
   S::select(lanes, transparency * pass, transparency).store(ray.power.lane + first);
 }
 
-/// Applies the rainbows, whose light fog dims. If a ray sees several, the result is their mean.
+/// Applies the rainbows, whose light fog dims. If a ray sees several rainbows, the result is their mean.
 template <class Spu>
 [[gnu::noinline]] void cross_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
                                       uint32_t lanes, RayNode& ray, VectorLanes& light) {

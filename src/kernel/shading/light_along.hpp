@@ -33,7 +33,7 @@ public:
   void pass(const FrameBlock& frame, uint32_t first, const typename S::M& take, const Passage<S>& passage) {
     const V3<S> throughput = ray.throughput.template load_from<S>(first);
     const V3<S> before = light.template load_from<S>(first);
-    // As in POV-Ray, light that one fog adds is not dimmed by another.
+    // As in POV-Ray, light that one fog adds is not dimmed by another fog.
     light.template store_from<S>(
         first, select<S>(take, before + undimmed_.template load_from<S>(first) * passage.add, before));
     ray.throughput.template store_from<S>(first, select<S>(take, throughput * passage.pass, throughput));

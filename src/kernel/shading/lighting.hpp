@@ -97,9 +97,9 @@ V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
   return sum;
 }
 
-/// Finds the light that surfaces reflect if light reaches some of them from behind, too: it has a share of
-/// its own and no highlights, or counts as if it came from the front. Sets the light to 0 where it does not
-/// count.
+/// Finds the light that surfaces reflect if light reaches some of them from behind, too: light from behind
+/// has a share of its own and no highlights, or counts as if it came from the front. Sets light that does not
+/// count to 0.
 template <class Spu>
 CELLTRACE_ONE_COPY void light_of_both_sides(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
                                             const MaterialLanes<typename Spu::simd>& m, bool highlights,
@@ -128,9 +128,9 @@ CELLTRACE_ONE_COPY void light_of_both_sides(SceneAccess<Spu>& scene, const Surfa
 /// Number of lights that are processed at a time: the light that surfaces send on is kept for each of them.
 constexpr uint32_t kLightsARound = 4;
 
-/// Lights [first, first + count) of a frame, and the light that surfaces would send on of each of them if it
-/// were not occluded. Shadow rays are traced only where that light counts. The first round also adds the
-/// light that surfaces send without lights.
+/// Lights [first, first + count) of a frame, and the light of each that surfaces send on if nothing occludes
+/// it. Shadow rays are traced only where that light counts. The first round also adds the light that surfaces
+/// send without lights.
 struct LightRound {
   uint32_t first, count;
   VectorLanes* gathered;          ///< index: light in the round; 0 for lights without shadow rays
@@ -167,7 +167,7 @@ struct LightRound {
   }
 };
 
-/// Light counts if one of its channels is above this: less does not change a pixel.
+/// Light counts if one of its channels is above this value: less light does not change a pixel.
 constexpr float kLeastLight = 1e-6f;
 
 /// Returns the lanes of `lanes` with light above `least`.

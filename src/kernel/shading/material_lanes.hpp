@@ -25,7 +25,6 @@ template <class S> struct MaterialLanes {
   bool has(uint32_t some_flags) const { return (flags & some_flags) != 0; }
 };
 
-/// Returns a part of a packet's lanes.
 template <class Spu>
 [[gnu::always_inline]] inline decltype(auto) part_of(const MaterialLanes<typename Spu::simd>& m,
                                                      uint32_t first) {
@@ -64,7 +63,7 @@ template <class Spu>
 namespace detail {
 
 /// Gives `taken` lanes a material; with `kAll` these are all lanes. `lanes` are the lanes that really have
-/// it. Sets the members that the flags `wanted` ask for.
+/// the material. Sets the members that the flags `wanted` ask for.
 template <class Spu, bool kAll = false>
 CELLTRACE_ONE_COPY void gather_material(const MaterialRecord& r, uint32_t taken, uint32_t lanes,
                                         uint32_t wanted, MaterialLanes<typename Spu::simd>& m) {

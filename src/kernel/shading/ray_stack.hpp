@@ -23,8 +23,8 @@ struct RayInteriors {
 /// A node of the ray tree: a packet of rays with their contributions and states.
 ///
 /// Light is added up in accumulators; number 0 is the pixel's. A reflection whose light is raised to a power
-/// (POV-Ray's reflection exponent) gets an accumulator of its own, and a node below it on the stack that
-/// gathers it.
+/// (POV-Ray's reflection exponent) gets an accumulator of its own, from which a node below it on the stack
+/// gathers the light.
 struct alignas(128) RayNode : RayInteriors {
   RayPacket rays;
   VectorLanes throughput; ///< factor of the ray's colour in the pixel

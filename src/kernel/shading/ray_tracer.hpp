@@ -9,7 +9,7 @@ namespace celltrace::kernel {
 
 /// Traces the tree of one packet at a time, in steps between which its rays are traced: begin(), then for
 /// each node() take_hits() and, if there are hits, shade_hits() for each round of lights, until advance()
-/// finds no more.
+/// finds no more nodes.
 template <class Spu, uint32_t kResident = kResidentNodes>
 class RayTracer : public SurfaceShading<Spu, kResident> {
   using Shading = SurfaceShading<Spu, kResident>;
@@ -63,12 +63,12 @@ public:
     return splat3<S>(frame_.background);
   }
 
-  /// Returns the lanes of node() with a hit; the others see the background.
+  /// Returns the lanes of node() with a hit; other lanes see the background.
   uint32_t take_hits() {
     return take_hits([](uint32_t) { return false; });
   }
-  /// Returns the lanes of node() with a hit. If `waits(lanes)` is true, the caller adds the background of
-  /// those lanes.
+  /// Returns the lanes of node() with a hit. If `waits(lanes)` is true for the lanes without a hit, the
+  /// caller adds their background.
   template <class Waits> [[gnu::always_inline]] uint32_t take_hits(const Waits& waits) {
     scene_.spu().compute(scalar_work::kNode);
     if (has_atmosphere(frame_)) {

@@ -100,7 +100,7 @@ protected:
   }
   void clear(uint32_t accumulator) { light_[accumulator].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }
 
-  /// Adds light that comes along the rays of node_, or from their ends with a weight of its own.
+  /// Adds light that comes along the rays of node_.
   void add(uint32_t lanes, const V3<S>& light) {
     add_weighted(lanes, light, node_.throughput.template load<S>());
   }
@@ -129,7 +129,7 @@ protected:
   }
 
 private:
-  /// Returns the number of resident nodes; rare features of frames take the local store of the others.
+  /// Returns the number of resident nodes; rare features of frames take the other nodes' local store.
   static uint32_t resident_nodes(const FrameBlock& frame) {
     static_assert(sizeof(SurfaceLanes) <= sizeof(RayNode));
     if (has_areas(frame) || walks_shadows(frame)) return 0;
@@ -202,9 +202,8 @@ private:
     return true;
   }
 
-  /// Multiplies the throughput and the transparency of the child's `lanes` by the share of light that comes
-  /// out of an interior. As in POV-Ray, the transparency takes the grey of the light that passes each
-  /// surface.
+  /// Multiplies the throughput and the transparency of the child's `lanes` by the share of light that an
+  /// interior lets out. As in POV-Ray, the transparency takes the grey of the light that passes each surface.
   CELLTRACE_ONE_COPY void fade_child(const WordLanes& interior, const V3<S>& through, uint32_t lanes) {
     RayNode& child = stack_.next();
     scene_.spu().run_in_module(modules::kFading);
@@ -244,8 +243,8 @@ private:
       child.interiors[d] = node_.interiors[d];
   }
 
-  /// Sends the light of the child to an accumulator of its own, from which a node pushed below it gathers it.
-  /// Not in the module of its callers, which has no room.
+  /// Sends the light of the child to an accumulator of its own, from which a node pushed below the child
+  /// gathers the light. Not in the module of its callers, which has no room.
   CELLTRACE_ONE_COPY void redirect(const F& power) {
     scene_.spu().run_in_module(modules::kFading);
     RayNode& gathering = stack_.next();

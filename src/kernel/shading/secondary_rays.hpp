@@ -10,7 +10,7 @@
 namespace celltrace::kernel {
 
 /// The media on both sides of a surface that a ray crosses. `position` is the index of the surface's interior
-/// among those that the ray is inside of, or their number if the ray enters it.
+/// among the interiors that the ray is inside of, or their number if the ray enters the interior.
 struct SolidCrossing {
   uint32_t position;
   bool leaves;
@@ -77,10 +77,10 @@ Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, ui
   return result;
 }
 
-/// Returns the ratio that POV-Ray's Fresnel mirrors use where `interior` begins or ends, as measured from its
-/// pictures: the ratio of refraction if a ray enters an object or leaves the only one it is in; otherwise the
-/// ratio for entering the innermost object from this one, which is 1, and so no mirror at all, on leaving the
-/// innermost one.
+/// Returns the ratio that POV-Ray's Fresnel mirrors use at a surface of `interior`, as measured from its
+/// pictures. If a ray enters an object or leaves the only one it is in, this is the ratio of refraction.
+/// Otherwise it is the ratio for entering the innermost object from this one: 1, and so no mirror at all, if
+/// the ray leaves the innermost object.
 template <class Spu>
 float fresnel_ratio(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lane, uint32_t interior) {
   const SolidCrossing change = solid_crossing(scene, ray, lane, interior);
@@ -172,7 +172,7 @@ V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine,
 }
 
 /// Factors of mirrored and of transmitted light at surfaces, with the weights that adaptive depth control
-/// gives those rays.
+/// gives the mirrored and the transmitted rays.
 template <class S> struct SecondaryRays {
   using F = typename S::F;
   V3<S> mirror, through;
@@ -207,8 +207,7 @@ template <class S> struct SecondaryRays {
     has_reflection_exponent = part.has_reflection_exponent;
   }
   bool is_nothing() const { return (mirrors | transmits) == 0; }
-  /// Returns true if adaptive depth control would treat the rays of both alike, and neither bends
-  /// reflections.
+  /// Returns true if both have rays of equal weights in the same lanes, and neither a reflection exponent.
   template <class Spu> bool weighs_like(const SecondaryRays& other) const {
     using R = typename Spu::rare_simd;
     uint32_t unlike = (mirrors ^ other.mirrors) | (transmits ^ other.transmits);

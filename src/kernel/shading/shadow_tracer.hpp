@@ -17,11 +17,10 @@ namespace celltrace::kernel {
 ///   is_at_pinhole(light)                true if a light is known to be where primary rays begin: nothing
 ///                                       occludes it from their hits
 ///   walks(light)                        true if rays toward a light are walked, in scenes where some must be
-///   trace_crossings(light, queries, count)   takes a bundle through the surfaces that it crosses; false: it
-///                                       did not
+///   trace_crossings(light, queries, count)   takes a bundle through crossed surfaces; false: not done
 ///   trace_crossings(light, rays, lanes, distance, colour)   takes a packet that is not walked through the
 ///                                       surfaces that it crosses
-///   sample_area(light, lanes, colour)   finds the light of an area light; false: it did not
+///   sample_area(light, lanes, colour)   finds the light of an area light; false: not found
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 class ShadowTracer : public Strategy<Spu>::template ShadowSearch<ShadowTracer<Spu, kAccelerators>, Spu> {
   using Search = typename Strategy<Spu>::template ShadowSearch<ShadowTracer, Spu>;
@@ -55,16 +54,15 @@ public:
   }
 
   using Search::is_at_pinhole;
-  /// Sets the light of other lanes in `colour`, which has been gathered, to 0, if nothing occludes the light
-  /// source.
+  /// Finds the light of a source that nothing occludes: the gathered `colour` in `lanes`, otherwise 0.
   void take_unoccluded(uint32_t lanes, VectorLanes& colour) {
     counters_.shadow += static_cast<uint32_t>(__builtin_popcount(lanes));
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     colour.template store<S>(select<S>(S::M::from_bits(lanes), colour.template load<S>(), dark));
   }
 
-  /// Multiplies `colour`, the gathered light of points on objects, by the share that reaches them; it counts
-  /// in `lanes` only.
+  /// Multiplies `colour`, the gathered light of points on objects, by the share that reaches the points;
+  /// colour in lanes other than `lanes` does not count.
   CELLTRACE_ONE_COPY void trace(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
                                 const WordLanes& objects, bool is_aimed, uint32_t lanes,
                                 VectorLanes& colour) {
@@ -81,15 +79,15 @@ public:
     if (is_aimed && !has_area(light)) return;
     make_rays_to(light, to_light, point, objects, lanes);
   }
-  /// Answers the queries of a bundle toward a light for which traces_by_packet() is false. May change their
-  /// order.
+  /// Answers the queries of a bundle toward a light for which traces_by_packet() is false. May change the
+  /// queries' order.
   void trace(const LightRecord& light, RayQuery* queries, uint32_t count) {
     if (walk_ == nullptr || !Search::trace_crossings(light, queries, count))
       traversal_.intersect(queries, count, light);
   }
 
 private:
-  /// Not inlined, so that its surfaces are not on the stack while rays are traced.
+  /// Makes shadow rays. Not inlined, so that surfaces are not on the stack while rays are traced.
   CELLTRACE_ONE_COPY void make_rays_to(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
                                        const WordLanes& objects, uint32_t lanes) {
     IncidentLight<S> incident(light.colour);
@@ -122,7 +120,7 @@ private:
     if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
     Search::trace_crossings(light, rays, lanes, distance, colour);
   }
-  /// Returns true if all shadow rays toward a light are walked; otherwise only those that must be, or none.
+  /// Returns true if all shadow rays toward a light are walked, false if few or none are.
   bool walks_all(const LightRecord& light) const { return walk_ != nullptr && Search::walks(light); }
   /// Walks `lanes` of shadow rays. The light of other lanes becomes 0.
   CELLTRACE_ONE_COPY void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,

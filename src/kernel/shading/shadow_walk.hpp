@@ -31,7 +31,7 @@ ShadowWalk<typename Spu::simd>* allocate_shadow_walk(Spu& spu, const FrameBlock&
   return walk;
 }
 
-/// Starts `lanes` of shadow rays inside the interiors `from`, or those of the camera if it is null.
+/// Starts `lanes` of shadow rays inside the interiors `from`, or those of the camera if `from` is null.
 template <class Spu>
 [[gnu::noinline]] void begin_shadow_walk(Spu& spu, const FrameBlock& frame, const RayInteriors* from,
                                          const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,

@@ -46,8 +46,8 @@ protected:
                  RayNode& scratch)
       : Tree(spu, frame, scene, spill, spill_nodes, scratch), surface_(allocate_surface_lanes(spu, frame)) {}
 
-  /// Returns true if trees end at these surfaces. Textures with less weight than the bailout are dropped, and
-  /// a bailout above 1 drops them all.
+  /// Returns true if trees end at these surfaces. Textures with less weight than the bailout are dropped, so
+  /// that a bailout above 1 drops all textures.
   bool ends(const HitPoints<S>& points, uint32_t lanes) const {
     return points.ends(lanes) && (frame_.adc_bailout <= 1.0f || (points.textured & lanes) == 0);
   }
@@ -63,8 +63,8 @@ protected:
   }
 
 private:
-  /// Shades surfaces of one material without textures. Its variables are not on the stack while others are
-  /// shaded.
+  /// Shades surfaces of one material without textures. Not inlined, so that its variables are not on the
+  /// stack while other surfaces are shaded.
   CELLTRACE_ONE_COPY void shade_plain(const HitPoints<S>& points, uint32_t lanes) {
     Surfaces<S> surfaces;
     find_surfaces(points, surfaces);
@@ -135,8 +135,8 @@ private:
   }
 
   /// Shades surfaces with several materials: each material is shaded as a whole, and the results are blended
-  /// by their weights. The secondary rays of all materials have the same directions: they are merged to one
-  /// ray each where their weights are equal, as otherwise every such surface would multiply the rays behind
+  /// by their weights. The secondary rays of all materials have the same directions. If their weights are
+  /// equal, they are merged to one ray each, as otherwise every such surface would multiply the rays behind
   /// it.
   CELLTRACE_ONE_COPY void shade_composed(const HitPoints<S>& points, uint32_t lanes) {
     scene_.spu().run_in_module(modules::kComposed);

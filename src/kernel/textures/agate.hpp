@@ -9,7 +9,7 @@ namespace celltrace::kernel {
 struct AgatePattern : NoisePattern {
   static constexpr const char* kName = "agate";
 
-  /// The parameter is the strength of the turbulence.
+  /// Returns the value. The parameter is the strength of the turbulence.
   template <class S, class Source>
   [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r,
                                                     const Source& source) {

@@ -10,7 +10,7 @@ namespace celltrace::kernel {
 struct BrickPattern : ListPattern {
   static constexpr const char* kName = "brick";
 
-  /// The parameters are the inverse of the size, and the thickness of the mortar.
+  /// Returns the value. The parameters are the inverse of the size, and the thickness of the mortar.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     using F = typename S::F;
     const V3<S> q = p * splat3<S>(r.parameter);

@@ -1,5 +1,5 @@
-// The crackle pattern: distances to the nearest feature points, of which there is one at random in each unit
-// cell; they show as cracks between stones (Worley 1996). Kernel dialect.
+// The crackle pattern: distances to the nearest feature points, one at random in each unit cell, which look
+// like cracks between stones (Worley 1996). Kernel dialect.
 #pragma once
 
 #include "kernel/packet.hpp"

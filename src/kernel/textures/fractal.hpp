@@ -37,8 +37,7 @@ struct FractalPattern : RarePattern {
     const uint32_t inside = r.table >> fractal_word::interior_shift & fractal_word::type_mask;
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
     M bounded = M::all();
-    // Numbers that have left continue to be iterated, so that the next number does not wait for the test
-    // which have left.
+    // Numbers that have left are iterated further, so that no number waits for the test which have left.
     Complex<S> left = z;
     for (uint32_t i = 0; i < most; ++i) {
       z = magnet == 0 ? plus<S>(power<S>(z, r.table & fractal_word::exponent_mask), c)
@@ -112,8 +111,8 @@ private:
     const typename S::F part = (type & 1) == 0 ? z.a : z.b;
     return type < 4 ? part * factor : part * part * factor;
   }
-  /// Returns the remainder of the rounds divided by the whole part of the factor, or by that plus 1, over the
-  /// factor.
+  /// Returns the remainder of the rounds divided by the whole part of the factor, or by this part plus 1,
+  /// over the factor.
   template <class S>
   [[gnu::always_inline]] static typename S::F remaining(const typename S::F& rounds, uint32_t type,
                                                         const typename S::F& factor) {

@@ -15,8 +15,7 @@ struct HexagonPattern : ListPattern {
     constexpr float kWidth = 1.5f, kHeight = 0.866025404f;
     const F u = p.x * F(1 / kWidth), v = p.z * F(1 / kHeight);
     const F column = S::floor(u), row = S::floor(v);
-    // Centres are at corners of the rectangle where column and row have an even sum, which are two of the
-    // four.
+    // Two of the rectangle's four corners are centres: where column and row have an even sum.
     const F odd = remainder<S>(column + row, 2.0f);
     const auto square = [](const F& x) { return x * x; };
     const F x = (u - column) * F(kWidth), z = (v - row) * F(kHeight);

@@ -9,7 +9,7 @@ namespace celltrace::kernel {
 
 template <class S> struct Complex { typename S::F a, b; };
 
-/// Numbers that are squared, with the rounds that they stay bounded and, for bounded ones, the least size.
+/// Numbers that are squared, with the rounds that they stay bounded and, for bounded numbers, the least size.
 template <class S, bool kWantsLeast> struct IteratedSquares {
   using F = typename S::F;
 
@@ -50,8 +50,8 @@ template <class S> [[gnu::always_inline]] inline typename S::M surely_bounded(co
 struct SquareIteration {
   const PatternRecord& record;
 
-  /// Returns true if a pattern is such a fractal: it counts rounds outside, and inside the least size or only
-  /// a factor.
+  /// Returns true if a pattern is such a fractal: outside it counts rounds, and inside it has the least size
+  /// or only a factor.
   static bool describes(const PatternRecord& r) {
     return part(r, fractal_word::magnet_shift, fractal_word::magnet_mask) == 0 &&
            (r.table & fractal_word::exponent_mask) == 2 &&

@@ -6,8 +6,8 @@
 //   kIsColour      true if it has colours in place of values
 //   kCode          location of its code
 //   kReadsSurface  true if its value depends on more than points
-//   kDisturbs      true if a normal of it is not the slope of its value; the code of that is in the module of
-//                  rare patterns if its value is, else in that of noise
+//   kDisturbs      true if its normals are not the slope of its value; their code is in the module of rare
+//                  patterns for a rare pattern, otherwise in the module of noise
 //   value(p, record)        also takes the noise generator if P is a noise pattern; takes PatternPoints
 //                           instead of a point if kReadsSurface
 //   disturbance(p, record)  if P disturbs

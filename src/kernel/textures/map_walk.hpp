@@ -26,9 +26,9 @@ inline uint32_t map_entry_at(uint32_t entries, uint32_t number) {
 
 /// Finds the places of values in a pattern's map: calls `at(lanes, number, entry)` if one entry counts, and
 /// `between(lanes, number, below, above, share)` if two count; `number` and `share` are those of the upper
-/// one. The first call is for all lanes; later calls are for lanes below the last entry, once for each lane:
-/// long maps consist mostly of intervals without a value. If several entries have one position, the first
-/// counts below it and the last above it, as in POV-Ray.
+/// entry. The first call is for all lanes; later calls are for lanes below the last entry, once for each
+/// lane: long maps consist mostly of intervals without a value. If several entries have one position, the
+/// first counts below it and the last above it, as in POV-Ray.
 template <class S, class Spu, class At, class Between>
 [[gnu::always_inline]] inline void find_interval(SceneAccess<Spu>& scene, const PatternRecord& r,
                                                  const typename S::F& value, At at, Between between) {
@@ -161,8 +161,8 @@ public:
   }
 
 private:
-  /// True for walks of parts of packets: only these enter patterns that are pigments. Walks of whole packets
-  /// leave that to them, part by part.
+  /// True for walks of parts of packets. Only these walks enter patterns that are pigments; walks of whole
+  /// packets leave such patterns to them, part by part.
   static constexpr bool kIsPart = S::kLanes == Part::kLanes;
 
   /// True if leaves may be patterns that are colours, even if only in a pigment that is a pattern.
@@ -170,13 +170,13 @@ private:
 
   /// State of a level. `fresh`: its pattern has not been evaluated; `waits`: its pattern is a pigment that
   /// adds up in `upper`; `placed`: each lane has weights of its own; `average`: all lanes have the same
-  /// weights; `coloured`: it is one leaf, with the colours `colours_`.
+  /// weights; `coloured`: the level is one leaf, with the colours `colours_`.
   enum class State : uint32_t { fresh, waits, placed, average, coloured };
   struct Level {
     F weight;
     F upper;   ///< in each lane, the index of the entry above the value
     F share;   ///< share of that entry; the rest is the share of the entry before it
-    F* around; ///< if it waits: the grey to which leaves contribute after this level's
+    F* around; ///< if the level waits: the grey to which leaves contribute after the level's own
     uint32_t pattern, entries, count, next, lanes;
     State state;
   };

@@ -35,8 +35,7 @@ template <class S> struct LatticeCells {
   /// Lanes are in one cell if these keys, the numbers of the lattice planes below, are equal.
   static constexpr uint32_t kKeys = 3;
   const int32_t* keys(uint32_t axis) const { return lattice[axis]; }
-  /// Finds the positions in kLattice of the numbers of the eight points around a lane, in the order of z, x,
-  /// y.
+  /// Finds the positions in kLattice of the eight points' numbers around a lane, in order of z, x, y.
   void operator()(uint32_t lane, uint32_t (&starts)[8]) const {
     const uint32_t plane = static_cast<uint32_t>(lattice[2][lane]);
     for (uint32_t i = 0; i < 4; ++i) {
@@ -131,7 +130,7 @@ template <class S> typename S::F spread_value(const V3<S>& p, bool first_generat
   const F spread_out = spread<S>(value<S>(p, first_generator), first_generator);
   return S::min(S::max(spread_out, F(0.0f)), F(1.0f));
 }
-/// Returns a sum of octaves of value(). As in POV-Ray, only the first one is clipped. Not inlined, as one
+/// Returns a sum of octaves of value(). As in POV-Ray, only the first octave is clipped. Not inlined, as one
 /// copy serves all callers.
 template <class S>
 CELLTRACE_ONE_COPY typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t,

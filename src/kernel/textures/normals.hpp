@@ -75,8 +75,7 @@ inline void cofactors(const float (&m)[9], float (&c)[9]) {
       number = -number;
 }
 
-/// Disturbs a unit normal by the pattern of `normal`, which is no map. `walk` goes through the maps around
-/// it.
+/// Disturbs a unit normal by the pattern of `normal`, which is no map but may be in maps of `walk`.
 template <class Spu>
 CELLTRACE_ONE_COPY void
 disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, const NormalRecord& normal,

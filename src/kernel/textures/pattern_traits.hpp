@@ -43,9 +43,8 @@ struct RarePattern : BlendPattern {
   static constexpr PatternCode kCode = PatternCode::rare;
 };
 
-/// A pattern with a colour and its transparency at every point, in place of a number and a map: colour(scene,
-/// points, record). The pattern is a pigment, an entry of a pigment's map, or the pattern of a
-/// pigment_pattern.
+/// A pattern with a colour and its transparency at every point instead of a number: colour(scene, points,
+/// record). The pattern is a pigment, an entry of a pigment's map, or that of a pigment_pattern.
 struct ColourPattern : RarePattern {
   static constexpr bool kIsColour = true;
 };

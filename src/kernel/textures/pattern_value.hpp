@@ -1,7 +1,7 @@
 // Evaluation of a pattern at points, for a part of a packet's lanes at a time. Kernel dialect.
 //
 // The code of patterns is in modules: one for noise, with its tables, one for rare patterns, many of which
-// read tables of the scene image, and one for the others, except for a few with resident code.
+// read tables of the scene image, and one for other patterns. A few patterns have resident code.
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"

@@ -7,7 +7,7 @@
 
 namespace celltrace::kernel {
 
-/// MapWalk finds its value: patterns cannot evaluate each other, as that would be recursion.
+/// A pattern whose value MapWalk finds: patterns that evaluate each other would be recursion.
 struct PigmentPattern : RarePattern {
   static constexpr const char* kName = "pigment_pattern";
 

@@ -12,7 +12,7 @@ struct QuiltedPattern : BlendPattern {
 
   static constexpr bool kDisturbs = true;
 
-  /// The parameters are the two controls of the bulge.
+  /// Returns the value. The parameters are the two controls of the bulge.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     const V3<S> d = from_centre<S>(p);
     return S::abs((S::abs(d.x) + S::abs(d.y) + S::abs(d.z)) * bulge<S>(d, r) * typename S::F(kScale / 3));

@@ -43,7 +43,7 @@ void add_sky_layers(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu
 } // namespace detail
 
 /// Replaces the background in `colour` by the sky that rays of `lanes`, with unit vectors `direction`, see if
-/// they hit nothing. Layers before language version 3.7 dim those below them by filter and transmit alone,
+/// they hit nothing. Layers before language version 3.7 dim the layers below by filter and transmit alone,
 /// whatever their colours, but the background by the product of all colours.
 template <class Spu>
 CELLTRACE_ONE_COPY void add_sky(SceneAccess<Spu>& scene, uint32_t sky,

@@ -7,7 +7,7 @@
 
 namespace celltrace::kernel {
 
-/// The normals are those in the scene, whatever the pattern's space is.
+/// A pattern that reads normals in the scene, whatever the pattern's space is.
 struct SlopePattern : RarePattern {
   static constexpr const char* kName = "slope";
   static constexpr bool kReadsSurface = true;
@@ -21,9 +21,8 @@ struct SlopePattern : RarePattern {
     Kept<Spu, SlopeRecord> slope = *scene.template pattern_table<SlopeRecord>(r.table);
     const V3<S> normal = points.surface->normal.template load_from<S>(points.first);
     const F cosine = dot<S>(normal, splat3<S>(slope.direction)), one(1.0f);
-    // Flat ground is often at exactly 0 or 1 or another whole number, where rounding in single precision
-    // would decide which end of the map it gets: values within rounding of a whole number count as that
-    // number.
+    // Flat ground is often at exactly 0, 1 or another whole number, where rounding would decide which end of
+    // the map it gets: values within rounding of a whole number count as this number.
     const F size = S::abs(cosine), slack = F(2e-6f) + S::abs(F(slope.factor)) * F(5e-6f);
     const F acute = acos_unit<S>(S::select(size < F(1.0f - 3e-7f), size, one)) * F(0.318309886f);
     const F faces = S::select(cosine < F(0.0f), acute, one - acute);

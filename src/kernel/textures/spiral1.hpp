@@ -10,7 +10,7 @@ namespace celltrace::kernel {
 struct Spiral1Pattern : ShiftedPattern {
   static constexpr const char* kName = "spiral1";
 
-  /// The parameter is the number of arms.
+  /// Returns the value. The parameter is the number of arms.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     return p.z + S::sqrt(p.x * p.x + p.y * p.y) + wound<S>(p, r);
   }

@@ -8,7 +8,7 @@ namespace celltrace::kernel {
 struct Spiral2Pattern : ShiftedPattern {
   static constexpr const char* kName = "spiral2";
 
-  /// The parameter is the number of arms.
+  /// Returns the value. The parameter is the number of arms.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     const typename S::F radius = S::sqrt(p.x * p.x + p.y * p.y);
     return triangle<S>(radius) + triangle<S>(p.z + radius + Spiral1Pattern::wound<S>(p, r));

@@ -77,7 +77,7 @@ attracted(SceneAccess<Spu>& scene, const SpaceStepRecord& step, const V3<typenam
   return select<S>(distance < radius, centre + from * (F(1.0f) + (is_inverse ? -share : share)), p);
 }
 
-/// Maps points from a shape to the unit square that is wrapped around it, and their distance from it.
+/// Maps points to the unit square that is wrapped around a shape, and to their distance from the shape.
 template <class S>
 [[gnu::always_inline]] inline V3<S> unwrapped(WarpKind kind, const SpaceStepRecord& step, const V3<S>& p) {
   using F = typename S::F;
