@@ -32,13 +32,17 @@ template <class... P> struct PrimitiveList : TypeList<P...> {
   template <class Q> static constexpr bool is(uint32_t kind) {
     return kind == TypeList<P...>::template number<Q>();
   }
-  // Tell the traits of the shape of a kind; false for unknown kinds.
-  static constexpr bool is_incremental(uint32_t kind) { return ((P::kIsIncremental && is<P>(kind)) || ...); }
-  static constexpr bool is_heavy(uint32_t kind) { return ((P::kIsHeavy && is<P>(kind)) || ...); }
-  static constexpr bool has_shadow_test(uint32_t kind) { return ((P::kHasShadowTest && is<P>(kind)) || ...); }
-  static constexpr bool has_edges(uint32_t kind) { return ((P::kHasEdges && is<P>(kind)) || ...); }
+  // Tell the traits of the shape of a kind; false for unknown kinds. GCC warns of && within folds.
+  static constexpr bool is_incremental(uint32_t kind) {
+    return ((P::kIsIncremental ? is<P>(kind) : false) || ...);
+  }
+  static constexpr bool is_heavy(uint32_t kind) { return ((P::kIsHeavy ? is<P>(kind) : false) || ...); }
+  static constexpr bool has_shadow_test(uint32_t kind) {
+    return ((P::kHasShadowTest ? is<P>(kind) : false) || ...);
+  }
+  static constexpr bool has_edges(uint32_t kind) { return ((P::kHasEdges ? is<P>(kind) : false) || ...); }
   static constexpr bool has_heavy_points(uint32_t kind) {
-    return ((P::kHasHeavyPoints && is<P>(kind)) || ...);
+    return ((P::kHasHeavyPoints ? is<P>(kind) : false) || ...);
   }
 };
 
