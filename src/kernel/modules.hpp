@@ -150,7 +150,7 @@ constexpr CodeModule kHits = {"hits", 5, 2, 7808};
 //   kernel::find_hit_points, detail::surface_of, kernel::local_normal
 
 /// Tests of objects with a shape of the first region, and of parts of CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 7424};
+constexpr CodeModule kObjects = {"objects", 12, 2, 7552};
 //   test_closest_of_other, occluded_by_other, occluded_by_instance, test_instance, ObjectTests<>::accept,
 //   ObjectTests<>::accepted, csg_accepted
 
