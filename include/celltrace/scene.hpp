@@ -8,6 +8,7 @@
 #include "celltrace/export.hpp"
 #include "celltrace/texture.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -297,12 +298,76 @@ struct Polygon {
   std::vector<std::vector<Vec3>> loops;
 };
 
+/// The surface of points where a polynomial of x, y and z is 0; values below 0 are inside.
+struct Polynomial {
+  int degree = 2; ///< 2 to 35
+  /// One coefficient of each x^i y^j z^k with i + j + k <= degree: i falls from `degree` to 0, for each i
+  /// the power j falls, and for each j the power k, so that the constant is last.
+  std::vector<double> coefficients;
+
+  /// Returns how many coefficients a polynomial of this degree has.
+  static std::size_t count(int degree) {
+    const auto n = static_cast<std::size_t>(degree);
+    return (n + 1) * (n + 2) * (n + 3) / 6;
+  }
+};
+
+/// A piece of a curve in a plane, for w from 0 to 1: its points are (x[0] + x[1] w + x[2] w^2 + x[3] w^3, the
+/// same of y).
+struct CurveSegment {
+  double x[4] = {0, 0, 0, 0};
+  double y[4] = {0, 0, 0, 0};
+};
+
+/// A solid with the same cross-section at all heights, which lies between y = `bottom` and y = `top`.
+struct Prism {
+  /// Closed loops of segments in x and z, each of which begins where the one before it ends. A point is in
+  /// the cross-section if a half-line from the point crosses the segments an odd number of times.
+  std::vector<CurveSegment> outline;
+  double bottom = 0, top = 1;
+  /// True: the cross-section at height y is `outline` scaled by y, so that the solid comes to a point at the
+  /// origin.
+  bool is_conic = false;
+  bool open = false; ///< true: without the ends
+};
+
+/// The surface that a curve in x and y leaves behind when it turns around the y axis.
+struct Lathe {
+  std::vector<CurveSegment> curve; ///< x is the distance from the axis
+};
+
+/// A solid around the y axis whose squared radius is a polynomial of the height, piece by piece.
+struct SurfaceOfRevolution {
+  struct Piece {
+    double low = 0, high = 1;           ///< heights of its ends; each piece begins where the one below it ends
+    double square[4] = {0, 0, 0, 0};    ///< squared radius at height y: square[0] + square[1] y + ...
+  };
+  std::vector<Piece> pieces;
+  bool open = false; ///< true: without the discs at its ends
+};
+
+/// The surface around points and lines where their fields add up to `threshold`; greater sums are inside.
+struct Blob {
+  /// At distance d from the point, or from the line from `a` to `b`, the field is strength * (1 -
+  /// d^2/radius^2)^2, and 0 beyond the radius.
+  struct Component {
+    Vec3 a{0, 0, 0}, b{0, 0, 0}; ///< equal for a point
+    double radius = 1;
+    double strength = 1;
+    Transform transform; ///< of the field, in the blob
+  };
+  double threshold = 1;
+  std::vector<Component> components;
+};
+
 struct Csg;
 
 /// One thing to hit: a shape and its place. Plain unions are already taken apart.
 struct Object {
   std::variant<Sphere, std::shared_ptr<const Mesh>, Plane, Disc, Box, Cylinder, Cone, Torus, Quadric,
-               Superellipsoid, std::shared_ptr<const Polygon>, std::shared_ptr<const Csg>>
+               Superellipsoid, std::shared_ptr<const Polygon>, std::shared_ptr<const Polynomial>,
+               std::shared_ptr<const Prism>, std::shared_ptr<const Lathe>,
+               std::shared_ptr<const SurfaceOfRevolution>, std::shared_ptr<const Blob>, std::shared_ptr<const Csg>>
       shape;
   Transform transform;
   Index material = 0; ///< index into Scene::materials; no effect for a CSG, whose parts have their own

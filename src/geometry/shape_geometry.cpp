@@ -1,5 +1,6 @@
 #include "geometry/shape_geometry.hpp"
 
+#include "geometry/data_shapes.hpp"
 #include "geometry/mesh_geometry.hpp"
 #include "geometry/polygons.hpp"
 #include "geometry/polynomial.hpp"
@@ -382,6 +383,17 @@ Extent thickened(Extent extent) {
     extent.max[axis] += kThickness;
   }
   return extent;
+}
+
+// Shapes of many parts are in data_shapes.cpp.
+template <class S> void cross(const std::shared_ptr<const S>& shape, const Ray& ray, Crossings& found) {
+  find_crossings(*shape, ray, found);
+}
+template <class S> bool contains(const std::shared_ptr<const S>& shape, const Vec3& p) {
+  return is_inside(*shape, p);
+}
+template <class S> Extent extent(const std::shared_ptr<const S>& shape) {
+  return extent_of(*shape);
 }
 
 void cross(const std::shared_ptr<const Csg>&, const Ray&, Crossings&) {

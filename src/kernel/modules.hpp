@@ -102,6 +102,24 @@ constexpr CodeModule kMeshes = {"meshes", 17, 1, 4864};
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 //   module_polygons
 
+/// Shapes made of any number of records, each with its tests of rays and of points. In the second region, as
+/// rays test these and other shapes in turn.
+constexpr CodeModule kPolynomials = {"polynomials", 36, 1, 8960};
+//   intersect_data<PolynomialPrimitive>, inside_data<PolynomialPrimitive>, PolynomialPrimitive,
+//   PolynomialRoots<35>
+
+constexpr CodeModule kPrisms = {"prisms", 37, 1, 8960};
+//   intersect_data<PrismPrimitive>, inside_data<PrismPrimitive>, PrismPrimitive
+
+constexpr CodeModule kRevolved = {"revolved", 38, 1, 8960};
+//   intersect_data<SorPrimitive>, inside_data<SorPrimitive>, SorPrimitive
+
+constexpr CodeModule kLathes = {"lathes", 39, 1, 8960};
+//   intersect_data<LathePrimitive>, inside_data<LathePrimitive>, LathePrimitive
+
+constexpr CodeModule kBlobs = {"blobs", 40, 1, 8960};
+//   intersect_data<BlobPrimitive>, inside_data<BlobPrimitive>, BlobPrimitive
+
 /// Instances of meshes. In the second region, as rays test instances and other shapes in turn.
 constexpr CodeModule kInstances = {"instances", 35, 1, 7808};
 //   module_instances

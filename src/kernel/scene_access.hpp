@@ -53,8 +53,8 @@ public:
     return read_apart<InstanceRecord>(offset, DataKind::object);
   }
   const ExtraRecord* extra(uint32_t offset) { return read_apart<ExtraRecord>(offset, DataKind::object); }
-  const PolygonEdgeRecord* polygon_edge(uint32_t offset) {
-    return read_apart<PolygonEdgeRecord>(offset, DataKind::object);
+  const ShapeDataRecord* shape_data(uint32_t offset) {
+    return read_apart<ShapeDataRecord>(offset, DataKind::object);
   }
   const CsgRecord* csg(uint32_t offset) { return read_apart<CsgRecord>(offset, DataKind::object); }
   const CsgStep* csg_step(uint32_t offset) { return read_apart<CsgStep>(offset, DataKind::object); }

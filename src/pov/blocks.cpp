@@ -79,6 +79,11 @@ Block block_behind(int terminal) {
   case tokens::T_LOOKS_LIKE:
   case tokens::T_PROJECTED_THROUGH:
     return Block::object;
+  case tokens::T_BLOB:
+  case tokens::T_LIST_PATTERN: // cubic
+  case tokens::T_POLY:
+  case tokens::T_QUARTIC:
+    return Block::object;
   case tokens::T_MESH2:
     return Block::mesh2;
   case tokens::T_BICUBIC_PATCH:

@@ -81,19 +81,19 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token MISPLACED
 
 %token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
-%token <int> PATTERN ARGUED_PATTERN LIST_PATTERN
+%token <int> CURVE_WORD PATTERN ARGUED_PATTERN LIST_PATTERN
 %token <NameId> UNSUPPORTED UNSUPPORTED_ARGUMENT UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT READ_APART
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
 %token OLD_PLUS OLD_MINUS // signs of a new value: before version 1.5 they do not join two values
 
-%token ALBEDO ALTITUDE ANGLE AREA_LIGHT ARRAY ASSUMED_GAMMA BACKGROUND BICUBIC_PATCH BLUR_SAMPLES BOUNDED_BY CAMERA CHARSET CLIPPED_BY
+%token ALBEDO ALTITUDE ANGLE AREA_LIGHT ARRAY ASSUMED_GAMMA BACKGROUND BICUBIC_PATCH BLOB BLOB_COMPONENT BLUR_SAMPLES BOUNDED_BY CAMERA CHARSET CLIPPED_BY
 %token COLOUR COLOUR_MAP DIFFUSE DIMENSIONS DIMENSION_SIZE FINISH FOG GLOBAL_SETTINGS INSIDE INSIDE_VECTOR INTERIOR
 %token INTERIOR_TEXTURE INVERSE IRID JULIA LIGHT_GROUP LIGHT_SOURCE LOOKS_LIKE MAGNET MATERIAL MATRIX MAX_EXTENT MESH MESH2
-%token MIN_EXTENT NORMAL NORMAL_MAP OBJECT OPEN PHOTONS PIGMENT PIGMENT_MAP PIGMENT_PATTERN PROJECTED_THROUGH RADIOSITY
+%token MIN_EXTENT NORMAL NORMAL_MAP OBJECT OPEN PHOTONS PIGMENT PIGMENT_MAP PIGMENT_PATTERN POLY PROJECTED_THROUGH QUARTIC RADIOSITY
 %token OLD_TEXTURE // before version 3.0
 %token RAINBOW REFLECTION ROTATE SCALE SKY_SPHERE SLOPE SLOPE_MAP SMOOTH_TRIANGLE SPLINE SRGB TEXTURE TEXTURE_LIST
-%token TEXTURE_MAP TILE2 TILES TRACE TRANSFORM TRANSLATE TRIANGLE USER_FUNCTION UV_MAPPING UV_VECTORS WARP
+%token TEXTURE_MAP THRESHOLD TILE2 TILES TRACE TRANSFORM TRANSLATE TRIANGLE USER_FUNCTION UV_MAPPING UV_VECTORS WARP
 
 // Commas are optional, and so are some values. After a value both an operator and a sign, a colour's channel or
 // another value can follow: the longer value is meant. What may be a value that is optional is that one: a number
@@ -145,7 +145,11 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::shared_ptr<CameraDefinition>> camera camera_body
 %nterm <ObjectPtr> object
 %nterm <std::shared_ptr<ObjectDefinition>> object_body light_body light_group
-%nterm <WrittenShape> shape_start shape_head shape_end
+%nterm <WrittenShape> shape_start swept_shape shape_head shape_end
+%nterm <double> polynomial_start polynomial_head
+%nterm <std::vector<double>> coefficients
+%nterm <WrittenBlob> blob_head
+%nterm <std::shared_ptr<ObjectDefinition>> blob_component
 %nterm <Compound> csg_head light_group_head
 %nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head

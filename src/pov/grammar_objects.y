@@ -31,15 +31,22 @@ object
   | light_group '}'    { $$ = located($1, @1); }
   | OBJECT_ID
   | UNSUPPORTED_OBJECT { $$ = unsupported_object(quoted(session, $1), @1); session.tokens.skip_group(); }
-  | LIST_PATTERN       { $$ = unsupported_object(quoted_pattern($1), @1); session.tokens.skip_group(); } // cubic
   ;
 
 shape_start
   : SHAPE '{'                { $$.number = $1; $$.where = @1; session.tokens.take_arguments($$.arguments); }
   ;
 
+swept_shape // `linear_spline` and the like stand in front of all arguments
+  : shape_start SPLINE_KIND   { $$ = $1; set_curve(session, $$, Spline::Kind($2), @2); }
+  | shape_start CURVE_WORD    { $$ = $1; set_curve(session, $$, CurveWord($2), @2); }
+  | swept_shape SPLINE_KIND   { $$ = $1; set_curve(session, $$, Spline::Kind($2), @2); }
+  | swept_shape CURVE_WORD    { $$ = $1; set_curve(session, $$, CurveWord($2), @2); }
+  ;
+
 shape_head
-  : shape_start ARGUMENTS    { $$ = $1; }
+  : swept_shape quantity     %prec SHORTER { $$ = $1; $$.arguments.push_back({$2, @2}); }
+  | shape_start ARGUMENTS    { $$ = $1; }
   | shape_start quantity     %prec SHORTER { $$ = $1; $$.arguments.push_back({$2, @2}); }
   | shape_head quantity      %prec SHORTER { $$ = $1; append_argument(session, $$, {$2, @2}); }
   | shape_head ',' quantity  %prec SHORTER { $$ = $1; append(session, $$.arguments, {$3, @3}, @3); }
@@ -51,6 +58,43 @@ shape_end // the comma belongs to what may be left out behind it
       $$.comma = @2;
       if (!has_option($$.number)) report_syntax_error(context(*this, yyla));
     }
+  ;
+
+polynomial_start
+  : LIST_PATTERN '{'         { $$ = degree_of_pattern(session, $1, @1); } // cubic
+  | QUARTIC '{'              { $$ = 4; }
+  ;
+
+polynomial_head
+  : polynomial_start
+  | POLY '{' number optional_comma { $$ = $3; }
+  ;
+
+coefficients
+  : component                  { $$.push_back($1); }
+  | coefficients ',' component { $$ = $1; append(session, $$, $3, @3); }
+  | coefficients component     { $$ = $1; append(session, $$, $2, @2); }
+  ;
+
+blob_head
+  : BLOB '{'                        { }
+  | blob_head ','                   { $$ = $1; }
+  | blob_head THRESHOLD number      { $$ = $1; $$.blob.threshold = $3; }
+  | blob_head blob_component '}'    { $$ = $1; add_component(session, $$, *$2, @2); }
+  | blob_head BLOB_COMPONENT number optional_comma number optional_comma quantity %prec SHORTER {
+      $$ = $1;
+      add_component(session, $$, $3, $5, session.vector($7, @7), @2);
+    }
+  ;
+
+blob_component
+  : shape_head              %prec SHORTER { $$ = blob_component(session, $1); }
+  | shape_head ','          %prec SHORTER { $$ = blob_component(session, $1); } // in front of `strength`
+  | blob_component modifier { $$ = $1; modify(session, *$$, $2, @2); }
+  | blob_component texture  { $$ = $1; add_layer(session, *$$, $2, @2); }
+  | blob_component PIGMENT '{' { start_part(session, $1, @2); } pigment_body '}' { $$ = dressed(session, *$5); }
+  | blob_component NORMAL '{' { start_part(session, $1, @2); } normal_body '}' { $$ = dressed(session, $5); }
+  | blob_component FINISH '{' { start_part(session, $1, @2); } finish_body '}' { $$ = dressed(session, *$5); }
   ;
 
 csg_head
@@ -77,6 +121,11 @@ object_body
   | MESH '{' OBJECT_ID           { $$ = copy_of(*$3); }
   | MESH2 '{' OBJECT_ID          { $$ = copy_of(*$3); }
   | BICUBIC_PATCH '{' OBJECT_ID  { $$ = copy_of(*$3); }
+  | polynomial_start OBJECT_ID   { $$ = copy_of(*$2); }
+  | POLY '{' OBJECT_ID           { $$ = copy_of(*$3); }
+  | BLOB '{' OBJECT_ID           { $$ = copy_of(*$3); }
+  | polynomial_head '<' coefficients optional_comma '>' { $$ = polynomial(session, $1, $3, @1); }
+  | blob_head                    %prec SHORTER { $$ = blob(session, $1, @1); }
   | shape_head                   %prec SHORTER { $$ = shape(session, $1); }
   | shape_head OPEN              { $$ = open_shape(session, $1); }
   | shape_end                    { $$ = shape(session, $1); }

@@ -123,6 +123,109 @@ std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& wr
   return object;
 }
 
+std::shared_ptr<ObjectDefinition> polynomial(Session& session, double degree,
+                                             const std::vector<double>& coefficients, const Location& where) {
+  constexpr int kGreatestDegree = 35;
+  if (!(degree >= 2 && degree <= kGreatestDegree)) session.fail(where, "the degree of a poly is 2 to 35");
+  auto polynomial = std::make_shared<Polynomial>();
+  polynomial->degree = static_cast<int>(degree);
+  if (coefficients.size() != Polynomial::count(polynomial->degree))
+    session.fail(where, "a polynomial of degree " + std::to_string(polynomial->degree) + " has " +
+                            std::to_string(Polynomial::count(polynomial->degree)) + " coefficients, found " +
+                            std::to_string(coefficients.size()));
+  polynomial->coefficients = coefficients;
+  auto object = std::make_shared<ObjectDefinition>();
+  object->shape = Shape(std::shared_ptr<const Polynomial>(polynomial));
+  return object;
+}
+
+void set_curve(Session& session, WrittenShape& written, Spline::Kind kind, const Location& where) {
+  switch (kind) {
+  case Spline::Kind::linear:
+    written.curve = CurveKind::linear;
+    return;
+  case Spline::Kind::quadratic:
+    written.curve = CurveKind::quadratic;
+    return;
+  case Spline::Kind::cubic:
+    written.curve = CurveKind::cubic;
+    return;
+  case Spline::Kind::natural:
+    session.fail(where, "a shape has no natural_spline");
+  }
+}
+void set_curve(Session&, WrittenShape& written, CurveWord word, const Location&) {
+  switch (word) {
+  case CurveWord::bezier:
+    written.curve = CurveKind::bezier;
+    return;
+  case CurveWord::b_spline:
+    written.curve = CurveKind::b_spline;
+    return;
+  case CurveWord::linear_sweep:
+  case CurveWord::conic_sweep:
+    written.is_swept = true;
+    written.is_conic = word == CurveWord::conic_sweep;
+    return;
+  }
+}
+
+double degree_of_pattern(Session& session, int pattern, const Location& where) {
+  if (quoted_pattern(pattern) != "'cubic'") session.fail(where, "expected an object, found " + quoted_pattern(pattern));
+  return 3;
+}
+
+std::shared_ptr<ObjectDefinition> blob_component(Session& session, WrittenShape written) {
+  written.is_component = true;
+  return shape(session, written);
+}
+
+void set_strength(Session& session, ObjectDefinition& object, double strength, const Location& where) {
+  auto* const shape = std::get_if<Shape>(&object.shape);
+  const auto* const blob = shape != nullptr ? std::get_if<std::shared_ptr<const Blob>>(shape) : nullptr;
+  if (blob == nullptr || (*blob)->components.size() != 1)
+    session.fail(where, "only a component of a blob has 'strength'");
+  auto changed = std::make_shared<Blob>(**blob);
+  changed->components.front().strength = strength;
+  *shape = std::shared_ptr<const Blob>(changed);
+}
+
+namespace {
+
+void append_component(Session& session, Blob& blob, const Blob::Component& component, const Location& where) {
+  constexpr std::size_t kMostComponents = 300000;
+  if (blob.components.size() >= kMostComponents) session.fail(where, "this blob has too many components");
+  blob.components.push_back(component);
+}
+
+} // namespace
+
+void add_component(Session& session, WrittenBlob& written, ObjectDefinition& object, const Location& where) {
+  const auto* const shape = std::get_if<Shape>(&object.shape);
+  const auto* const own = shape != nullptr ? std::get_if<std::shared_ptr<const Blob>>(shape) : nullptr;
+  if (own == nullptr) session.fail(where, "a component of a blob is a sphere or a cylinder");
+  Blob::Component component = (*own)->components.front();
+  component.transform = object.transform;
+  append_component(session, written.blob, component, where);
+  if (object.texture) mark(written.unsupported, make_unsupported("a texture of a blob's component", where));
+}
+void add_component(Session& session, WrittenBlob& written, double strength, double radius, const Vec3& centre,
+                   const Location& where) {
+  Blob::Component component;
+  component.a = component.b = centre;
+  component.radius = radius;
+  component.strength = strength;
+  append_component(session, written.blob, component, where);
+}
+
+std::shared_ptr<ObjectDefinition> blob(Session& session, const WrittenBlob& written, const Location& where) {
+  if (written.blob.components.empty()) session.fail(where, "a blob has at least one component");
+  auto object = std::make_shared<ObjectDefinition>();
+  object->shape = Shape(std::make_shared<const Blob>(written.blob));
+  object->unsupported = written.unsupported;
+  return object;
+}
+
 std::shared_ptr<ObjectDefinition> open_shape(Session& session, WrittenShape written) {
   written.is_open = true;
   return shape(session, written);

@@ -37,7 +37,30 @@ void ignore_colour_name(Session& session, const Quantity& value, const Location&
 /// Adds an argument that follows other arguments without a comma. If it is a colour and the shape is
 /// complete, it is a modifier, which is ignored.
 void append_argument(Session& session, WrittenShape& written, const ShapeArgument& argument);
+/// Sets the kind of a shape's curve by a word in front of its arguments.
+void set_curve(Session& session, WrittenShape& written, Spline::Kind kind, const Location& where);
+void set_curve(Session& session, WrittenShape& written, CurveWord word, const Location& where);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
+
+/// Returns the degree of the shape that is written like a pattern: 3 for `cubic`.
+double degree_of_pattern(Session& session, int pattern, const Location& where);
+std::shared_ptr<ObjectDefinition> polynomial(Session& session, double degree,
+                                             const std::vector<double>& coefficients, const Location& where);
+
+/// A blob as far as it has been read.
+struct WrittenBlob {
+  Blob blob;
+  UnsupportedPtr unsupported;
+};
+/// Returns a component of a blob, as an object. Without `strength` its last argument may be the strength.
+std::shared_ptr<ObjectDefinition> blob_component(Session& session, WrittenShape written);
+/// Sets the strength of a blob's component; fails if the object is none.
+void set_strength(Session& session, ObjectDefinition& object, double strength, const Location& where);
+void add_component(Session& session, WrittenBlob& blob, ObjectDefinition& object, const Location& where);
+/// Adds a component of the old form: strength, radius and centre.
+void add_component(Session& session, WrittenBlob& blob, double strength, double radius, const Vec3& centre,
+                   const Location& where);
+std::shared_ptr<ObjectDefinition> blob(Session& session, const WrittenBlob& written, const Location& where);
 /// Makes a shape with `open` behind the arguments.
 std::shared_ptr<ObjectDefinition> open_shape(Session& session, WrittenShape written);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);

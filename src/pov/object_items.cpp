@@ -9,6 +9,10 @@ namespace {
 using Form = ItemForm;
 
 const ItemRow<ObjectDefinition> kObjectItems[] = {
+    {"strength", Form::value,
+     [](ObjectDefinition& object, const ItemValues& values) {
+       set_strength(values.session(), object, values.number(), values.where());
+     }},
     {"no_image", Form::word, set_true<&ObjectDefinition::no_image>},
     {"no_reflection", Form::word, set_true<&ObjectDefinition::no_reflection>},
     {"no_shadow", Form::word, set_true<&ObjectDefinition::no_shadow>},

@@ -13,7 +13,8 @@ namespace {
 /// Names of shapes, by index in Shape.
 constexpr std::array<const char*, std::variant_size_v<Shape>> kShapes = {
     "sphere", "mesh",  "plane",   "disc",           "box",     "cylinder",
-    "cone",   "torus", "quadric", "superellipsoid", "polygon", "union"};
+    "cone",   "torus", "quadric", "superellipsoid", "polygon", "polynomial",
+    "prism",  "lathe", "sor",     "blob",           "union"};
 /// Names of operations, by Csg::Operation.
 constexpr std::array kOperations = {"union", "merge", "intersection", "difference"};
 

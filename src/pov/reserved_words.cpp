@@ -41,6 +41,7 @@ const Word kWords[] = {
     {"assumed_gamma", tokens::T_ASSUMED_GAMMA},
     {"background", tokens::T_BACKGROUND},
     {"bicubic_patch", tokens::T_BICUBIC_PATCH},
+    {"blob", tokens::T_BLOB},
     {"blur_samples", tokens::T_BLUR_SAMPLES},
     {"bounded_by", tokens::T_BOUNDED_BY},
     {"camera", tokens::T_CAMERA},
@@ -50,6 +51,7 @@ const Word kWords[] = {
     {"color_map", tokens::T_COLOUR_MAP},
     {"colour", tokens::T_COLOUR},
     {"colour_map", tokens::T_COLOUR_MAP},
+    {"component", tokens::T_BLOB_COMPONENT},
     {"defined", tokens::T_DEFINED},
     {"diffuse", tokens::T_DIFFUSE},
     {"dimension_size", tokens::T_DIMENSION_SIZE},
@@ -83,7 +85,9 @@ const Word kWords[] = {
     {"pigment", tokens::T_PIGMENT},
     {"pigment_map", tokens::T_PIGMENT_MAP},
     {"pigment_pattern", tokens::T_PIGMENT_PATTERN},
+    {"poly", tokens::T_POLY},
     {"projected_through", tokens::T_PROJECTED_THROUGH},
+    {"quartic", tokens::T_QUARTIC},
     {"radiosity", tokens::T_RADIOSITY},
     {"rainbow", tokens::T_RAINBOW},
     {"reflection", tokens::T_REFLECTION},
@@ -98,6 +102,7 @@ const Word kWords[] = {
     {"texture", tokens::T_TEXTURE},
     {"texture_list", tokens::T_TEXTURE_LIST},
     {"texture_map", tokens::T_TEXTURE_MAP},
+    {"threshold", tokens::T_THRESHOLD},
     {"tile2", tokens::T_TILE2},
     {"tiles", tokens::T_TILES},
     {"trace", tokens::T_TRACE},
@@ -157,6 +162,10 @@ const DetailedWord kDetailedWords[] = {
     {"quadratic_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::quadratic)},
     {"cubic_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::cubic)},
     {"natural_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::natural)},
+    {"b_spline", tokens::T_CURVE_WORD, static_cast<int>(CurveWord::b_spline)},
+    {"bezier_spline", tokens::T_CURVE_WORD, static_cast<int>(CurveWord::bezier)},
+    {"linear_sweep", tokens::T_CURVE_WORD, static_cast<int>(CurveWord::linear_sweep)},
+    {"conic_sweep", tokens::T_CURVE_WORD, static_cast<int>(CurveWord::conic_sweep)},
     {"union", tokens::T_CSG, detail(Csg::Operation::union_)},
     {"composite", tokens::T_CSG, detail(Csg::Operation::union_)}, // before version 2
     {"merge", tokens::T_CSG, detail(Csg::Operation::merge)},
@@ -218,8 +227,8 @@ const DirectiveWord kDirectives[] = {
 // Words that POV-Ray 3.7 reserves for unsupported features: objects, words with a block in braces of their
 // own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "blob", "height_field", "isosurface", "julia_fractal", "lathe",        "ovus", "parametric",
-    "poly", "prism",        "quartic",    "sor",           "sphere_sweep", "text",
+    "height_field", "isosurface", "julia_fractal", "ovus", "parametric",
+    "sphere_sweep", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {
@@ -228,7 +237,7 @@ const char* const kUnsupportedBlocks[] = {
 };
 
 const char* const kUnsupportedFeatures[] = {
-    "absorption", "all_intersections", "autostop",   "b_spline",      "cube",    "density_file",
+    "absorption", "all_intersections", "autostop",   "cube",    "density_file",
     "importance", "load_file",         "max_trace",  "no_bump_scale", "pattern", "precision",
     "quaternion", "save_file",         "scattering", "spacing",       "tiling",  "translucency",
 };
@@ -240,10 +249,7 @@ const char* const kUnsupportedArguments[] = {
     "all",
     "always_sample",
     "ascii",
-    "bezier_spline",
     "brightness",
-    "component",
-    "conic_sweep",
     "count",
     "df3",
     "eccentricity",
@@ -259,7 +265,6 @@ const char* const kUnsupportedArguments[] = {
     "interpolate",
     "intervals",
     "jpeg",
-    "linear_sweep",
     "low_error_factor",
     "map_type",
     "max_gradient",
@@ -283,7 +288,6 @@ const char* const kUnsupportedArguments[] = {
     "smooth",
     "sys",
     "tga",
-    "threshold",
     "tiff",
     "tolerance",
     "ttf",

@@ -50,6 +50,21 @@ public:
   }
   std::size_t count() const { return written_.arguments.size(); }
   bool is_open() const { return written_.is_open; }
+  bool is_conic() const { return written_.is_conic; }
+  CurveKind curve() const { return written_.curve.value_or(CurveKind::linear); }
+  /// Returns the points from argument `first` on, which have to be as many as argument `count` says.
+  CurvePoints points(std::size_t first, const char* shape) const {
+    const std::size_t given = written_.arguments.size() - first;
+    if (static_cast<double>(given) != std::floor(number(first - 1)))
+      session_.fail(written_.where, std::string("this ") + shape + " does not have as many points as it says");
+    CurvePoints points;
+    for (std::size_t i = first; i < written_.arguments.size(); ++i)
+      points.emplace_back(vector(i).x, vector(i).y);
+    return points;
+  }
+  CurveFails fails() const {
+    return [this](const std::string& what) { session_.fail(written_.where, what); };
+  }
   void require(bool condition, const char* what) const {
     if (!condition) session_.fail(written_.where, what);
   }
@@ -143,6 +158,30 @@ Shape read_polygon(const Arguments& a) {
   return std::shared_ptr<const Polygon>(polygon);
 }
 
+Shape read_lathe(const Arguments& a) {
+  auto lathe = std::make_shared<Lathe>();
+  lathe->curve = lathe_curve(a.curve(), a.points(1, "lathe"), a.fails());
+  return std::shared_ptr<const Lathe>(lathe);
+}
+
+Shape read_prism(const Arguments& a) {
+  auto prism = std::make_shared<Prism>();
+  prism->bottom = std::min(a.number(0), a.number(1));
+  prism->top = std::max(a.number(0), a.number(1));
+  prism->is_conic = a.is_conic();
+  prism->open = a.is_open();
+  prism->outline = prism_outline(a.curve(), a.points(3, "prism"), a.fails(), [&](const char* what) { a.warn(what); });
+  if (prism->outline.empty()) return Sphere{{0, 0, 0}, 0};
+  return std::shared_ptr<const Prism>(prism);
+}
+
+Shape read_sor(const Arguments& a) {
+  auto sor = std::make_shared<SurfaceOfRevolution>();
+  sor->open = a.is_open();
+  sor->pieces = sor_pieces(a.points(1, "sor"), a.fails());
+  return std::shared_ptr<const SurfaceOfRevolution>(sor);
+}
+
 Shape read_quadric(const Arguments& a) {
   return Quadric{a.vector(0), a.vector(1), a.vector(2), a.number(3)};
 }
@@ -167,6 +206,7 @@ Shape read_torus(const Arguments& a) {
 
 constexpr std::size_t kMostParameters = 4;
 constexpr bool kCanBeOpen = true;
+constexpr bool kHasCurve = true;
 
 struct ShapeForm {
   const char* name;
@@ -174,6 +214,8 @@ struct ShapeForm {
   Shape (*read)(const Arguments&);
   bool can_be_open = false;
   const char* vectors = nullptr; ///< name of further vectors, of which any number may follow
+  bool has_curve = false;        ///< may begin with the kind of its curve
+  bool is_swept = false;         ///< may begin with `linear_sweep` or `conic_sweep`
 
   std::size_t most() const {
     return static_cast<std::size_t>(
@@ -193,9 +235,18 @@ constexpr ShapeForm kShapes[] = {
     {"disc",
      {vector("centre"), vector("normal"), number("radius"), optional_number("hole radius")},
      read_disc},
+    {"lathe", {number("count")}, read_lathe, false, "point", kHasCurve},
     {"plane", {vector("normal"), number("distance")}, read_plane},
     {"polygon", {number("count")}, read_polygon, false, "point"},
+    {"prism",
+     {number("height"), number("height"), number("count")},
+     read_prism,
+     kCanBeOpen,
+     "point",
+     kHasCurve,
+     true},
     {"quadric", {vector("squares"), vector("products"), vector("linear"), number("constant")}, read_quadric},
+    {"sor", {number("count")}, read_sor, kCanBeOpen, "point"},
     {"sphere", {vector("centre"), number("radius")}, read_sphere},
     {"superellipsoid", {vector("east-west, north-south")}, read_superellipsoid},
     {"torus", {number("major radius"), number("minor radius")}, read_torus},
@@ -231,6 +282,8 @@ void check_arguments(const Session& session, const ShapeForm& shape, const Writt
   }
   // A comma may stand in front of an optional argument that is missing, but not after the last possible one.
   if (written.comma && count >= shape.most()) session.fail(*written.comma, "unexpected ','");
+  if ((written.curve && !shape.has_curve) || (written.is_swept && !shape.is_swept))
+    session.fail(written.where, std::string("a ") + shape.name + " does not begin with a kind of curve or sweep");
   if (written.is_open && !shape.can_be_open)
     session.fail(written.where, std::string("a ") + shape.name + " cannot be open");
 }
@@ -264,7 +317,36 @@ bool is_complete(int shape, std::size_t count) {
   return count >= form.fewest() && !takes_vector;
 }
 
+namespace {
+
+/// Returns a component of a blob, as a blob of its own. Its strength may be its last argument.
+Shape read_component(Session& session, WrittenShape written) {
+  const ShapeForm& shape = kShapes[written.number];
+  if (shape.read != read_sphere && shape.read != read_cylinder)
+    session.fail(written.where, "a component of a blob is a sphere or a cylinder");
+  Blob::Component component;
+  if (written.arguments.size() == shape.most() + 1) {
+    component.strength = session.number(written.arguments.back().value, written.arguments.back().where);
+    written.arguments.pop_back();
+  }
+  check_arguments(session, shape, written);
+  const Arguments a(session, written);
+  component.a = a.vector(0);
+  const bool is_ball = shape.read == read_sphere;
+  component.b = is_ball ? component.a : a.vector(1);
+  component.radius = a.number(is_ball ? 1 : 2);
+  if (!is_ball)
+    a.require(glm::distance(component.a, component.b) >= kShortest, "this cylinder's ends are the same point");
+  a.require(component.radius > 0, "the radius of a blob's component is above 0");
+  auto blob = std::make_shared<Blob>();
+  blob->components.push_back(component);
+  return std::shared_ptr<const Blob>(blob);
+}
+
+} // namespace
+
 Shape read_shape(Session& session, const WrittenShape& written) {
+  if (written.is_component) return read_component(session, written);
   const ShapeForm& shape = kShapes[written.number];
   check_arguments(session, shape, written);
   if (!is_somewhere(shape, written)) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pov/literals.hpp"
+#include "pov/curves.hpp"
 #include "pov/location.hpp"
 #include "pov/object.hpp"
 #include "pov/quantity.hpp"
@@ -22,6 +23,10 @@ struct WrittenShape {
   Location where;
   std::vector<ShapeArgument> arguments;
   bool is_open = false;          ///< followed by `open`
+  std::optional<CurveKind> curve; ///< by the word in front of its arguments; null: there is none
+  bool is_conic = false;         ///< `conic_sweep` stands in front of its arguments
+  bool is_swept = false;         ///< `linear_sweep` or `conic_sweep` stands there
+  bool is_component = false;     ///< a component of a blob, whose last argument may be its strength
   std::optional<Location> comma; ///< behind the last argument
 };
 

@@ -49,7 +49,7 @@ struct alignas(128) ImageHeader {
   uint32_t wave_offset, wave_count;                   ///< WaveRecords
   uint32_t light_set_count; ///< number of sets of lights; object_flag::light_set_shift numbers them
   uint32_t light_word_offset, light_word_count;     ///< words of LightRecord::lit_sets
-  uint32_t polygon_edge_offset, polygon_edge_count; ///< PolygonEdgeRecords
+  uint32_t shape_data_offset, shape_data_count; ///< ShapeDataRecords
   uint32_t rainbow_offset, rainbow_count;           ///< RainbowRecords
   uint32_t slope_offset, slope_count;               ///< SlopeRecords
   uint32_t projector_count; ///< number of projectors' ObjectRecords, which precede the unbounded objects in

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdint.h>
+#include <string.h>
 
 namespace celltrace::kernel {
 
@@ -76,7 +77,8 @@ static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 
 /// Further data of some objects. `value` of a smooth triangle: the normals at its three vertices, xyz each,
 /// which are interpolated linearly and have any common length; of a shape in its own space: its parameters;
-/// of a polygon: its PolygonEdges; of an instance: the bits of its InstanceRecord's offset.
+/// of a shape with
+/// kHasData: its ShapeData; of an instance: the bits of its InstanceRecord's offset.
 struct alignas(64) ExtraRecord {
   float value[9];
   uint32_t csg; ///< for objects with object_flag::csg: offset of a CsgRecord
@@ -87,12 +89,24 @@ struct alignas(64) ExtraRecord {
 };
 static_assert(sizeof(ExtraRecord) == 64, "two records a line");
 
-/// An edge of a polygon, in the plane of the polygon's space, from its lower end up. The edge is beside a
-/// point at height y if low <= y < high; its column is `column` at `low` and increases by `slope` per unit of
-/// height.
-struct alignas(16) PolygonEdgeRecord {
-  float low, high, column, slope;
+/// Four numbers of a shape that has as many as it needs: an edge of a polygon, or a part of a polynomial, a
+/// curve or a blob. The shape's file says what they mean.
+struct alignas(16) ShapeDataRecord {
+  float value[4];
 };
-static_assert(sizeof(PolygonEdgeRecord) == 16, "eight a line");
+static_assert(sizeof(ShapeDataRecord) == 16, "eight a line");
+
+/// The ShapeDataRecords of one shape, in its ExtraRecord in place of the second and third value.
+struct ShapeData {
+  uint32_t first; ///< offset of a ShapeDataRecord
+  uint32_t count;
+
+  static ShapeData of(const ExtraRecord& extra) {
+    ShapeData data;
+    memcpy(&data, extra.value + 1, sizeof data);
+    return data;
+  }
+  void put_in(ExtraRecord& extra) const { memcpy(extra.value + 1, this, sizeof *this); }
+};
 
 } // namespace celltrace::kernel

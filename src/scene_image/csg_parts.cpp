@@ -252,6 +252,14 @@ private:
 
 } // namespace
 
+namespace {
+
+bool is_made_of_data(const SolidRecord& solid) {
+  return Primitives::is_made_of_data(solid.object.kind_and_flags & object_flag::kind_mask);
+}
+
+} // namespace
+
 bool CsgParts::contains(const Object& object) {
   return std::holds_alternative<std::shared_ptr<const Csg>>(object.shape) ||
          (object.clipped_by && !object.clipped_by->empty());
@@ -262,7 +270,10 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
                    const std::vector<std::uint32_t>& material_flags) {
   Flattener patterns_flattener(*this, nullptr);
   for (const auto& object : patterns) {
-    const Node tree = build_tree(*object, solids, meshes);
+    const Node tree = build_tree(*object, solids, meshes, shape_data);
+    if (std::any_of(solids.begin(), solids.end(), is_made_of_data))
+      throw InputError("the object of a pattern contains a polynomial, prism, lathe, sor or blob, which patterns do "
+                       "not support");
     patterns_flattener.add_inside(tree);
     add_boundaries(tree, boundaries);
   }
@@ -274,7 +285,7 @@ CsgParts::CsgParts(const Scene& scene, const Eye& eye,
     if (!contains(scene.objects[i])) continue;
     const std::size_t first_part = parts.size(), first_replaced = replaced.size();
     const std::size_t first_solid = solids.size(), first_step = steps.size();
-    const Node tree = build_tree(scene.objects[i], solids, meshes);
+    const Node tree = build_tree(scene.objects[i], solids, meshes, shape_data);
     Flattener(*this, i < convex ? &material_flags : nullptr).show(tree, kNoCondition, kEverywhere);
     // If there are no steps, the solids are never tested.
     if (steps.size() == first_step)

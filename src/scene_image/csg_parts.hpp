@@ -5,6 +5,7 @@
 #include "celltrace/scene.hpp"
 #include "records/csg.hpp"
 #include "scene_image/crossed_meshes.hpp"
+#include "scene_image/shape_data_table.hpp"
 #include "scene_image/mesh_insides.hpp"
 #include "scene_image/shapes.hpp"
 #include "scene_image/solid_boundary.hpp"
@@ -53,6 +54,7 @@ struct CsgParts {
   std::vector<kernel::SolidRecord> solids;
   std::vector<SolidBoundary> boundaries; ///< solids whose records depend on the eye
   MeshInsides meshes;
+  ShapeDataTable shape_data; ///< records of solids, and of the scene's other shapes once they are added
   CrossedMeshes crossed_meshes;
 
   CsgParts() = default;

@@ -34,7 +34,8 @@ struct CsgContext {
 
 class TreeBuilder {
 public:
-  TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes) : solids_(solids), meshes_(meshes) {}
+  TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes, ShapeDataTable& shape_data)
+      : solids_(solids), meshes_(meshes), shape_data_(shape_data) {}
 
   Node build(const Object& object, CsgContext around) {
     if (around.depth++ > kDeepestCsg) throw InputError("the scene has a CSG that nests too deeply");
@@ -117,12 +118,16 @@ private:
     return node;
   }
 
-  static SolidRecord place_solid(Node& node) {
+  SolidRecord place_solid(Node& node) {
     node.shape = place_shape(node.object);
     SolidRecord solid{};
     solid.object.kind_and_flags =
         node.shape.is_empty || node.has_no_inside() ? kEmptySolid : node.shape.kind_and_flags;
     write_shape(node.shape, solid);
+    if (kernel::Primitives::is_made_of_data(solid.object.kind_and_flags & kernel::object_flag::kind_mask)) {
+      shape_data_.add(node.object);
+      shape_data_.of(node.object).put_in(solid.extra);
+    }
     return solid;
   }
 
@@ -141,12 +146,14 @@ private:
 
   std::vector<SolidRecord>& solids_;
   MeshInsides& meshes_;
+  ShapeDataTable& shape_data_;
 };
 
 } // namespace
 
-Node build_tree(const Object& object, std::vector<SolidRecord>& solids, MeshInsides& meshes) {
-  return TreeBuilder(solids, meshes).build(object, {});
+Node build_tree(const Object& object, std::vector<SolidRecord>& solids, MeshInsides& meshes,
+                ShapeDataTable& shape_data) {
+  return TreeBuilder(solids, meshes, shape_data).build(object, {});
 }
 
 void add_boundaries(const Node& node, std::vector<SolidBoundary>& boundaries) {

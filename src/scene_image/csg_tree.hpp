@@ -5,6 +5,7 @@
 #include "kernel/aabb.hpp"
 #include "records/csg.hpp"
 #include "scene_image/mesh_insides.hpp"
+#include "scene_image/shape_data_table.hpp"
 #include "scene_image/shapes.hpp"
 #include "scene_image/solid_boundary.hpp"
 
@@ -82,9 +83,10 @@ struct Node {
   }
 };
 
-/// Returns the tree of an object. Adds its solids to `solids` and the insides of its meshes to `meshes`.
+/// Returns the tree of an object. Adds its solids to `solids` the insides of its meshes to `meshes`, and the records of its shapes to `shape_data`.
 /// Throws InputError if the object nests too deeply, or if an object that should be a CSG is null.
-Node build_tree(const Object& object, std::vector<SolidRecord>& solids, MeshInsides& meshes);
+Node build_tree(const Object& object, std::vector<SolidRecord>& solids, MeshInsides& meshes,
+                ShapeDataTable& shape_data);
 
 /// Appends the boundaries of a tree's solids: programs test whether points are inside of these solids.
 void add_boundaries(const Node& node, std::vector<SolidBoundary>& boundaries);

@@ -21,6 +21,26 @@ bool needs_extra(std::uint32_t flags) {
   return has_parameters || is_instance(flags) || (flags & (object_flag::smooth | object_flag::csg)) != 0;
 }
 
+/// Returns whether the records that a shape is made of are in the table, and are as many as its first record
+/// says. The kernel then reads no other record.
+bool has_valid_data(const std::byte* base, const ImageHeader& h, std::uint32_t kind, const ExtraRecord& extra) {
+  if (!Primitives::has_data(kind)) return true;
+  const ShapeData data = ShapeData::of(extra);
+  if (data.count == 0) return !Primitives::is_made_of_data(kind);
+  if (!refers_to(data.first, h.shape_data_offset, h.shape_data_count, sizeof(ShapeDataRecord)) ||
+      data.count > h.shape_data_count - (data.first - h.shape_data_offset) / sizeof(ShapeDataRecord))
+    return false;
+  const float first = reinterpret_cast<const ShapeDataRecord*>(base + data.first)->value[0];
+  if (kind == kPrimitiveKind<PolynomialPrimitive>) {
+    if (!(first >= 1 && first <= PolynomialPrimitive::kMostDegree)) return false;
+    const auto n = static_cast<std::uint32_t>(first);
+    return (data.count - 1) * 4 >= (n + 1) * (n + 2) * (n + 3) / 6;
+  }
+  if (kind == kPrimitiveKind<PrismPrimitive> || kind == kPrimitiveKind<LathePrimitive>)
+    return first >= 1 && first <= CurvePiece::kMostDegree;
+  return true;
+}
+
 std::uint32_t solid_kind(const SolidRecord& solid) {
   return solid.object.kind_and_flags & object_flag::kind_mask;
 }
@@ -157,14 +177,8 @@ bool objects_are_valid(const std::byte* base, const ImageHeader& h) {
         !refers_to(object.extra, h.extra_offset, h.extra_count, sizeof(ExtraRecord)))
       return false;
     const auto extra = [&] { return reinterpret_cast<const ExtraRecord*>(base + object.extra); };
-    if ((flags & object_flag::kind_mask) == kPrimitiveKind<PolygonPrimitive>) {
-      const PolygonEdges edges = PolygonEdges::of(*extra());
-      if (edges.count != 0 &&
-          (!refers_to(edges.first, h.polygon_edge_offset, h.polygon_edge_count, sizeof(PolygonEdgeRecord)) ||
-           edges.count >
-               h.polygon_edge_count - (edges.first - h.polygon_edge_offset) / sizeof(PolygonEdgeRecord)))
-        return false;
-    }
+    if (object.extra != kNoOffset && !has_valid_data(base, h, flags & object_flag::kind_mask, *extra()))
+      return false;
     if (is_instance(flags) &&
         !refers_to(instance_of(*extra()), h.instance_offset, h.instance_count, sizeof(InstanceRecord)))
       return false;
@@ -219,9 +233,10 @@ bool csg_is_valid(const std::byte* base, const ImageHeader& h) {
   for (std::uint32_t i = 0; i < h.csg_step_count; ++i)
     if (!refers_to(steps[i].solid, h.solid_offset, h.solid_count, sizeof(SolidRecord))) return false;
   const auto* solids = reinterpret_cast<const SolidRecord*>(base + h.solid_offset);
-  return std::all_of(solids, solids + h.solid_count, [](const SolidRecord& solid) {
+  return std::all_of(solids, solids + h.solid_count, [&](const SolidRecord& solid) {
     const std::uint32_t kind = solid_kind(solid);
-    return kind < kPrimitives || kind == kCrossedMeshSolid || kind == kMeshSolid || kind == kEmptySolid;
+    if (kind < kPrimitives) return has_valid_data(base, h, kind, solid.extra);
+    return kind == kCrossedMeshSolid || kind == kMeshSolid || kind == kEmptySolid;
   });
 }
 

@@ -36,7 +36,7 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::light_features, &ImageHeader::feature_offset, &ImageHeader::feature_count,
           &ImageHeader::gradient_offset, &ImageHeader::gradient_count, &ImageHeader::wave_offset,
           &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
-          &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,
+          &ImageHeader::light_word_count, &ImageHeader::shape_data_offset, &ImageHeader::shape_data_count,
           &ImageHeader::rainbow_offset, &ImageHeader::rainbow_count, &ImageHeader::slope_offset,
           &ImageHeader::slope_count, &ImageHeader::projector_count, &ImageHeader::surface_nodes,
           &ImageHeader::instance_offset, &ImageHeader::instance_count, &ImageHeader::mesh_object_offset,
@@ -50,9 +50,7 @@ fields_of(const ObjectRecord&);
 
 FieldList<&ExtraRecord::value, &ExtraRecord::csg, &ExtraRecord::bounds> fields_of(const ExtraRecord&);
 
-FieldList<&PolygonEdgeRecord::low, &PolygonEdgeRecord::high, &PolygonEdgeRecord::column,
-          &PolygonEdgeRecord::slope>
-fields_of(const PolygonEdgeRecord&);
+FieldList<&ShapeDataRecord::value> fields_of(const ShapeDataRecord&);
 
 FieldList<&CsgRecord::next, &CsgRecord::steps, &CsgRecord::count, &CsgRecord::skip_begin,
           &CsgRecord::skip_end, &CsgRecord::unused>

@@ -122,8 +122,8 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
                                    header.mesh_triangle_count);
   layout.place<CrossedMeshRecord>(csg.crossed_meshes.records().size(), header.crossed_mesh_offset,
                                   header.crossed_mesh_count);
-  layout.place<PolygonEdgeRecord>(objects.polygons().edges().size(), header.polygon_edge_offset,
-                                  header.polygon_edge_count);
+  layout.place<ShapeDataRecord>(objects.shape_data().records().size(), header.shape_data_offset,
+                                  header.shape_data_count);
   layout.place<InstanceRecord>(instanced.instance_count(), header.instance_offset, header.instance_count);
   layout.place<ObjectRecord>(instanced.object_count(), header.mesh_object_offset, header.mesh_object_count);
   layout.place<NodeRecord>(instanced.node_count(), header.mesh_node_offset, header.mesh_node_count);

@@ -69,7 +69,7 @@ void ImageParts::write(std::byte* base, const ImageHeader& header, const ObjectP
   writer.write_header();
   surfaces.write(writer, objects.projector_sizes());
   writer.write_csg(objects.csg());
-  writer.write_polygons(objects.polygons());
+  writer.write_shape_data(objects.shape_data());
   writer.write_instanced(instanced);
   if (places.in_order)
     writer.write_objects(objects, *places.in_order, places.cells, threads);

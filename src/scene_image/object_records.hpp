@@ -45,7 +45,7 @@ inline std::uint32_t offset_of_interior(std::uint32_t table_offset, Index interi
 struct RecordTables {
   const Scene& scene;
   std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
-  std::uint32_t csg_offset, polygon_edge_offset, instance_offset;
+  std::uint32_t csg_offset, shape_data_offset, instance_offset;
   kernel::ExtraRecord* extras;                      ///< table
   kernel::BlendRecord* blends;                      ///< table
   const std::vector<std::uint32_t>& material_flags; ///< TextureTables::object_flags

@@ -247,8 +247,8 @@ private:
     ExtraRecord extra{};
     std::copy(shape.parameters, shape.parameters + 2, extra.value);
     extra.csg = kNoOffset;
-    if (const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape))
-      edges_of(**polygon).put_in(extra);
+    if (kernel::Primitives::has_data(shape.kind_and_flags & object_flag::kind_mask))
+      data_of(object).put_in(extra);
     if (limited) limit_by_csg(*placed.part, placed.part->bounds, r, extra);
     set_extra(r, extra);
     return r;
@@ -312,10 +312,10 @@ private:
             0.5f * (box.min[2] + box.max[2])};
   }
 
-  PolygonEdges edges_of(const Polygon& polygon) const {
-    PolygonEdges edges = objects_.polygons_.of(polygon);
-    edges.first = tables_.polygon_edge_offset + edges.first * std::uint32_t{sizeof(PolygonEdgeRecord)};
-    return edges;
+  ShapeData data_of(const Object& object) const {
+    ShapeData data = objects_.shape_data().of(object);
+    data.first = tables_.shape_data_offset + data.first * std::uint32_t{sizeof(ShapeDataRecord)};
+    return data;
   }
 
   void limit_by_csg(const CsgPart& part, const Aabb& bounds, ObjectRecord& r, ExtraRecord& extra) const {

@@ -75,7 +75,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.finish_offset, h.finish_count, sizeof(FinishRecord), bytes.size()) ||
       !table_fits(h.fog_offset, h.fog_count, sizeof(FogRecord), bytes.size()) ||
       !table_fits(h.rainbow_offset, h.rainbow_count, sizeof(RainbowRecord), bytes.size()) ||
-      !table_fits(h.polygon_edge_offset, h.polygon_edge_count, sizeof(PolygonEdgeRecord), bytes.size()) ||
+      !table_fits(h.shape_data_offset, h.shape_data_count, sizeof(ShapeDataRecord), bytes.size()) ||
       !table_fits(h.extra_offset, h.extra_count, sizeof(ExtraRecord), bytes.size()) ||
       !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
       std::uint64_t{h.unbounded_count} + h.projector_count >

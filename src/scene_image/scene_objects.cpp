@@ -90,7 +90,7 @@ bool SceneObjects::add_as_triangles(const Object& object) {
 }
 
 void SceneObjects::add_shape(const Object& object) {
-  polygons_.add(object);
+  csg_.shape_data.add(object);
   if (!has_bounds(object)) {
     unbounded_.push_back({&object, nullptr});
     return;
@@ -105,7 +105,7 @@ void SceneObjects::add_shape(const Object& object) {
 void SceneObjects::add_projectors(const Scene& scene, std::size_t first) {
   for (std::size_t i = first; i < scene.objects.size(); ++i) {
     const std::size_t before = projectors_.size();
-    polygons_.add(scene.objects[i]);
+    csg_.shape_data.add(scene.objects[i]);
     if (!CsgParts::contains(scene.objects[i])) {
       if (!place_shape(scene.objects[i]).is_empty) projectors_.push_back({&scene.objects[i], nullptr});
     } else {
@@ -117,7 +117,7 @@ void SceneObjects::add_projectors(const Scene& scene, std::size_t first) {
 }
 
 void SceneObjects::add_parts(std::size_t whole, unsigned threads) {
-  polygons_.add(scene_.objects[whole]);
+  csg_.shape_data.add(scene_.objects[whole]);
   const auto parts = std::equal_range(csg_.parts.begin(), csg_.parts.end(), whole, ComparesWholes());
   for (auto part = parts.first; part != parts.second; ++part) {
     are_all_seen_ = are_all_seen_ && !part->object.no_image;

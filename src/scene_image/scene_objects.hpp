@@ -11,7 +11,6 @@
 #include "scene_image/mesh_instances.hpp"
 #include "scene_image/object_order.hpp"
 #include "scene_image/object_records.hpp"
-#include "scene_image/polygon_table.hpp"
 
 #include <deque>
 #include <optional>
@@ -55,7 +54,7 @@ public:
   const std::vector<std::size_t>& order() const { return order_; }
   const CsgParts& csg() const { return csg_; }
   std::vector<SolidBoundary> take_boundaries() { return std::move(csg_.boundaries); }
-  const PolygonTable& polygons() const { return polygons_; }
+  const ShapeDataTable& shape_data() const { return csg_.shape_data; }
 
   /// Writes to `to`, in order, the objects of [begin, end) that can be hit. Throws InputError if an object's
   /// coordinates exceed the range of single precision.
@@ -140,7 +139,6 @@ private:
   const std::vector<std::uint32_t>& material_flags_;
   const InstancedMeshes& instanced_;
   CsgParts csg_;
-  PolygonTable polygons_;
   std::vector<std::size_t> order_;
   std::vector<Piece> pieces_;
   std::vector<Placed> unbounded_, projectors_;

@@ -4,6 +4,7 @@
 #include "geometry/basis.hpp"
 #include "geometry/polygons.hpp"
 #include "geometry/shape_geometry.hpp"
+#include "geometry/data_shapes.hpp"
 #include "kernel/accel/object_bounds.hpp"
 #include "scene_image/record_vectors.hpp"
 
@@ -344,6 +345,29 @@ PlacedShape place(const Object& object, const std::shared_ptr<const Polygon>& po
   return frame ? in_own_space<PolygonPrimitive>(object, *frame) : nothing();
 }
 
+PlacedShape place(const Object& object, const std::shared_ptr<const Polynomial>&) {
+  return in_own_space<PolynomialPrimitive>(object, Transform());
+}
+PlacedShape place(const Object& object, const std::shared_ptr<const Prism>& prism) {
+  const std::optional<Transform> frame = frame_of(*prism);
+  if (!frame) return nothing();
+  PlacedShape shape = in_own_space<PrismPrimitive>(object, *frame);
+  shape.parameters[0] = lower_end_of(*prism);
+  return shape;
+}
+PlacedShape place(const Object& object, const std::shared_ptr<const Lathe>& lathe) {
+  const std::optional<Transform> frame = frame_of(*lathe);
+  return frame ? in_own_space<LathePrimitive>(object, *frame) : nothing();
+}
+PlacedShape place(const Object& object, const std::shared_ptr<const SurfaceOfRevolution>& sor) {
+  const std::optional<Transform> frame = frame_of(*sor);
+  return frame ? in_own_space<SorPrimitive>(object, *frame) : nothing();
+}
+PlacedShape place(const Object& object, const std::shared_ptr<const Blob>& blob) {
+  const std::optional<Transform> frame = frame_of(*blob);
+  return frame ? in_own_space<BlobPrimitive>(object, *frame) : nothing();
+}
+
 PlacedShape place(const Object&, const std::shared_ptr<const Mesh>&) {
   return nothing();
 }
@@ -391,6 +415,43 @@ std::vector<double> numbers_of(const std::shared_ptr<const Polygon>& polygon) {
   for (const std::vector<Vec3>& loop : polygon->loops)
     for (const Vec3& point : loop)
       all.insert(all.end(), {point.x, point.y, point.z});
+  return all;
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Polynomial>& polynomial) {
+  return polynomial->coefficients;
+}
+void add_curve(const std::vector<CurveSegment>& curve, std::vector<double>& all) {
+  for (const CurveSegment& segment : curve) {
+    all.insert(all.end(), segment.x, segment.x + 4);
+    all.insert(all.end(), segment.y, segment.y + 4);
+  }
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Prism>& prism) {
+  std::vector<double> all = {prism->bottom, prism->top};
+  add_curve(prism->outline, all);
+  return all;
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Lathe>& lathe) {
+  std::vector<double> all;
+  add_curve(lathe->curve, all);
+  return all;
+}
+std::vector<double> numbers_of(const std::shared_ptr<const SurfaceOfRevolution>& sor) {
+  std::vector<double> all;
+  for (const SurfaceOfRevolution::Piece& piece : sor->pieces) {
+    all.insert(all.end(), {piece.low, piece.high});
+    all.insert(all.end(), piece.square, piece.square + 4);
+  }
+  return all;
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Blob>& blob) {
+  std::vector<double> all = {blob->threshold};
+  for (const Blob::Component& c : blob->components) {
+    const std::vector<double> own = numbers({c.a, c.b, c.transform.rows[0], c.transform.rows[1],
+                                             c.transform.rows[2], c.transform.rows[3]},
+                                            {c.radius, c.strength});
+    all.insert(all.end(), own.begin(), own.end());
+  }
   return all;
 }
 std::vector<double> numbers_of(const std::shared_ptr<const Mesh>&) {
@@ -472,7 +533,9 @@ PlacedShape with_boundary(const PlacedShape& shape, const Eye& eye) {
 
 bool has_bounds(const Object& object) {
   // Most kinds of shapes always have bounds, so that there is no need to place the shape.
-  if (std::holds_alternative<Plane>(object.shape)) return false;
+  if (std::holds_alternative<Plane>(object.shape) ||
+      std::holds_alternative<std::shared_ptr<const Polynomial>>(object.shape))
+    return false;
   return !std::holds_alternative<Quadric>(object.shape) || place_shape(object).is_bounded;
 }
 

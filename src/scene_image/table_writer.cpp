@@ -50,7 +50,7 @@ TableWriter::TableWriter(std::byte* base, const ImageHeader& header, const Scene
                                            header.extra_offset,
                                            header.blend_offset,
                                            header.csg_offset,
-                                           header.polygon_edge_offset,
+                                           header.shape_data_offset,
                                            header.instance_offset,
                                            table<ExtraRecord>(header.extra_offset),
                                            table<BlendRecord>(header.blend_offset),
@@ -135,6 +135,11 @@ void TableWriter::write_csg(const CsgParts& csg) {
       solid.object.extra = offset(header_.mesh_grid_offset, solid.object.extra, sizeof(MeshGridRecord));
     if (solid.object.kind_and_flags == kCrossedMeshSolid)
       solid.object.extra = offset(header_.crossed_mesh_offset, solid.object.extra, sizeof(CrossedMeshRecord));
+    if (Primitives::is_made_of_data(solid.object.kind_and_flags & object_flag::kind_mask)) {
+      ShapeData data = ShapeData::of(solid.extra);
+      data.first = offset(header_.shape_data_offset, data.first, sizeof(ShapeDataRecord));
+      data.put_in(solid.extra);
+    }
     table<SolidRecord>(header_.solid_offset)[i] = solid;
   }
   write_meshes(csg.meshes);
@@ -145,9 +150,9 @@ void TableWriter::write_csg(const CsgParts& csg) {
   }
 }
 
-void TableWriter::write_polygons(const PolygonTable& polygons) {
-  std::copy(polygons.edges().begin(), polygons.edges().end(),
-            table<PolygonEdgeRecord>(header_.polygon_edge_offset));
+void TableWriter::write_shape_data(const ShapeDataTable& shape_data) {
+  std::copy(shape_data.records().begin(), shape_data.records().end(),
+            table<ShapeDataRecord>(header_.shape_data_offset));
 }
 
 void TableWriter::write_meshes(const MeshInsides& meshes) {

@@ -9,7 +9,7 @@
 #include "scene_image/mesh_instances.hpp"
 #include "scene_image/object_order.hpp"
 #include "scene_image/object_records.hpp"
-#include "scene_image/polygon_table.hpp"
+#include "scene_image/shape_data_table.hpp"
 #include "scene_image/scene_objects.hpp"
 #include "scene_image/textures.hpp"
 
@@ -36,7 +36,7 @@ public:
   void write_surfaces(TextureTables& textures);
   /// Writes the tables of CSG, in which offsets replace indices.
   void write_csg(const CsgParts& csg);
-  void write_polygons(const PolygonTable& polygons);
+  void write_shape_data(const ShapeDataTable& shape_data);
   /// Writes projectors and objects without bounds; `before` counts the entries of other tables in front of
   /// theirs.
   void write_unbounded(const SceneObjects& objects, const ObjectCounts& before);

@@ -202,8 +202,13 @@ void check_object(const Scene& scene, const Object& object, const Name& name, in
     for (const Object& part : (*csg)->parts)
       check_object(scene, part, name, depth + 1);
   } else {
-    const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
-    if (polygon != nullptr && !*polygon) throw InputError(name.text() + " has no polygon");
+    const bool is_missing = std::visit(
+        [](const auto& shape) {
+          if constexpr (requires { shape.get(); }) return shape == nullptr;
+          return false;
+        },
+        object.shape);
+    if (is_missing) throw InputError(name.text() + " has no shape");
     validate_shape(object, name.text());
   }
   if (!object.clipped_by) return;

@@ -163,23 +163,23 @@ TEST_CASE("A sealed scene image with a fault in its polygons is refused") {
     CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
   };
   const ImageHeader header = copied_header(good);
-  REQUIRE(header.polygon_edge_count <= 7 + 80); // shared, and none of them level
-  REQUIRE(header.polygon_edge_count > 80);
-  const auto change_edges = [&](Bytes& b, const std::function<void(PolygonEdges&)>& change) {
+  REQUIRE(header.shape_data_count <= 7 + 80); // shared, and none of them level
+  REQUIRE(header.shape_data_count > 80);
+  const auto change_edges = [&](Bytes& b, const std::function<void(ShapeData&)>& change) {
     auto* objects = table<ObjectRecord>(b, header.object_offset);
     for (std::uint32_t i = 0; i < header.object_count; ++i) {
       if ((objects[i].kind_and_flags & object_flag::kind_mask) != kPrimitiveKind<PolygonPrimitive>) continue;
       auto* extra = table<ExtraRecord>(b, objects[i].extra);
-      PolygonEdges edges = PolygonEdges::of(*extra);
+      ShapeData edges = ShapeData::of(*extra);
       change(edges);
       return edges.put_in(*extra);
     }
   };
-  refused([](Bytes& b) { header_of(b).polygon_edge_count = 0x10000000; });
-  refused([](Bytes& b) { header_of(b).polygon_edge_count = 7; });
-  refused([&](Bytes& b) { change_edges(b, [](PolygonEdges& edges) { edges.count = 88; }); });
-  refused([&](Bytes& b) { change_edges(b, [](PolygonEdges& edges) { edges.first += 8; }); });
-  refused([&](Bytes& b) { change_edges(b, [&](PolygonEdges& e) { e.first = header.extra_offset; }); });
+  refused([](Bytes& b) { header_of(b).shape_data_count = 0x10000000; });
+  refused([](Bytes& b) { header_of(b).shape_data_count = 7; });
+  refused([&](Bytes& b) { change_edges(b, [](ShapeData& edges) { edges.count = 88; }); });
+  refused([&](Bytes& b) { change_edges(b, [](ShapeData& edges) { edges.first += 8; }); });
+  refused([&](Bytes& b) { change_edges(b, [&](ShapeData& e) { e.first = header.extra_offset; }); });
 }
 
 TEST_CASE("A sealed scene image with a fault in its rainbows is refused") {
@@ -260,7 +260,7 @@ TEST_CASE("Rainbows that are not sound are refused, and those that are not seen 
 TEST_CASE("Polygons that are not sound are refused") {
   Scene scene = scene_named("polygons");
   scene.objects[1].shape = std::shared_ptr<const Polygon>();
-  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("object 1 has no polygon"));
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("object 1 has no shape"));
   auto polygon = std::make_shared<Polygon>();
   polygon->loops = {{{0, 0, 0}, {1, 0, 0}, {0, HUGE_VAL, 0}}};
   scene.objects[1].shape = std::shared_ptr<const Polygon>(polygon);
@@ -277,7 +277,7 @@ TEST_CASE("Plain polygons are triangles") {
     scene.objects[1].shape = std::make_shared<const Polygon>(Polygon{loops});
     scene.objects[1].transform = Transform::translate({0, 2, 0});
     const ImageHeader image = SceneImage(scene).header();
-    return image.polygon_edge_count == 0 ? image.object_count : 0;
+    return image.shape_data_count == 0 ? image.object_count : 0;
   };
   const auto as_it_is = [](Material&) {};
   CHECK(triangles({{square[0], square[1], square[2]}}, as_it_is) == 1);

@@ -289,6 +289,11 @@ private:
       Spu& spu = tests.scene_.spu();
       spu.enter_module(Primitives::is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
       Crossings<S>* const pairs = sequence_.pairs();
+      if (Primitives::is_made_of_data(kind)) {
+        intersect_made_of_data(tests.scene_, rays, object, extra, self, request_, pairs[0]);
+        sequence_.begin(1, true);
+        return;
+      }
       sequence_.begin(Primitives::is_heavy(kind)
                           ? module_heavy::intersect(spu, rays, object, extra, self, request_, pairs)
                           : module_shapes::intersect(spu, rays, object, extra, self, pairs),
@@ -315,6 +320,8 @@ private:
       const ExtraRecord& extra =
           object.extra == kNoOffset ? room : *keep<Spu>(tests_.scene_.extra(object.extra), room);
       request_.after = &after;
+      if (Primitives::is_made_of_data(object.kind_and_flags & object_flag::kind_mask))
+        return intersect_made_of_data(tests_.scene_, rays_, object, extra, self_, request_, c);
       tests_.scene_.spu().enter_module(modules::kHeavyShapes);
       module_heavy::intersect(tests_.scene_.spu(), rays_, object, extra, self_, request_, &c);
     }

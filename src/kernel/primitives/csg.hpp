@@ -23,6 +23,7 @@ uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename
     scene.spu().enter_module(modules::kMeshes);
     return module_meshes::found_crossings(scene, record.object, origins, points, lanes);
   }
+  if (Primitives::is_made_of_data(kind)) return inside_made_of_data(scene, record, points, lanes);
   if (Primitives::has_heavy_points(kind)) {
     scene.spu().enter_module(modules::kHeavyPoints);
     return module_heavy_points::inside(scene.spu(), record, points) & lanes;

@@ -9,14 +9,19 @@
 // and the functions that its traits require.
 #pragma once
 
+#include "kernel/primitives/blob.hpp"
 #include "kernel/primitives/box.hpp"
 #include "kernel/primitives/cone.hpp"
 #include "kernel/primitives/cylinder.hpp"
 #include "kernel/primitives/disc.hpp"
 #include "kernel/primitives/ellipsoid.hpp"
+#include "kernel/primitives/lathe.hpp"
 #include "kernel/primitives/plane.hpp"
 #include "kernel/primitives/polygon.hpp"
+#include "kernel/primitives/polynomial.hpp"
+#include "kernel/primitives/prism.hpp"
 #include "kernel/primitives/quadric.hpp"
+#include "kernel/primitives/sor.hpp"
 #include "kernel/primitives/sphere.hpp"
 #include "kernel/primitives/superellipsoid.hpp"
 #include "kernel/primitives/torus.hpp"
@@ -27,7 +32,8 @@ namespace celltrace::kernel {
 
 template <class... P> struct PrimitiveList : TypeList<P...> {
   static constexpr bool kSomeAreIncremental = (P::kIsIncremental || ...);
-  static_assert(((P::kIsHeavy || !P::kIsIncremental) && ...), "module_heavy::intersect() says what is asked");
+  static_assert(((P::kIsHeavy || P::kIsMadeOfData || !P::kIsIncremental) && ...),
+                "module_heavy::intersect() and intersect_data() say what is asked");
   static_assert(((P::kCrossingPairs == 1 || !P::kIsIncremental) && ...), "CrossingSequence takes one pair");
   template <class Q> static constexpr bool is(uint32_t kind) {
     return kind == TypeList<P...>::template number<Q>();
@@ -41,6 +47,10 @@ template <class... P> struct PrimitiveList : TypeList<P...> {
     return ((P::kHasShadowTest ? is<P>(kind) : false) || ...);
   }
   static constexpr bool has_edges(uint32_t kind) { return ((P::kHasEdges ? is<P>(kind) : false) || ...); }
+  static constexpr bool has_data(uint32_t kind) { return ((P::kHasData ? is<P>(kind) : false) || ...); }
+  static constexpr bool is_made_of_data(uint32_t kind) {
+    return ((P::kIsMadeOfData ? is<P>(kind) : false) || ...);
+  }
   static constexpr bool has_heavy_points(uint32_t kind) {
     return ((P::kHasHeavyPoints ? is<P>(kind) : false) || ...);
   }
@@ -48,7 +58,8 @@ template <class... P> struct PrimitiveList : TypeList<P...> {
 
 using Primitives = PrimitiveList<SpherePrimitive, TrianglePrimitive, PlanePrimitive, EllipsoidPrimitive,
                                  DiscPrimitive, BoxPrimitive, CylinderPrimitive, ConePrimitive,
-                                 TorusPrimitive, QuadricPrimitive, PolygonPrimitive, SuperellipsoidPrimitive>;
+                                 TorusPrimitive, QuadricPrimitive, PolygonPrimitive, SuperellipsoidPrimitive,
+                                 PolynomialPrimitive, PrismPrimitive, LathePrimitive, SorPrimitive, BlobPrimitive>;
 constexpr uint32_t kPrimitives = Primitives::kCount;
 static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord");
 

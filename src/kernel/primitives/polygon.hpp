@@ -5,13 +5,12 @@
 
 #include "kernel/primitives/flat_shape.hpp"
 
-#include <string.h>
-
 namespace celltrace::kernel {
 
 struct PolygonPrimitive : FlatPrimitive<PolygonPrimitive> {
   static constexpr const char* kName = "polygon";
   static constexpr bool kHasParameters = true;
+  static constexpr bool kHasData = true;
   static constexpr bool kHasEdges = true;
 
   /// Finds the crossings, and stores their x and y in u and v.
@@ -30,17 +29,14 @@ struct PolygonPrimitive : FlatPrimitive<PolygonPrimitive> {
   static LocalBounds local_bounds(float) { return {0.0f, 0.0f, 1.0f, true}; }
 };
 
-/// Data in a polygon's ExtraRecord in place of its second and third value.
-struct PolygonEdges {
-  uint32_t first; ///< offset of a PolygonEdgeRecord
-  uint32_t count;
+/// An edge of a polygon, in the plane of the polygon's space, from its lower end up: the numbers of a
+/// ShapeDataRecord. The edge is beside a point at height y if low <= y < high; its column is `column` at `low`
+/// and increases by `slope` per unit of height.
+struct PolygonEdge {
+  float low, high, column, slope;
 
-  static PolygonEdges of(const ExtraRecord& extra) {
-    PolygonEdges edges;
-    memcpy(&edges, extra.value + 1, sizeof edges);
-    return edges;
-  }
-  void put_in(ExtraRecord& extra) const { memcpy(extra.value + 1, this, sizeof *this); }
+  explicit PolygonEdge(const ShapeDataRecord& r)
+      : low(r.value[0]), high(r.value[1]), column(r.value[2]), slope(r.value[3]) {}
 };
 
 } // namespace celltrace::kernel

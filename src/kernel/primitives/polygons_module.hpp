@@ -20,11 +20,11 @@ CELLTRACE_ONE_COPY void cut_out(SceneAccess<Spu>& scene, const ExtraRecord& extr
   scene.spu().run_in_module(modules::kPolygons);
   const uint32_t lanes = c.near_hit.bits();
   if (lanes == 0) return;
-  const PolygonEdges edges = PolygonEdges::of(extra);
+  const ShapeData edges = ShapeData::of(extra);
   uint32_t odd = 0;
   for (uint32_t i = 0; i < edges.count; ++i) {
-    const PolygonEdgeRecord& edge =
-        *scene.polygon_edge(edges.first + i * static_cast<uint32_t>(sizeof(PolygonEdgeRecord)));
+    const PolygonEdge edge(
+        *scene.shape_data(edges.first + i * static_cast<uint32_t>(sizeof(ShapeDataRecord))));
     const F low(edge.low);
     const auto beside =
         (c.v >= low) & (c.v < F(edge.high)) & (c.u < F(edge.column) + (c.v - low) * F(edge.slope));

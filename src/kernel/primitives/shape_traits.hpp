@@ -23,6 +23,11 @@ struct ShapeTraits {
   /// True if the shape finds a ray's first pair of crossings and, when called again, the next pair beyond
   /// rays.after() (crossing_sequence.hpp). Shapes with this trait are heavy.
   static constexpr bool kIsIncremental = false;
+  /// True if the shape's ExtraRecord has ShapeData.
+  static constexpr bool kHasData = false;
+  /// True if the shape is made of its ShapeData: it has intersect_data() and inside_data() in a code module of
+  /// its own (data_shapes.hpp). Such shapes are incremental, and their crossings bring their normals along.
+  static constexpr bool kIsMadeOfData = false;
   /// True if crossings of the shape's plane count only inside its edges (polygons_module.hpp).
   static constexpr bool kHasEdges = false;
   /// True if the shape has coordinates(surface_point, u, v). Otherwise its surface coordinates are x and y of

@@ -58,10 +58,13 @@ template <class S, bool kOfHeavy, bool kMoves>
                        dot<S>(rows[2], point) + g[3].z};
   V3<S> gradient = local;
   typename S::F off(0.0f);
+  [[maybe_unused]] uint32_t of_data = 0; // lanes whose normals came along
   uint32_t kind = 0;
   Primitives::for_each([&](auto shape) {
     using Shape = decltype(shape);
-    if constexpr (Shape::kIsLocal && Shape::kHasHeavyPoints == kOfHeavy)
+    if constexpr (Shape::kIsMadeOfData) {
+      of_data |= o.of_kind[kind];
+    } else if constexpr (Shape::kIsLocal && Shape::kHasHeavyPoints == kOfHeavy) {
       if (o.of_kind[kind] != 0) {
         const auto mask = S::M::from_bits(o.of_kind[kind]);
         V3<S> of_kind;
@@ -76,12 +79,46 @@ template <class S, bool kOfHeavy, bool kMoves>
         }
         gradient = select<S>(mask, of_kind, gradient);
       }
+    }
     ++kind;
   });
+  if constexpr (kOfHeavy)
+    if (of_data != 0)
+      gradient = select<S>(S::M::from_bits(of_data),
+                           FoldedDirection<S>{o.parameters.ratio, o.parameters.second}.unfolded(), gradient);
   const V3<S> outward = rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z;
   if constexpr (kMoves)
     *moved = point - outward * (off / S::max(dot<S>(outward, outward), typename S::F(1e-30f)));
   return normalise<S>(outward);
+}
+
+/// Finds the next crossing of each ray with a shape that is made of data.
+template <class Spu>
+CELLTRACE_ONE_COPY void intersect_made_of_data(SceneAccess<Spu>& scene, const RayPacket& rays,
+                                               const ObjectRecord& object, const ExtraRecord& extra,
+                                               uint32_t self, const CrossingRequest& request,
+                                               Crossings<typename Spu::simd>& crossings) {
+  Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+    using Shape = decltype(shape);
+    if constexpr (Shape::kIsMadeOfData) {
+      scene.spu().enter_module(Shape::module());
+      intersect_data<Shape>(scene, rays, object, extra, self, request, crossings);
+    }
+  });
+}
+/// Returns the points of `lanes` that are inside a solid that is made of data.
+template <class Spu>
+CELLTRACE_ONE_COPY uint32_t inside_made_of_data(SceneAccess<Spu>& scene, const SolidRecord& solid,
+                                                const V3<typename Spu::simd>& points, uint32_t lanes) {
+  uint32_t inside = 0;
+  Primitives::dispatch(solid.object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+    using Shape = decltype(shape);
+    if constexpr (Shape::kIsMadeOfData) {
+      scene.spu().enter_module(Shape::module());
+      inside = inside_data<Shape>(scene, solid, points, lanes);
+    }
+  });
+  return inside;
 }
 
 namespace module_heavy {

@@ -239,6 +239,14 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   store_words<S>(points.material, o.material);
   store_words<S>(points.interior, o.interior);
   o.objects.parameters.open = M::from_bits(o.open);
+  uint32_t of_data = 0; // crossings with these shapes bring their normals along
+  for (uint32_t kind = 0; kind < kPrimitives; ++kind)
+    if (Primitives::is_made_of_data(kind)) of_data |= o.objects.of_kind[kind];
+  if (of_data != 0) {
+    LocalParameters<S>& p = o.objects.parameters;
+    p.ratio = S::select(M::from_bits(of_data), F::load(hits.u.lane), p.ratio);
+    p.second = S::select(M::from_bits(of_data), F::load(hits.v.lane), p.second);
+  }
 
   const V3<S> direction = rays.direction.template load<S>();
   const V3<S> path = direction * F::load(hits.distance.lane);
