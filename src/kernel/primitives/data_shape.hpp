@@ -91,6 +91,7 @@ template <class Shape> struct DataPrimitive : LocalPrimitive<Shape> {
   static constexpr bool kHasParameters = true;
   static constexpr bool kHasData = true;
   static constexpr bool kIsMadeOfData = true;
+  static constexpr bool kIsHeavy = true;
   static constexpr bool kIsIncremental = true;
   static constexpr bool kHasHeavyPoints = true;
 

@@ -32,8 +32,7 @@ namespace celltrace::kernel {
 
 template <class... P> struct PrimitiveList : TypeList<P...> {
   static constexpr bool kSomeAreIncremental = (P::kIsIncremental || ...);
-  static_assert(((P::kIsHeavy || P::kIsMadeOfData || !P::kIsIncremental) && ...),
-                "module_heavy::intersect() and intersect_data() say what is asked");
+  static_assert(((P::kIsHeavy || !P::kIsIncremental) && ...), "module_heavy::intersect() says what is asked");
   static_assert(((P::kCrossingPairs == 1 || !P::kIsIncremental) && ...), "CrossingSequence takes one pair");
   template <class Q> static constexpr bool is(uint32_t kind) {
     return kind == TypeList<P...>::template number<Q>();
