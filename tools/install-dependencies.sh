@@ -16,7 +16,7 @@
 set -euo pipefail
 
 declare -A packages=(
-  [program]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libjpeg62-turbo-dev libopenexr-dev libpng-dev libseccomp-dev libxsimd-dev nlohmann-json3-dev zlib1g-dev"
+  [program]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libfreetype-dev libglm-dev libjpeg62-turbo-dev libopenexr-dev libpng-dev libseccomp-dev libxsimd-dev nlohmann-json3-dev zlib1g-dev"
   [tests]="catch2 fonts-dejavu-core libbenchmark-dev pkg-config python3 xz-utils"
   [python]="pybind11-dev python3-dev python3-numpy python3-pip python3-pytest python3-setuptools python3-venv python3-wheel"
   [docs]="doxygen mkdocs"

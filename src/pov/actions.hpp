@@ -10,4 +10,5 @@
 #include "pov/patches.hpp"
 #include "pov/pattern_changes.hpp"
 #include "pov/settings.hpp"
+#include "pov/text_objects.hpp"
 #include "pov/texture_actions.hpp"

@@ -83,6 +83,7 @@ Block block_behind(int terminal) {
   case tokens::T_LIST_PATTERN: // cubic
   case tokens::T_POLY:
   case tokens::T_QUARTIC:
+  case tokens::T_TEXT_OBJECT:
     return Block::object;
   case tokens::T_MESH2:
     return Block::mesh2;

@@ -93,7 +93,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token MIN_EXTENT NORMAL NORMAL_MAP OBJECT OPEN PHOTONS PIGMENT PIGMENT_MAP PIGMENT_PATTERN POLY PROJECTED_THROUGH QUARTIC RADIOSITY
 %token OLD_TEXTURE // before version 3.0
 %token RAINBOW REFLECTION ROTATE SCALE SKY_SPHERE SLOPE SLOPE_MAP SMOOTH_TRIANGLE SPLINE SRGB TEXTURE TEXTURE_LIST
-%token TEXTURE_MAP THRESHOLD TILE2 TILES TRACE TRANSFORM TRANSLATE TRIANGLE USER_FUNCTION UV_MAPPING UV_VECTORS WARP
+%token TEXT_OBJECT TEXTURE_MAP THRESHOLD TILE2 TILES TRACE TTF TRANSFORM TRANSLATE TRIANGLE USER_FUNCTION UV_MAPPING UV_VECTORS WARP
 
 // Commas are optional, and so are some values. After a value both an operator and a sign, a colour's channel or
 // another value can follow: the longer value is meant. What may be a value that is optional is that one: a number
@@ -110,7 +110,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <Relation> relation
 %nterm <Junction> junction
 %nterm <Signs> signs
-%nterm <std::string> text
+%nterm <std::string> text text_font
 %nterm <std::vector<Value>> arguments given_arguments
 %nterm <Value> argument declarable element
 %nterm <std::vector<Quantity>> numbers
@@ -203,7 +203,7 @@ settings
   | settings modifier { modify_settings(session, $2, @2); }
   | settings ASSUMED_GAMMA number { set_assumed_gamma(session, $3, @3); }
   | settings ASSUMED_GAMMA SRGB   { set_assumed_gamma(session, std::nullopt, @2); }
-  | settings CHARSET UNSUPPORTED_ARGUMENT
+  | settings CHARSET UNSUPPORTED_ARGUMENT { session.reads_utf8 = session.names.text($3) == "utf8"; }
   | settings CHARSET UNDECLARED_ID
   | settings PHOTONS              { set_photons(session, @2); }
   | settings RADIOSITY            { refuse_radiosity(session, @2); }

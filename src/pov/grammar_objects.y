@@ -97,6 +97,11 @@ blob_component
   | blob_component FINISH '{' { start_part(session, $1, @2); } finish_body '}' { $$ = dressed(session, *$5); }
   ;
 
+text_font
+  : TEXT_OBJECT '{' TTF text             { $$ = $4; }
+  | TEXT_OBJECT '{' UNDECLARED_ID number { $$ = internal_font($4); } // internal
+  ;
+
 csg_head
   : CSG '{' %prec SHORTER    { $$.operation = Csg::Operation($1); }
   | csg_head object          { $$ = $1; append(session, $$.parts, $2, @2); }
@@ -124,6 +129,10 @@ object_body
   | polynomial_start OBJECT_ID   { $$ = copy_of(*$2); }
   | POLY '{' OBJECT_ID           { $$ = copy_of(*$3); }
   | BLOB '{' OBJECT_ID           { $$ = copy_of(*$3); }
+  | TEXT_OBJECT '{' OBJECT_ID    { $$ = copy_of(*$3); }
+  | text_font optional_comma text optional_comma number optional_comma quantity %prec SHORTER {
+      $$ = text_object(session, {$1, $3, $5, session.vector($7, @7)}, @1);
+    }
   | polynomial_head '<' coefficients optional_comma '>' { $$ = polynomial(session, $1, $3, @1); }
   | blob_head                    %prec SHORTER { $$ = blob(session, $1, @1); }
   | shape_head                   %prec SHORTER { $$ = shape(session, $1); }

@@ -99,6 +99,7 @@ const Word kWords[] = {
     {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
     {"spline", tokens::T_SPLINE},
     {"srgb", tokens::T_SRGB},
+    {"text", tokens::T_TEXT_OBJECT},
     {"texture", tokens::T_TEXTURE},
     {"texture_list", tokens::T_TEXTURE_LIST},
     {"texture_map", tokens::T_TEXTURE_MAP},
@@ -109,6 +110,7 @@ const Word kWords[] = {
     {"transform", tokens::T_TRANSFORM},
     {"translate", tokens::T_TRANSLATE},
     {"triangle", tokens::T_TRIANGLE},
+    {"ttf", tokens::T_TTF},
     {"uv_mapping", tokens::T_UV_MAPPING},
     {"uv_vectors", tokens::T_UV_VECTORS},
     {"warp", tokens::T_WARP},
@@ -228,7 +230,7 @@ const DirectiveWord kDirectives[] = {
 // own, and the rest.
 const char* const kUnsupportedObjects[] = {
     "height_field", "isosurface", "julia_fractal", "ovus", "parametric",
-    "sphere_sweep", "text",
+    "sphere_sweep", 
 };
 
 const char* const kUnsupportedBlocks[] = {
@@ -290,7 +292,6 @@ const char* const kUnsupportedArguments[] = {
     "tga",
     "tiff",
     "tolerance",
-    "ttf",
     "use_alpha",
     "use_color",
     "use_colour",

@@ -39,6 +39,7 @@ struct Session {
   SceneBuilder builder;
   FunctionMachine functions;
   std::vector<std::uint32_t> random_streams; ///< states of seed()'s streams
+  bool reads_utf8 = false; ///< texts are UTF-8, by `charset utf8`
   std::uint64_t text_bytes = 0;
   std::uint64_t written_bytes = 0;                   ///< bytes that #write has written
   std::vector<std::shared_ptr<DataFile>> data_files; ///< files that are open since an #fopen

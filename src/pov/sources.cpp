@@ -157,9 +157,12 @@ std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::pat
     std::error_code error;
     const fs::path file = fs::canonical(path, error);
     const auto has_it = [&](const fs::path& folder) { return lies_in(file, folder); };
+    // Packages put links to fonts into POV-Ray's own folder.
+    const auto is_installed = [&](const char* folder) { return path.parent_path() == fs::path(folder); };
+    const auto installed = installed_include_folders();
     const bool may_be_read =
         !error &&
-        (has_it(scene_folder_) || std::any_of(library_paths_.begin(), library_paths_.end(), has_it) ||
+        (has_it(scene_folder_) || std::any_of(installed.begin(), installed.end(), is_installed) || std::any_of(library_paths_.begin(), library_paths_.end(), has_it) ||
          std::any_of(readable_.begin(), readable_.end(), has_it) || permits(file, FileUse::read));
     return FoundFile{path, may_be_read};
   };
