@@ -75,7 +75,7 @@ constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 1408};
 //   BundleTracer<>::put_first_hits
 
 /// Building of accelerators.
-constexpr CodeModule kBuild = {"build", 16, 0, 21504};
+constexpr CodeModule kBuild = {"build", 16, 0, 22016};
 //   Tracer<>::prepare, *build_grid, *emit_pairs, *write_lists, *RadixSort, *LocalSortTarget,
 //   *for_each_voxel, kernel::bounding_box, *bounds_in_world, kernel::overlaps, *_overlaps, *StreamReader,
 //   *StreamWriter
@@ -90,7 +90,7 @@ constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8960};
 //   SuperellipsoidPrimitive::Line
 
 /// Tests of points against shapes with equations of higher degree, and the normals of these shapes.
-constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
+constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2688};
 //   module_heavy_points
 
 /// Tests of points against meshes, and the crossings of meshes without an inside vector in CSG. In the second
@@ -106,19 +106,23 @@ constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// rays test these and other shapes in turn.
 constexpr CodeModule kPolynomials = {"polynomials", 36, 1, 8960};
 //   intersect_data<PolynomialPrimitive>, inside_data<PolynomialPrimitive>, PolynomialPrimitive,
-//   PolynomialRoots<35>
+//   PolynomialRoots<PolynomialPrimitive>
 
 constexpr CodeModule kPrisms = {"prisms", 37, 1, 8960};
-//   intersect_data<PrismPrimitive>, inside_data<PrismPrimitive>, PrismPrimitive
+//   intersect_data<PrismPrimitive>, inside_data<PrismPrimitive>, PrismPrimitive,
+//   PolynomialRoots<PrismPrimitive>, is_within_curves<PrismPrimitive>
 
 constexpr CodeModule kRevolved = {"revolved", 38, 1, 8960};
-//   intersect_data<SorPrimitive>, inside_data<SorPrimitive>, SorPrimitive
+//   intersect_data<SorPrimitive>, inside_data<SorPrimitive>, SorPrimitive,
+//   PolynomialRoots<SorPrimitive>
 
 constexpr CodeModule kLathes = {"lathes", 39, 1, 8960};
-//   intersect_data<LathePrimitive>, inside_data<LathePrimitive>, LathePrimitive
+//   intersect_data<LathePrimitive>, inside_data<LathePrimitive>, LathePrimitive,
+//   PolynomialRoots<LathePrimitive>, is_within_curves<LathePrimitive>
 
 constexpr CodeModule kBlobs = {"blobs", 40, 1, 8960};
-//   intersect_data<BlobPrimitive>, inside_data<BlobPrimitive>, BlobPrimitive
+//   intersect_data<BlobPrimitive>, inside_data<BlobPrimitive>, BlobPrimitive,
+//   PolynomialRoots<BlobPrimitive>
 
 /// Instances of meshes. In the second region, as rays test instances and other shapes in turn.
 constexpr CodeModule kInstances = {"instances", 35, 1, 7808};
@@ -164,13 +168,13 @@ constexpr CodeModule kSecondary = {"secondary", 2, 1, 8832};
 // The third region: stages that run one at a time. Rays are not traced while surfaces are shaded.
 
 /// Positions of hits on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 2, 7808};
+constexpr CodeModule kHits = {"hits", 5, 2, 8064};
 //   kernel::find_hit_points, detail::surface_of, kernel::local_normal
 
 /// Tests of objects with a shape of the first region, and of parts of CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 7552};
+constexpr CodeModule kObjects = {"objects", 12, 2, 8960};
 //   test_closest_of_other, occluded_by_other, occluded_by_instance, test_instance, ObjectTests<>::accept,
-//   ObjectTests<>::accepted, csg_accepted
+//   ObjectTests<>::accepted, ObjectTests<>::Other, csg_accepted
 
 /// Shading of surfaces with textures or with several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7168};

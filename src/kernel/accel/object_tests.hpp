@@ -273,6 +273,7 @@ private:
   public:
     /// Looks for crossings up to `limit`. If a ray has a crossing beyond `enough`, its other crossings need
     /// not be found, unless the object is part of a CSG.
+    CELLTRACE_ONE_COPY
     Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self, float enough,
           const FloatLanes& limit)
         : tests_(tests), rays_(rays), self_(self) {
@@ -304,7 +305,7 @@ private:
     }
 
     /// Advances to the next pair of crossings of any ray. Returns false if there is none.
-    bool next() {
+    CELLTRACE_ONE_COPY bool next() {
       return sequence_.next([this](const FloatLanes& after, Crossings<S>& c) { find_after(after, c); });
     }
     Crossings<S>& crossings() { return sequence_.current(); }
@@ -314,7 +315,7 @@ private:
     uint32_t csg() const { return csg_; }
 
   private:
-    void find_after(const FloatLanes& after, Crossings<S>& c) {
+    CELLTRACE_ONE_COPY void find_after(const FloatLanes& after, Crossings<S>& c) {
       Kept<Spu, ObjectRecord> object = *tests_.scene_.object(self_);
       ExtraRecord room = {};
       const ExtraRecord& extra =

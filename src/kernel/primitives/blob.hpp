@@ -130,7 +130,7 @@ struct BlobPrimitive : DataPrimitive<BlobPrimitive> {
     }
     if (selection.rest != elements) lanes = M::all();
     const uint32_t size = selection.size(elements);
-    PolynomialRoots<S, 4> roots;
+    PolynomialRoots<S, BlobPrimitive, 4> roots;
     roots.degree = 4;
     F from = begin;
     bool is_first = true;

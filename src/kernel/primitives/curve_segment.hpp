@@ -44,13 +44,13 @@ struct CurvePiece {
 };
 
 /// Returns the points for which a half-line along x crosses the pieces of closed curves an odd number of
-/// times. `degree` is that of the pieces.
-template <class S, class Numbers>
+/// times. `degree` is that of the pieces. Owner is the shape in whose code module the test is.
+template <class Owner, class S, class Numbers>
 typename S::M is_within_curves(const typename S::F& x, const typename S::F& y, const Numbers& numbers,
                                uint32_t degree, const typename S::M& lanes) {
   using F = typename S::F;
   using M = typename S::M;
-  PolynomialRoots<S, CurvePiece::kMostDegree> roots;
+  PolynomialRoots<S, Owner, CurvePiece::kMostDegree> roots;
   roots.degree = degree;
   uint32_t odd = 0;
   const uint32_t pieces = CurvePiece::count(numbers);

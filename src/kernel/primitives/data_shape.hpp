@@ -95,6 +95,9 @@ template <class Shape> struct DataPrimitive : LocalPrimitive<Shape> {
   static constexpr bool kIsIncremental = true;
   static constexpr bool kHasHeavyPoints = true;
 
+  /// Returns true: any box within the shape's bounds may touch it.
+  static bool overlaps(const ObjectRecord&, const ExtraRecord&, const Aabb&) { return true; }
+
   // The interface of shapes in a space of their own. Code that reads no records finds no crossings and no
   // inside; the scene image has no object whose shape is tested by such code.
   template <class S>

@@ -30,7 +30,7 @@ struct LathePrimitive : DataPrimitive<LathePrimitive> {
     // The equation of level rays has double roots: a slight tilt parts them, and is taken back afterwards.
     constexpr float kTilt = 1e-3f;
     const F tilted = S::select(S::abs(d.z) < F(kTilt), S::select(d.z < zero, F(-kTilt), F(kTilt)), d.z);
-    PolynomialRoots<S, kMostDegree> roots;
+    PolynomialRoots<S, LathePrimitive, kMostDegree> roots;
     roots.degree = 2 * degree;
     const uint32_t pieces = CurvePiece::count(numbers);
     for (uint32_t i = 0; i < pieces; ++i) {
@@ -92,7 +92,7 @@ struct LathePrimitive : DataPrimitive<LathePrimitive> {
     const F square = p.x * p.x + p.y * p.y;
     const auto lanes = (square >= F(head.value[1])) & (square <= F(head.value[2]));
     if (lanes.bits() == 0) return lanes;
-    return is_within_curves<S>(S::sqrt(square), p.z, numbers, static_cast<uint32_t>(head.value[0]), lanes);
+    return is_within_curves<LathePrimitive, S>(S::sqrt(square), p.z, numbers, static_cast<uint32_t>(head.value[0]), lanes);
   }
 
   static LocalBounds local_bounds(float) { return {0.0f, 1.0f, 1.0f, false}; }

@@ -45,7 +45,7 @@ struct PolynomialPrimitive : DataPrimitive<PolynomialPrimitive> {
   /// for each power of x, and in z for each power of y.
   template <class S, class Numbers>
   static void restrict_to(const V3<S>& from, const V3<S>& along, const Numbers& numbers,
-                          PolynomialRoots<S, kMostDegree>& roots) {
+                          PolynomialRoots<S, PolynomialPrimitive, kMostDegree>& roots) {
     using F = typename S::F;
     Coefficients<Numbers> coefficients(numbers);
     const uint32_t n = roots.degree;
@@ -116,7 +116,7 @@ struct PolynomialPrimitive : DataPrimitive<PolynomialPrimitive> {
     const V3<S> d = rays.direction * (one / S::max(length, F(1e-30f)));
     const F middle = -dot<S>(rays.origin, d);
     const V3<S> o = rays.origin + d * middle;
-    PolynomialRoots<S, kMostDegree> roots;
+    PolynomialRoots<S, PolynomialPrimitive, kMostDegree> roots;
     const auto n = static_cast<uint32_t>(head.value[0]);
     roots.degree = n;
     restrict_to<S>(o, d * scale, numbers, roots);

@@ -7,10 +7,11 @@
 
 namespace celltrace::kernel {
 
-/// Finds the roots of polynomials, one in each lane, of one degree of at most kMost. Between two roots of its
+/// Finds the roots of polynomials, one in each lane, of one degree of at most kMost, for the shape Owner, in
+/// whose code module the search is. Between two roots of its
 /// derivative a polynomial has at most one root. Therefore the search begins with the derivative of degree
 /// 1, and the roots of each derivative divide the range for the next one; there is no recursion.
-template <class S, uint32_t kMost> class PolynomialRoots {
+template <class S, class Owner, uint32_t kMost> class PolynomialRoots {
 public:
   using F = typename S::F;
   using M = typename S::M;

@@ -33,7 +33,8 @@ struct PrismPrimitive : DataPrimitive<PrismPrimitive> {
     const V3<S>&o = rays.origin, &d = rays.direction;
     const F zero(0.0f), one(1.0f), low(form.low);
     if (!form.is_open) {
-      for (const float height : {form.low, 1.0f}) {
+      for (uint32_t end = 0; end < 2; ++end) {
+        const float height = end == 0 ? form.low : 1.0f;
         if (form.is_conic && height == 0.0f) continue;
         const F t = (F(height) - o.z) * finite_inverse<S>(d.z);
         const F size(form.is_conic ? 1.0f / height : 1.0f);
@@ -41,8 +42,8 @@ struct PrismPrimitive : DataPrimitive<PrismPrimitive> {
         const M lanes = (S::abs(d.z) > F(1e-10f)) & (t > nearest.after) & (t < nearest.t) & (S::abs(x) <= one) &
                         (S::abs(y) <= one);
         if (lanes.bits() == 0) continue;
-        nearest.offer_apart(rays, t, is_within_curves<S>(x, y, numbers, form.degree, lanes),
-                            {zero, zero, F(height == 1.0f ? 1.0f : -1.0f)});
+        nearest.offer_apart(rays, t, is_within_curves<PrismPrimitive, S>(x, y, numbers, form.degree, lanes),
+                            {zero, zero, F(end == 0 ? -1.0f : 1.0f)});
       }
     }
     // A ray and the axis, or the apex, span a plane; the ray crosses the side where the plane crosses the
@@ -52,7 +53,7 @@ struct PrismPrimitive : DataPrimitive<PrismPrimitive> {
       across = cross<S>(o, d);
     else
       across = {-d.y, d.x, d.y * o.x - d.x * o.y};
-    PolynomialRoots<S, CurvePiece::kMostDegree> roots;
+    PolynomialRoots<S, PrismPrimitive, CurvePiece::kMostDegree> roots;
     roots.degree = form.degree;
     const uint32_t pieces = CurvePiece::count(numbers);
     for (uint32_t i = 0; i < pieces; ++i) {
@@ -86,7 +87,7 @@ struct PrismPrimitive : DataPrimitive<PrismPrimitive> {
     const F size = form.is_conic ? F(1.0f) / S::select(S::abs(p.z) > F(1e-20f), p.z, F(1e-20f)) : F(1.0f);
     const auto lanes = (p.z >= F(form.low)) & (p.z < F(1.0f));
     if (lanes.bits() == 0) return lanes;
-    return is_within_curves<S>(p.x * size, p.y * size, numbers, form.degree, lanes);
+    return is_within_curves<PrismPrimitive, S>(p.x * size, p.y * size, numbers, form.degree, lanes);
   }
 
   /// Returns the bounds of the whole space of a conic prism, which may reach below 0.

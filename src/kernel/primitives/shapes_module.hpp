@@ -62,9 +62,8 @@ template <class S, bool kOfHeavy, bool kMoves>
   uint32_t kind = 0;
   Primitives::for_each([&](auto shape) {
     using Shape = decltype(shape);
-    if constexpr (Shape::kIsMadeOfData) {
-      of_data |= o.of_kind[kind];
-    } else if constexpr (Shape::kIsLocal && Shape::kHasHeavyPoints == kOfHeavy) {
+    if constexpr (Shape::kIsMadeOfData) of_data |= o.of_kind[kind];
+    if constexpr (Shape::kIsLocal && !Shape::kIsMadeOfData && Shape::kHasHeavyPoints == kOfHeavy)
       if (o.of_kind[kind] != 0) {
         const auto mask = S::M::from_bits(o.of_kind[kind]);
         V3<S> of_kind;
@@ -79,7 +78,6 @@ template <class S, bool kOfHeavy, bool kMoves>
         }
         gradient = select<S>(mask, of_kind, gradient);
       }
-    }
     ++kind;
   });
   if constexpr (kOfHeavy)

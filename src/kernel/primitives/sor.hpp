@@ -41,7 +41,7 @@ struct SorPrimitive : DataPrimitive<SorPrimitive> {
     if (lanes.bits() == 0) return;
     const F half = S::select(is_level, S::sqrt(S::max(F(1.0001f) - off, zero) / S::max(run, F(1e-20f))), F(1e20f));
     const M rises = S::abs(d.z) > F(1e-10f);
-    PolynomialRoots<S, 3> roots;
+    PolynomialRoots<S, SorPrimitive, 3> roots;
     roots.degree = 3;
     for (uint32_t i = 1; i + 1 < numbers.count(); i += 2) {
       const ShapeDataRecord c = numbers.at(i), ends = numbers.at(i + 1);
