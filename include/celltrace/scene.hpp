@@ -8,6 +8,7 @@
 #include "celltrace/export.hpp"
 #include "celltrace/texture.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -315,8 +316,7 @@ struct Polynomial {
 /// A piece of a curve in a plane, for w from 0 to 1: its points are (x[0] + x[1] w + x[2] w^2 + x[3] w^3, the
 /// same of y).
 struct CurveSegment {
-  double x[4] = {0, 0, 0, 0};
-  double y[4] = {0, 0, 0, 0};
+  std::array<double, 4> x{}, y{};
 };
 
 /// A solid with the same cross-section at all heights, which lies between y = `bottom` and y = `top`.
@@ -339,8 +339,8 @@ struct Lathe {
 /// A solid around the y axis whose squared radius is a polynomial of the height, piece by piece.
 struct SurfaceOfRevolution {
   struct Piece {
-    double low = 0, high = 1;           ///< heights of its ends; each piece begins where the one below it ends
-    double square[4] = {0, 0, 0, 0};    ///< squared radius at height y: square[0] + square[1] y + ...
+    double low = 0, high = 1; ///< heights of its ends; each piece begins where the one below it ends
+    std::array<double, 4> square{}; ///< squared radius at height y: square[0] + square[1] y + ...
   };
   std::vector<Piece> pieces;
   bool open = false; ///< true: without the discs at its ends

@@ -3,6 +3,7 @@
 #include "geometry/polynomial.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -13,15 +14,18 @@ namespace celltrace {
 
 namespace {
 
-double at(const double (&c)[4], double w) {
+/// Coefficients of the powers 0 to 3.
+using Powers4 = std::array<double, 4>;
+
+double at(const Powers4& c, double w) {
   return ((c[3] * w + c[2]) * w + c[1]) * w + c[0];
 }
-double slope_at(const double (&c)[4], double w) {
+double slope_at(const Powers4& c, double w) {
   return (3 * c[3] * w + 2 * c[2]) * w + c[1];
 }
 
 /// Adds the values of a polynomial at both ends and at its extremes between them.
-void widen(const double (&c)[4], double& least, double& greatest) {
+void widen(const Powers4& c, double& least, double& greatest) {
   const auto add = [&](double w) {
     if (!(w >= 0 && w <= 1)) return;
     least = std::min(least, at(c, w));
@@ -64,7 +68,7 @@ double greatest_square(const SurfaceOfRevolution& sor) {
   for (const SurfaceOfRevolution::Piece& piece : sor.pieces) {
     const double length = piece.high - piece.low;
     const auto& c = piece.square;
-    const double shifted[4] = {((c[3] * piece.low + c[2]) * piece.low + c[1]) * piece.low + c[0],
+    const Powers4 shifted = {((c[3] * piece.low + c[2]) * piece.low + c[1]) * piece.low + c[0],
                                ((3 * c[3] * piece.low + 2 * c[2]) * piece.low + c[1]) * length,
                                (3 * c[3] * piece.low + c[2]) * length * length, c[3] * length * length * length};
     widen(shifted, least, greatest);
@@ -187,8 +191,8 @@ void add(Coefficients& to, const Coefficients& other, double factor = 1) {
   for (std::size_t i = 0; i < other.size(); ++i)
     to[i] += factor * other[i];
 }
-Coefficients of_curve(const double (&c)[4]) {
-  return {c[0], c[1], c[2], c[3]};
+Coefficients of_curve(const Powers4& c) {
+  return {c.begin(), c.end()};
 }
 
 /// Removes the highest powers whose coefficients are 0.
@@ -303,7 +307,7 @@ void find_crossings(const Prism& prism, const Ray& ray, Crossings& found) {
       const double t = (height - o.y) / d.y, size = prism.is_conic ? height : 1;
       const Vec3 p = ray.at(t);
       if (is_within(prism.outline, p.x / size, p.z / size))
-        found.push_back({t, {0, height == prism.top ? 1 : -1, 0}});
+        found.push_back({t, {0, 1, 0}}); // at both ends, as POV-Ray has it
     }
   // The ray and the axis, or the apex, span a plane, which crosses the outline.
   double x = -d.z, z = d.x, constant = d.z * o.x - d.x * o.z;
@@ -449,7 +453,7 @@ double square_of(const Blob::Component& component, const Vec3& p, Vec3* slope) {
   const double square = glm::dot(line, line);
   const double along = square > 0 ? std::clamp(glm::dot(q - component.a, line) / square, 0.0, 1.0) : 0;
   const Vec3 off = (q - component.a - line * along) / component.radius;
-  if (slope != nullptr) *slope = component.transform.normal(off);
+  if (slope != nullptr) *slope = component.transform.normal(off / component.radius);
   return glm::dot(off, off);
 }
 double field_at(const Blob& blob, const Vec3& p, Vec3* slope = nullptr) {

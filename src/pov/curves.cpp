@@ -102,7 +102,8 @@ std::vector<CurveSegment> prism_outline(CurveKind kind, const CurvePoints& given
         not_closed();
         return outline;
       }
-      outline.push_back(bezier(p[i], p[i + 1], p[i + 2], p[i + 3]));
+      // POV-Ray follows these curves backwards, which decides on which side the normal is.
+      outline.insert(outline.begin(), bezier(p[i + 3], p[i + 2], p[i + 1], p[i]));
       is_closed = is_same(p[i + 3], p[start]);
     }
     if (!is_closed) not_closed();

@@ -105,7 +105,7 @@ private:
     add_segment(scaled(first), scaled(second), scaled(to), degree);
   }
   void add_segment(const Point& b, const Point& c, const Point& to, int degree) {
-    const auto of_axis = [&](double p, double q, double r, double s, double(&k)[4]) {
+    const auto of_axis = [&](double p, double q, double r, double s, std::array<double, 4>& k) {
       k[0] = p;
       k[1] = degree == 1 ? s - p : degree == 2 ? 2 * (q - p) : 3 * (q - p);
       k[2] = degree == 1 ? 0 : degree == 2 ? p - 2 * q + s : 3 * (p - 2 * q + r);

@@ -1,5 +1,7 @@
 #include "python/extent.hpp"
 
+#include "geometry/data_shapes.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -63,6 +65,11 @@ public:
   void operator()(const std::shared_ptr<const Polygon>& polygon) {
     for (const std::vector<Vec3>& loop : polygon->loops)
       to_.insert(to_.end(), loop.begin(), loop.end());
+  }
+  void operator()(const std::shared_ptr<const Polynomial>&) {}
+  template <class Shape> void operator()(const std::shared_ptr<const Shape>& shape) {
+    const Extent box = geometry::extent_of(*shape);
+    add_box(box.min, box.max);
   }
   void operator()(const std::shared_ptr<const Csg>& csg);
 

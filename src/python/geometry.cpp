@@ -121,6 +121,45 @@ void bind_geometry(py::module_& module) {
   bind_values<Polygon>(module, "Polygon",
                        "Flat, of closed loops of points in one plane; a loop in another one is a hole.",
                        Fields<Polygon>().add("loops", &Polygon::loops, "lists of points"));
+  bind_values<Polynomial>(module, "Polynomial", "Where a polynomial of x, y and z is 0; inside where it is below.",
+                          Fields<Polynomial>()
+                              .add("degree", &Polynomial::degree, "2 to 35")
+                              .add("coefficients", &Polynomial::coefficients,
+                                   "of x^i y^j z^k, by falling i, then j, then k; the constant is last"));
+  bind_values<CurveSegment>(module, "CurveSegment", "A piece of a plane curve, for w from 0 to 1.",
+                            Fields<CurveSegment>()
+                                .add("x", &CurveSegment::x, "four coefficients of the powers of w")
+                                .add("y", &CurveSegment::y, "four coefficients of the powers of w"));
+  bind_values<Prism>(module, "Prism", "A cross-section in x and z, from one height to another.",
+                     Fields<Prism>()
+                         .add("outline", &Prism::outline, "closed loops of CurveSegments")
+                         .add("bottom", &Prism::bottom, "")
+                         .add("top", &Prism::top, "")
+                         .add("is_conic", &Prism::is_conic, "the cross-section grows with the height")
+                         .add("open", &Prism::open, "without the ends"));
+  bind_values<Lathe>(module, "Lathe", "A curve turned around the y axis.",
+                     Fields<Lathe>().add("curve", &Lathe::curve, "CurveSegments; x is the distance from the axis"));
+  bind_values<SurfaceOfRevolution::Piece>(
+      module, "SorPiece", "A part of a SurfaceOfRevolution between two heights.",
+      Fields<SurfaceOfRevolution::Piece>()
+          .add("low", &SurfaceOfRevolution::Piece::low, "")
+          .add("high", &SurfaceOfRevolution::Piece::high, "")
+          .add("square", &SurfaceOfRevolution::Piece::square, "squared radius: coefficients of the powers of y"));
+  bind_values<SurfaceOfRevolution>(module, "SurfaceOfRevolution", "A solid around the y axis, piece by piece.",
+                                   Fields<SurfaceOfRevolution>()
+                                       .add("pieces", &SurfaceOfRevolution::pieces, "SorPieces, from the lowest up")
+                                       .add("open", &SurfaceOfRevolution::open, "without the ends"));
+  bind_values<Blob::Component>(module, "BlobComponent", "A field around a point, or around a line.",
+                               Fields<Blob::Component>()
+                                   .add("a", &Blob::Component::a, "")
+                                   .add("b", &Blob::Component::b, "equal to a for a point")
+                                   .add("radius", &Blob::Component::radius, "")
+                                   .add("strength", &Blob::Component::strength, "")
+                                   .add("transform", &Blob::Component::transform, ""));
+  bind_values<Blob>(module, "Blob", "Where fields add up to a threshold.",
+                    Fields<Blob>()
+                        .add("threshold", &Blob::threshold, "")
+                        .add("components", &Blob::components, "BlobComponents"));
   // Declared before it is described, because objects and CSG refer to each other.
   auto csg = Fields<Csg>().add("operation", &Csg::operation, "union, merge, intersection or difference");
   bind_values<Object>(

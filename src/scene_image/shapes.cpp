@@ -422,8 +422,8 @@ std::vector<double> numbers_of(const std::shared_ptr<const Polynomial>& polynomi
 }
 void add_curve(const std::vector<CurveSegment>& curve, std::vector<double>& all) {
   for (const CurveSegment& segment : curve) {
-    all.insert(all.end(), segment.x, segment.x + 4);
-    all.insert(all.end(), segment.y, segment.y + 4);
+    all.insert(all.end(), segment.x.begin(), segment.x.end());
+    all.insert(all.end(), segment.y.begin(), segment.y.end());
   }
 }
 std::vector<double> numbers_of(const std::shared_ptr<const Prism>& prism) {
@@ -440,7 +440,7 @@ std::vector<double> numbers_of(const std::shared_ptr<const SurfaceOfRevolution>&
   std::vector<double> all;
   for (const SurfaceOfRevolution::Piece& piece : sor->pieces) {
     all.insert(all.end(), {piece.low, piece.high});
-    all.insert(all.end(), piece.square, piece.square + 4);
+    all.insert(all.end(), piece.square.begin(), piece.square.end());
   }
   return all;
 }

@@ -1,5 +1,7 @@
 #include "reference/solids.hpp"
 
+#include "geometry/data_shapes.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -131,6 +133,31 @@ std::vector<double> cross(const std::shared_ptr<const Polygon>& polygon, const V
       is_in ^= glm::dot(a, side) + (glm::dot(b, side) - glm::dot(a, side)) * ay / (ay - by) > 0;
     }
   return is_in ? found : std::vector<double>();
+}
+
+/// Shapes of many parts are those of src/geometry, which tests compare with POV-Ray's numbers.
+template <class Shape>
+std::vector<double> cross(const std::shared_ptr<const Shape>& shape, const Vec3& origin, const Vec3& direction) {
+  geometry::Crossings found;
+  geometry::find_crossings(*shape, {origin, direction}, found);
+  std::vector<double> distances;
+  for (const geometry::Crossing& crossing : found)
+    distances.push_back(crossing.t);
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+/// Returns the normal where rays along the axes cross the surface nearest to the point.
+template <class Shape> Vec3 normal_near(const Shape& shape, const Vec3& p) {
+  geometry::Crossing nearest{HUGE_VAL, Vec3(0)};
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 direction(0.01);
+    direction[axis] = 1;
+    geometry::Crossings found;
+    geometry::find_crossings(shape, {p, direction}, found);
+    for (const geometry::Crossing& crossing : found)
+      if (std::abs(crossing.t) < std::abs(nearest.t)) nearest = crossing;
+  }
+  return nearest.normal;
 }
 
 std::vector<double> cross(const Box& box, const Vec3& origin, const Vec3& direction) {
@@ -276,6 +303,7 @@ bool is_in_shape(const Object& object, const Vec3& p) {
                         [&](const Superellipsoid& s) { return function(s, p) < 0; },
                         [&](const std::shared_ptr<const Polygon>&) { return false; },
                         [&](const std::shared_ptr<const Csg>& csg) { return is_in_csg(*csg, p); },
+                        [&](const auto& many_parts) { return geometry::is_inside(*many_parts, p); },
                     },
                     object.shape);
 }
@@ -343,7 +371,9 @@ Vec3 local_normal(const Object& object, const Vec3& p) {
                           const auto& loop = s->loops.at(0);
                           return glm::cross(loop.at(1) - loop.at(0), loop.at(2) - loop.at(0));
                         },
-                        [&](const auto&) { return Vec3(0); },
+                        [&](const std::shared_ptr<const Mesh>&) { return Vec3(0); },
+                        [&](const std::shared_ptr<const Csg>&) { return Vec3(0); },
+                        [&](const auto& many_parts) { return normal_near(*many_parts, p); },
                     },
                     object.shape);
 }
