@@ -31,10 +31,10 @@ TEST_CASE("Rays hit shapes of many parts where POV-Ray's do, on every machine") 
   std::ifstream file(CELLTRACE_SOURCE_DIR "/tests/evidence/shapes.json");
   const json shapes = json::parse(file);
   for (const test::TestBackend& backend : test::all_machines()) {
-    INFO(backend_name(backend.backend));
+    INFO(backend.spu());
     RenderOptions options;
     options.width = options.height = 1;
-    options.spe_count = 1;
+    options.spes = 1;
     options.backend = backend.backend;
     options.simd = backend.simd;
     options.first_hits = true;

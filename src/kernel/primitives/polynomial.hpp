@@ -178,8 +178,11 @@ struct PolynomialPrimitive : DataPrimitive<PolynomialPrimitive> {
     return value<S>(p, numbers, n, gradient) < typename S::F(kTolerance);
   }
 
-  /// Returns unlimited bounds, as for planes.
-  static LocalBounds local_bounds(float) { return PlanePrimitive::local_bounds(0.0f); }
+  /// Returns unlimited bounds: polynomials are not in the BVH, unless CSG bounds them.
+  static LocalBounds local_bounds(float) {
+    constexpr float kUnbounded = PlanePrimitive::kUnboundedRadius;
+    return {-kUnbounded, kUnbounded, kUnbounded, true};
+  }
 };
 
 } // namespace celltrace::kernel
