@@ -5,6 +5,8 @@
 
 #include "celltrace/transform.hpp"
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -13,6 +15,15 @@ namespace celltrace {
 
 struct Object;
 struct Pigment;
+
+/// A picture that patterns read, in the scene's working space.
+struct Picture {
+  int width = 0, height = 0; ///< 1 to 65535 each
+  /// Red, green, blue and transmittance of each pixel, row by row from the top. 65535 is `scale`, or 1 for
+  /// the transmittance.
+  std::vector<std::array<std::uint16_t, 4>> texels;
+  double scale = 1;
+};
 
 /// A displacement of points by noise: `amount` times a sum of `octaves` octaves, each octave `lambda` times
 /// finer, and with `omega` times the strength, of the octave before.
@@ -123,10 +134,33 @@ struct Facets {
   double metric = 2; ///< as Crackle::metric
 };
 
+/// How a picture is spread over space, by POV-Ray's numbers.
+struct PictureMap {
+  std::shared_ptr<const Picture> picture; ///< never null
+  /// 0: flat, from 0 to 1 in x and y; 1: around a sphere; 2: around a cylinder about y of height 1; 5: around
+  /// a torus about y of radius 1.
+  int mapping = 0;
+  int interpolation = 0; ///< 0: none, 2: bilinear, 3: bicubic, 4: by the distance from four pixels
+  bool once = false;     ///< true: there is one copy; false: the copies fill space
+  double repeat[2] = {1, 1}; ///< copies per unit
+  double offset[2] = {0, 0}; ///< of the picture, in its widths and heights
+  double filter = 0, transmit = 0; ///< added to all pixels
+};
+/// Colours of a picture, clear off its one copy: for pigments. The map needs one entry, of which only one thing
+/// counts: whether it lets light through, as it has to if a pixel does or if there is one copy.
+struct ImageMap {
+  PictureMap map;
+};
+/// Grey of a picture, or its transmittance; 0 off its one copy.
+struct ImageGrey {
+  PictureMap map;
+  bool is_transmittance = false;
+};
+
 using Kind =
     std::variant<Checker, Square, Hexagon, Triangular, Cubic, Brick, Gradient, Boxed, Spherical, Cylindrical,
                  Planar, Leopard, Onion, Radial, Spiral, Quilted, Bozo, Bumps, Dents, Granite, Wrinkles,
-                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Slope, Grey, Inside, Facets>;
+                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Slope, Grey, Inside, Facets, ImageMap, ImageGrey>;
 
 } // namespace pattern
 

@@ -16,6 +16,7 @@
 #include "records/mesh.hpp"
 #include "records/object.hpp"
 #include "records/pattern.hpp"
+#include "records/picture.hpp"
 #include "records/report.hpp"
 
 #include <stddef.h>
@@ -55,6 +56,12 @@ public:
   const ExtraRecord* extra(uint32_t offset) { return read_apart<ExtraRecord>(offset, DataKind::object); }
   const ShapeDataRecord* shape_data(uint32_t offset) {
     return read_apart<ShapeDataRecord>(offset, DataKind::object);
+  }
+  const PictureRecord* picture(uint32_t offset) {
+    return read_apart<PictureRecord>(offset, DataKind::material);
+  }
+  const TexelTileRecord* texel_tile(uint32_t offset) {
+    return read_apart<TexelTileRecord>(offset, DataKind::material);
   }
   const CsgRecord* csg(uint32_t offset) { return read_apart<CsgRecord>(offset, DataKind::object); }
   const CsgStep* csg_step(uint32_t offset) { return read_apart<CsgStep>(offset, DataKind::object); }

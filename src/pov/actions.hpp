@@ -9,6 +9,7 @@
 #include "pov/object_actions.hpp"
 #include "pov/patches.hpp"
 #include "pov/pattern_changes.hpp"
+#include "pov/pictures.hpp"
 #include "pov/settings.hpp"
 #include "pov/text_objects.hpp"
 #include "pov/texture_actions.hpp"

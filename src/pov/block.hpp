@@ -25,6 +25,7 @@ enum class Block : std::uint8_t {
   object,
   mesh2,
   bicubic_patch,
+  picture,
   photons,
   pattern, ///< what all kinds of patterns have
   pigment,

@@ -89,6 +89,8 @@ Block block_behind(int terminal) {
     return Block::mesh2;
   case tokens::T_BICUBIC_PATCH:
     return Block::bicubic_patch;
+  case tokens::T_PICTURE:
+    return Block::picture;
   case tokens::T_PHOTONS:
     return Block::photons;
   case tokens::T_TEXTURE:

@@ -286,6 +286,10 @@ TokenStream::read_file(const std::string& what, const std::string& wanted, const
   }
 }
 
+std::string TokenStream::read_picture(const std::string& name, const Location& where) {
+  return read_file("picture", name, where).second;
+}
+
 std::string TokenStream::read_font(const std::string& name, const Location& where) {
   const bool has_suffix = portable_path(name).has_extension() || session_.sources.find_file(name, current_folder());
   return read_file("font", has_suffix ? name : name + ".ttf", where).second;

@@ -86,6 +86,21 @@ pattern
   | SLOPE quantity          %prec SHORTER { $$ = slope(session, {session.vector($2, @2)}, @1); }
   | SLOPE '{' slope '}'     { $$ = slope(session, $3, @1); }
   | PIGMENT_PATTERN '{' from_default pigment_body '}' { $$ = grey(*$4); }
+  | picture '}'             { $$ = picture_pattern(session, $1, @1); }
+  ;
+
+picture
+  : PICTURE '{'                            { $$.use = PictureUse($1); $$.where = @1; }
+  | picture ','                            { $$ = $1; }
+  | picture text                           { $$ = $1; $$.file = $2; $$.where = @2; }
+  | picture item                           { $$ = $1; apply(session, $$, $2); }
+  | picture GAMMA number                   { $$ = $1; set_gamma(session, $$, $3, @3); }
+  | picture GAMMA SRGB                     { $$ = $1; $$.has_gamma = true; }
+  | picture CHANNEL ALL number             { $$ = $1; set_of_all($$, is_filter($2), $4); }
+  | picture CHANNEL number optional_comma number {
+      $$ = $1;
+      set_of_index(session, $$, is_filter($2), $3, $5, @2);
+    }
   ;
 
 pattern_object // of a list, which follows

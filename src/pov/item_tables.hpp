@@ -52,6 +52,8 @@ std::vector<ItemWord> mesh2_items();
 void apply(Session& session, Mesh2Definition& mesh, int row, std::vector<ListEntry> list,
            const Location& where);
 
+std::vector<ItemWord> picture_items();
+void apply(Session& session, WrittenPicture& picture, const Item& item);
 std::vector<ItemWord> bicubic_patch_items();
 void apply(Session& session, PatchDefinition& patch, const Item& item);
 

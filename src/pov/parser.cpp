@@ -47,6 +47,7 @@ void deliver_word(Parser::semantic_type& target, const Terminal& terminal) {
   case token::T_CSG:
   case token::T_CURVE_WORD:
   case token::T_PATTERN:
+  case token::T_PICTURE:
   case token::T_ARGUED_PATTERN:
   case token::T_LIST_PATTERN:
   case token::T_CAMERA_KIND:

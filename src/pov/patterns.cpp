@@ -216,6 +216,8 @@ const PatternEntry kPatterns[] = {
      kPlain,
      Wave::triangle,
      {{0, {0.9, 0.8, 0.8}}, {0.9, {0.9, 0.08, 0.08}}, {0.9, kBlack}, {1, kBlack}}},
+    {"image_map", make<ImageMap>, PatternForm::special},
+    {"image_pattern", make<ImageGrey>, PatternForm::special},
     {"object", make<Inside>, PatternForm::special, Wave::ramp, {{0, kBlue}, {1, kGreen}}},
     {"onion", make<Onion>},
     {"pigment_pattern", make<Grey>, PatternForm::special},
@@ -311,6 +313,13 @@ std::size_t PatternDefinition::list_length() const {
 }
 
 std::vector<PatternMap<Pigment>::Entry> PatternDefinition::default_colours() const {
+  if (const auto* image = std::get_if<pattern::ImageMap>(&value().kind)) {
+    const auto& texels = image->map.picture->texels;
+    const bool is_clear =
+        image->map.once || image->map.filter != 0 || image->map.transmit != 0 ||
+        std::any_of(texels.begin(), texels.end(), [](const auto& texel) { return texel[3] != 0; });
+    return {{0, Pigment{kWhite, 0, is_clear ? 1.0 : 0.0}}};
+  }
   // Only the plain Mandelbrot set, of all fractals, has colours of its own.
   const auto* fractal = std::get_if<Fractal>(&value().kind);
   const bool is_other = fractal && (fractal->is_julia || fractal->magnet != 0 || fractal->exponent != 2);

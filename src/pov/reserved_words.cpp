@@ -13,6 +13,7 @@
 #include "pov/grammar.hpp"
 #include "pov/items.hpp"
 #include "pov/patterns.hpp"
+#include "pov/pictures.hpp"
 #include "pov/shapes.hpp"
 
 namespace celltrace::pov {
@@ -34,6 +35,7 @@ struct DetailedWord {
 
 const Word kWords[] = {
     {"albedo", tokens::T_ALBEDO},
+    {"all", tokens::T_ALL},
     {"altitude", tokens::T_ALTITUDE},
     {"angle", tokens::T_ANGLE},
     {"area_light", tokens::T_AREA_LIGHT},
@@ -59,6 +61,7 @@ const Word kWords[] = {
     {"finish", tokens::T_FINISH},
     {"fog", tokens::T_FOG},
     {"function", tokens::T_USER_FUNCTION},
+    {"gamma", tokens::T_GAMMA},
     {"global_settings", tokens::T_GLOBAL_SETTINGS},
     {"inside", tokens::T_INSIDE},
     {"inside_vector", tokens::T_INSIDE_VECTOR},
@@ -166,6 +169,8 @@ const DetailedWord kDetailedWords[] = {
     {"natural_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::natural)},
     {"b_spline", tokens::T_CURVE_WORD, static_cast<int>(CurveWord::b_spline)},
     {"bezier_spline", tokens::T_CURVE_WORD, static_cast<int>(CurveWord::bezier)},
+    {"image_map", tokens::T_PICTURE, static_cast<int>(PictureUse::image_map)},
+    {"image_pattern", tokens::T_PICTURE, static_cast<int>(PictureUse::image_pattern)},
     {"linear_sweep", tokens::T_CURVE_WORD, static_cast<int>(CurveWord::linear_sweep)},
     {"conic_sweep", tokens::T_CURVE_WORD, static_cast<int>(CurveWord::conic_sweep)},
     {"union", tokens::T_CSG, detail(Csg::Operation::union_)},
@@ -234,8 +239,8 @@ const char* const kUnsupportedObjects[] = {
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map",      "contained_by", "density", "density_map", "image_map",
-    "image_pattern", "material_map", "media",   "mesh_camera", "subsurface",
+    "bump_map",      "contained_by", "density", "density_map", 
+    "material_map", "media",   "mesh_camera", "subsurface",
 };
 
 const char* const kUnsupportedFeatures[] = {
@@ -248,7 +253,6 @@ const char* const kUnsupportedFeatures[] = {
 const char* const kUnsupportedArguments[] = {
     "aa_level",
     "aa_threshold",
-    "all",
     "always_sample",
     "ascii",
     "brightness",
@@ -260,25 +264,16 @@ const char* const kUnsupportedArguments[] = {
     "expand_thresholds",
     "extinction",
     "gather",
-    "gif",
     "gray_threshold",
     "hypercomplex",
-    "iff",
-    "interpolate",
     "intervals",
-    "jpeg",
     "low_error_factor",
-    "map_type",
     "max_gradient",
     "max_iteration",
     "max_sample",
     "minimum_reuse",
     "nearest_count",
-    "once",
-    "pgm",
-    "png",
     "pot",
-    "ppm",
     "precompute",
     "pretrace_end",
     "pretrace_start",
@@ -288,14 +283,7 @@ const char* const kUnsupportedArguments[] = {
     "samples",
     "slice",
     "smooth",
-    "sys",
-    "tga",
-    "tiff",
     "tolerance",
-    "use_alpha",
-    "use_color",
-    "use_colour",
-    "use_index",
     "utf8",
     "water_level",
 };

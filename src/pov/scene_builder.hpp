@@ -59,6 +59,8 @@ public:
   /// Sets the gamma; without a value, `assumed_gamma srgb`.
   void set_assumed_gamma(std::optional<double> gamma);
   bool gamma_is_given() const { return gamma_given_; }
+  /// Returns the exponent of the working space: 1 if colours are linear, 2.2 for `assumed_gamma srgb`.
+  double working_gamma() const { return scene_.gamma_mode == GammaMode::srgb ? 2.2 : scene_.assumed_gamma; }
   /// Converts a channel of an sRGB colour to the space of the scene's colours.
   double from_srgb(double channel) const;
   /// Sets the mark for photons, which matter if any object is a target.

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "celltrace/pov.hpp"
 #include "geometry/function_machine.hpp"
+#include "image/source_image.hpp"
 #include "pov/diagnostics.hpp"
 #include "pov/input.hpp"
 #include "pov/memory.hpp"
@@ -43,6 +46,8 @@ struct Session {
   std::uint64_t text_bytes = 0;
   std::uint64_t written_bytes = 0;                   ///< bytes that #write has written
   std::vector<std::shared_ptr<DataFile>> data_files; ///< files that are open since an #fopen
+  /// Pictures that have been read, by the names that the scene gives them.
+  std::map<std::string, std::shared_ptr<const image::SourceImage>> pictures;
   std::uint64_t shape_tests = 0;                     ///< tests of shapes by trace() and similar functions
   std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
   TexturePtr base_texture;        ///< what the pigment or finish being read starts from

@@ -60,7 +60,9 @@ struct alignas(128) ImageHeader {
   uint32_t mesh_object_offset, mesh_object_count;   ///< ObjectRecords of instanced meshes
   uint32_t mesh_node_offset, mesh_node_count;       ///< NodeRecords of the BVHs of instanced meshes
   uint32_t crossed_mesh_offset, crossed_mesh_count; ///< CrossedMeshRecords
-  uint32_t unused[15];
+  uint32_t picture_offset, picture_count;       ///< PictureRecords
+  uint32_t texel_tile_offset, texel_tile_count; ///< TexelTileRecords
+  uint32_t unused[11];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 

@@ -13,6 +13,7 @@
 #include "records/mesh.hpp"
 #include "records/object.hpp"
 #include "records/pattern.hpp"
+#include "records/picture.hpp"
 #include "records/random_tables.hpp"
 
 namespace celltrace::kernel {
@@ -41,7 +42,9 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::slope_count, &ImageHeader::projector_count, &ImageHeader::surface_nodes,
           &ImageHeader::instance_offset, &ImageHeader::instance_count, &ImageHeader::mesh_object_offset,
           &ImageHeader::mesh_object_count, &ImageHeader::mesh_node_offset, &ImageHeader::mesh_node_count,
-          &ImageHeader::crossed_mesh_offset, &ImageHeader::crossed_mesh_count, &ImageHeader::unused>
+          &ImageHeader::crossed_mesh_offset, &ImageHeader::crossed_mesh_count, &ImageHeader::picture_offset,
+          &ImageHeader::picture_count, &ImageHeader::texel_tile_offset, &ImageHeader::texel_tile_count,
+          &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -51,6 +54,15 @@ fields_of(const ObjectRecord&);
 FieldList<&ExtraRecord::value, &ExtraRecord::csg, &ExtraRecord::bounds> fields_of(const ExtraRecord&);
 
 FieldList<&ShapeDataRecord::value> fields_of(const ShapeDataRecord&);
+
+FieldList<&PictureRecord::tiles, &PictureRecord::width, &PictureRecord::height,
+          &PictureRecord::tile_columns, &PictureRecord::mapping, &PictureRecord::interpolation,
+          &PictureRecord::once, &PictureRecord::reads_transmit, &PictureRecord::repeat,
+          &PictureRecord::offset, &PictureRecord::scale, &PictureRecord::filter, &PictureRecord::transmit,
+          &PictureRecord::unused>
+fields_of(const PictureRecord&);
+
+FieldList<&TexelTileRecord::word> fields_of(const TexelTileRecord&);
 
 FieldList<&CsgRecord::next, &CsgRecord::steps, &CsgRecord::count, &CsgRecord::skip_begin,
           &CsgRecord::skip_end, &CsgRecord::unused>

@@ -54,6 +54,16 @@ public:
   }
 
 private:
+  /// Returns true if a picture has as many tiles as its size says, and a size that arithmetic can hold.
+  bool has_texels(const PictureRecord& r) const {
+    constexpr std::uint32_t kSide = TexelTileRecord::kSide, kMost = 65535;
+    if (r.width - 1 >= kMost || r.height - 1 >= kMost || r.tile_columns != (r.width + kSide - 1) / kSide)
+      return false;
+    const std::uint64_t tiles = std::uint64_t{r.tile_columns} * ((r.height + kSide - 1) / kSide);
+    if (!refers_to(r.tiles, h_.texel_tile_offset, h_.texel_tile_count, sizeof(TexelTileRecord))) return false;
+    return tiles <= h_.texel_tile_count - (r.tiles - h_.texel_tile_offset) / sizeof(TexelTileRecord);
+  }
+
   template <class Record> struct Table {
     const Record* records;
     std::uint32_t offset, count;
@@ -110,6 +120,9 @@ private:
              r.table == h_.wave_offset;
     case PatternTable::slopes:
       return refers_to(r.table, h_.slope_offset, h_.slope_count, sizeof(SlopeRecord));
+    case PatternTable::pictures:
+      return refers_to(r.table, h_.picture_offset, h_.picture_count, sizeof(PictureRecord)) &&
+             has_texels(*reinterpret_cast<const PictureRecord*>(base_ + r.table));
     case PatternTable::pigments:
       return patterns_.find(r.table) != patterns_.count;
     case PatternTable::objects:

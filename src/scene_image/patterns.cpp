@@ -167,6 +167,39 @@ std::uint32_t put(const pattern::Inside& inside, Parameters) {
   return kPatternKind<ObjectPattern>;
 }
 
+std::uint32_t put(const pattern::ImageMap& image, Parameters) {
+  if (!image.map.picture) throw InputError("an image_map has no picture");
+  return kPatternKind<ImageMapPattern>;
+}
+std::uint32_t put(const pattern::ImageGrey& image, Parameters) {
+  if (!image.map.picture) throw InputError("an image_pattern has no picture");
+  return kPatternKind<ImagePattern>;
+}
+
+PictureRecord record_of(const pattern::PictureMap& map, bool reads_transmit) {
+  const Picture& picture = *map.picture;
+  const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  if (picture.width < 1 || picture.height < 1 || picture.width > 65535 || picture.height > 65535 ||
+      picture.texels.size() != pixels)
+    throw InputError("a picture of a pattern has not as many pixels as its size says");
+  PictureRecord r{};
+  r.width = static_cast<std::uint32_t>(picture.width);
+  r.height = static_cast<std::uint32_t>(picture.height);
+  r.tile_columns = (r.width + TexelTileRecord::kSide - 1) / TexelTileRecord::kSide;
+  r.mapping = static_cast<std::uint32_t>(map.mapping);
+  r.interpolation = static_cast<std::uint32_t>(map.interpolation);
+  r.once = map.once ? 1 : 0;
+  r.reads_transmit = reads_transmit ? 1 : 0;
+  for (int i = 0; i < 2; ++i) {
+    r.repeat[i] = static_cast<float>(map.repeat[i]);
+    r.offset[i] = static_cast<float>(map.offset[i]);
+  }
+  r.scale = static_cast<float>(picture.scale);
+  r.filter = static_cast<float>(map.filter);
+  r.transmit = static_cast<float>(map.transmit);
+  return r;
+}
+
 SlopeRecord record_of(const pattern::Slope& slope) {
   const double facing = glm::length(slope.direction), climbing = glm::length(slope.altitude);
   const double weight = 1 / ((facing + climbing) * (slope.most - slope.least));
@@ -214,6 +247,9 @@ PatternTable pattern_table(std::uint32_t kind_and_flags) {
     return PatternTable::pigments;
   case kPatternKind<ObjectPattern>:
     return PatternTable::objects;
+  case kPatternKind<ImageMapPattern>:
+  case kPatternKind<ImagePattern>:
+    return PatternTable::pictures;
   default:
     return PatternTable::none;
   }
@@ -225,6 +261,9 @@ PatternWords pattern_words(const pattern::Kind& kind, int number_of_waves) {
   words.table = pattern_table(words.kind_and_flags);
   if (const auto* fractal = std::get_if<pattern::Fractal>(&kind)) words.fractal = word_of(*fractal);
   if (const auto* slope = std::get_if<pattern::Slope>(&kind)) words.slope = record_of(*slope);
+  if (const auto* image = std::get_if<pattern::ImageMap>(&kind)) words.picture = record_of(image->map, false);
+  if (const auto* image = std::get_if<pattern::ImageGrey>(&kind))
+    words.picture = record_of(image->map, image->is_transmittance);
   if (words.table == PatternTable::waves) words.parameter[0] = static_cast<float>(number_of_waves);
   return words;
 }

@@ -3,13 +3,14 @@
 
 #include "celltrace/texture.hpp"
 #include "records/pattern.hpp"
+#include "records/picture.hpp"
 
 #include <cstdint>
 
 namespace celltrace {
 
 /// The table that a pattern reads.
-enum class PatternTable : std::uint8_t { none, features, gradients, waves, slopes, pigments, objects };
+enum class PatternTable : std::uint8_t { none, features, gradients, waves, slopes, pigments, objects, pictures };
 
 /// The words of a PatternRecord that depend on the pattern's kind.
 struct PatternWords {
@@ -18,6 +19,7 @@ struct PatternWords {
   PatternTable table = PatternTable::none;
   std::uint32_t fractal = 0; ///< a fractal_word
   kernel::SlopeRecord slope = {};
+  kernel::PictureRecord picture = {}; ///< without its tiles
 };
 /// Returns the table that a PatternRecord with these flags reads.
 PatternTable pattern_table(std::uint32_t kind_and_flags);

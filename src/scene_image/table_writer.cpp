@@ -105,6 +105,8 @@ void TableWriter::write_surfaces(TextureTables& textures) {
   copy(textures.gradients, header_.gradient_offset);
   copy(textures.waves, header_.wave_offset);
   copy(textures.slopes, header_.slope_offset);
+  copy(textures.pictures, header_.picture_offset);
+  copy(textures.texel_tiles, header_.texel_tile_offset);
   auto* const interiors = table<InteriorRecord>(header_.interior_offset);
   for (std::size_t i = 0; i < scene_.interiors.size(); ++i)
     interiors[i] = make_record(scene_.interiors[i]);

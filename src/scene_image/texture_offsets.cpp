@@ -18,6 +18,8 @@ template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table
 void TextureTables::relocate(const ImageHeader& header) {
   for (SpaceStepRecord& r : steps)
     if (reads_features(r)) r.table = header.feature_offset;
+  for (PictureRecord& r : pictures)
+    to_offset<TexelTileRecord>(r.tiles, header.texel_tile_offset);
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     PatternRecord& r = patterns[i];
     to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
@@ -40,6 +42,9 @@ void TextureTables::relocate(const ImageHeader& header) {
       break;
     case PatternTable::objects:
       to_offset<CsgRecord>(r.table, header.csg_offset);
+      break;
+    case PatternTable::pictures:
+      to_offset<PictureRecord>(r.table, header.picture_offset);
       break;
     case PatternTable::none:
       break;

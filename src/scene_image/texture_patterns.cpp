@@ -68,6 +68,13 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
       r.table = static_cast<std::uint32_t>(slopes.size());
       slopes.push_back(words.slope);
     }
+    if (tables_.back() == PatternTable::pictures) {
+      r.table = static_cast<std::uint32_t>(pictures.size());
+      pictures.push_back(words.picture);
+      const auto* const image = std::get_if<pattern::ImageMap>(&placed.kind);
+      pictures.back().tiles = tiles_of(
+          image != nullptr ? image->map.picture : std::get<pattern::ImageGrey>(placed.kind).map.picture);
+    }
     if (grey != nullptr) {
       r.table = of_grey.index;
       r.kind_and_flags |= pattern_flag::nested;
@@ -92,6 +99,30 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
   Traits traits;
   traits.by_surface = depends_on_surface(r) || of_grey.traits.by_surface;
   return {static_cast<std::uint32_t>(patterns.size() - 1), traits};
+}
+
+/// Returns the index of the first tile of a picture, which is added once for all patterns that read it.
+std::uint32_t TextureTables::tiles_of(const std::shared_ptr<const Picture>& picture) {
+  const auto [known, is_new] =
+      known_pictures_.try_emplace(picture.get(), static_cast<std::uint32_t>(texel_tiles.size()));
+  if (!is_new) return known->second;
+  constexpr int kSide = TexelTileRecord::kSide;
+  const int columns = (picture->width + kSide - 1) / kSide, rows = (picture->height + kSide - 1) / kSide;
+  make_room(texel_tiles, static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), "pictures");
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      TexelTileRecord tile{};
+      for (int i = 0; i < kSide * kSide; ++i) {
+        const int x = std::min(column * kSide + i % kSide, picture->width - 1),
+                  y = std::min(row * kSide + i / kSide, picture->height - 1);
+        const auto& texel = picture->texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture->width) +
+                                            static_cast<std::size_t>(x)];
+        tile.word[2 * i] = std::uint32_t{texel[0]} << 16 | texel[1];
+        tile.word[2 * i + 1] = std::uint32_t{texel[2]} << 16 | texel[3];
+      }
+      texel_tiles.push_back(tile);
+    }
+  return known->second;
 }
 
 void TextureTables::add_table(PatternTable table) {

@@ -6,6 +6,7 @@
 #include "records/image.hpp"
 #include "records/material.hpp"
 #include "records/pattern.hpp"
+#include "records/picture.hpp"
 #include "records/random_tables.hpp"
 #include "scene_image/pattern_space.hpp"
 #include "scene_image/patterns.hpp"
@@ -52,6 +53,8 @@ public:
   std::vector<kernel::GradientRecord> gradients; ///< empty if there are no features
   std::vector<kernel::WaveRecord> waves;
   std::vector<kernel::SlopeRecord> slopes; ///< one record for each slope
+  std::vector<kernel::PictureRecord> pictures; ///< one record for each pattern that is a picture
+  std::vector<kernel::TexelTileRecord> texel_tiles; ///< of all pictures; `tiles` of a record is an index
   /// The objects whose insides are patterns. Their conditions come first in the scene's CSG, in this order.
   std::vector<std::shared_ptr<const Object>> objects;
   std::vector<kernel::RainbowRecord> rainbows; ///< visible rainbows only
@@ -92,6 +95,7 @@ private:
   Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const PatternSpace& outer, Place place);
   Known add_material(const Material& material, const PatternSpace& outer, Place place);
   Known add_shared_material(const Material& material);
+  std::uint32_t tiles_of(const std::shared_ptr<const Picture>& picture);
   std::uint32_t share_entries(const EntryBlock& block);
   Known add_normal(const Normal& normal, const PatternSpace& outer);
   void add_table(PatternTable table);
@@ -106,6 +110,7 @@ private:
       0; ///< largest Traits::nodes of the scene's materials that are no texture maps
   std::vector<std::uint32_t> mapped_nodes_; ///< Traits::nodes of each texture map and two-sided material
   std::vector<Child> children_;             ///< index: entry; its child
+  std::unordered_map<const Picture*, std::uint32_t> known_pictures_; ///< index of a picture's first tile
   std::vector<PatternTable> tables_;        ///< index: pattern; the table it reads
   TextureSharing sharing_;
   /// Maps that several textures share, by address; if sharing is needed, the same map inside others has

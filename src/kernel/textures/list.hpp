@@ -29,6 +29,7 @@
 #include "kernel/textures/gradient.hpp"
 #include "kernel/textures/granite.hpp"
 #include "kernel/textures/hexagon.hpp"
+#include "kernel/textures/image_map.hpp"
 #include "kernel/textures/leopard.hpp"
 #include "kernel/textures/marble.hpp"
 #include "kernel/textures/object_pattern.hpp"
@@ -70,7 +71,7 @@ using Patterns =
                 Spiral1Pattern, Spiral2Pattern, QuiltedPattern, SquarePattern, TriangularPattern,
                 HexagonPattern, CubicPattern, BrickPattern, DentsPattern, GranitePattern, WrinklesPattern,
                 AgatePattern, MarblePattern, WoodPattern, CellsPattern, CracklePattern, RipplesPattern,
-                WavesPattern, FractalPattern, SlopePattern, PigmentPattern, ObjectPattern>;
+                WavesPattern, FractalPattern, SlopePattern, PigmentPattern, ObjectPattern, ImageMapPattern, ImagePattern>;
 constexpr bool is_colour(uint32_t kind) {
   return Patterns::is_colour(kind);
 }
