@@ -4,6 +4,7 @@
 #include "pov/atmosphere.hpp"
 #include "pov/expressions.hpp"
 #include "pov/finishes.hpp"
+#include "pov/height_fields.hpp"
 #include "pov/mesh_actions.hpp"
 #include "pov/missing.hpp"
 #include "pov/object_actions.hpp"

@@ -26,6 +26,7 @@ enum class Block : std::uint8_t {
   mesh2,
   bicubic_patch,
   picture,
+  height_field,
   photons,
   pattern, ///< what all kinds of patterns have
   pigment,

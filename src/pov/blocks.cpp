@@ -91,6 +91,8 @@ Block block_behind(int terminal) {
     return Block::bicubic_patch;
   case tokens::T_PICTURE:
     return Block::picture;
+  case tokens::T_HEIGHT_FIELD:
+    return Block::height_field;
   case tokens::T_PHOTONS:
     return Block::photons;
   case tokens::T_TEXTURE:

@@ -45,6 +45,17 @@ public:
     advance();
     read_parameters();
     require('{', "around a function's body");
+    return read_body();
+  }
+
+  /// Reads a function of x, y and z whose brace has been read.
+  FunctionPtr read_behind_brace() {
+    add_coordinates();
+    return read_body();
+  }
+
+private:
+  FunctionPtr read_body() {
     // A parameter's name stands for the parameter, whatever it is declared as outside.
     session_.symbols.enter_scope();
     for (const Variable& variable : variables_)
@@ -57,7 +68,6 @@ public:
     return function_;
   }
 
-private:
   // ---- Tokens ----
 
   void advance() {
@@ -92,8 +102,7 @@ private:
 
   void read_parameters() {
     if (!take('(')) {
-      for (const char* name : {"x", "y", "z"})
-        add_parameter(session_.names.intern(name));
+      add_coordinates();
       return;
     }
     while (!is(')')) {
@@ -109,6 +118,10 @@ private:
     }
     advance();
     function_->parameters = variables_.size();
+  }
+  void add_coordinates() {
+    for (const char* name : {"x", "y", "z"})
+      add_parameter(session_.names.intern(name));
   }
   void add_parameter(NameId name) {
     variables_.push_back({name, static_cast<FunctionValue>(variables_.size())});
@@ -490,6 +503,10 @@ private:
 
 FunctionPtr read_function(Session& session, const Location& where) {
   return Reader(session, where).read();
+}
+
+FunctionPtr read_function_body(Session& session, const Location& where) {
+  return Reader(session, where).read_behind_brace();
 }
 
 } // namespace celltrace::pov

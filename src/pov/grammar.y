@@ -88,7 +88,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token OLD_PLUS OLD_MINUS // signs of a new value: before version 1.5 they do not join two values
 
 %token ALBEDO ALL ALTITUDE ANGLE AREA_LIGHT ARRAY ASSUMED_GAMMA BACKGROUND BICUBIC_PATCH BLOB BLOB_COMPONENT BLUR_SAMPLES BOUNDED_BY CAMERA CHARSET CLIPPED_BY
-%token COLOUR COLOUR_MAP DIFFUSE DIMENSIONS DIMENSION_SIZE FINISH FOG GAMMA GLOBAL_SETTINGS INSIDE INSIDE_VECTOR INTERIOR
+%token COLOUR COLOUR_MAP DIFFUSE DIMENSIONS DIMENSION_SIZE FINISH FOG GAMMA GLOBAL_SETTINGS HEIGHT_FIELD INSIDE INSIDE_VECTOR INTERIOR
 %token INTERIOR_TEXTURE INVERSE IRID JULIA LIGHT_GROUP LIGHT_SOURCE LOOKS_LIKE MAGNET MATERIAL MATRIX MAX_EXTENT MESH MESH2
 %token MIN_EXTENT NORMAL NORMAL_MAP OBJECT OPEN PHOTONS PIGMENT PIGMENT_MAP PIGMENT_PATTERN POLY PROJECTED_THROUGH QUARTIC RADIOSITY
 %token OLD_TEXTURE // before version 3.0
@@ -127,7 +127,8 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <pattern::Inside> pattern_inside
 %nterm <Limit> pattern_object
 %nterm <pattern::Slope> slope facing
-%nterm <WrittenPicture> picture
+%nterm <FunctionPtr> function_body
+%nterm <WrittenPicture> picture height_field_start height_field_picture
 %nterm <SpaceStep> bend warp_items
 %nterm <std::vector<SlopePoint>> slope_map slope_entries
 %nterm <PigmentMap> colours pigments colour_entry colour_entries pigment_entries colour_map pigment_map

@@ -97,6 +97,21 @@ blob_component
   | blob_component FINISH '{' { start_part(session, $1, @2); } finish_body '}' { $$ = dressed(session, *$5); }
   ;
 
+height_field_start
+  : HEIGHT_FIELD '{'                  { }
+  | height_field_start item           { $$ = $1; } // the kind of file
+  ;
+
+height_field_picture
+  : height_field_start text           { $$.file = $2; $$.where = @2; }
+  | height_field_picture GAMMA number { $$ = $1; }
+  | height_field_picture GAMMA SRGB   { $$ = $1; }
+  ;
+
+function_body // behind its brace
+  : %empty { $$ = read_function_body(session, @$); }
+  ;
+
 text_font
   : TEXT_OBJECT '{' TTF text             { $$ = $4; }
   | TEXT_OBJECT '{' UNDECLARED_ID number { $$ = internal_font($4); } // internal
@@ -129,6 +144,11 @@ object_body
   | polynomial_start OBJECT_ID   { $$ = copy_of(*$2); }
   | POLY '{' OBJECT_ID           { $$ = copy_of(*$3); }
   | BLOB '{' OBJECT_ID           { $$ = copy_of(*$3); }
+  | height_field_start OBJECT_ID { $$ = copy_of(*$2); }
+  | height_field_picture         %prec SHORTER { $$ = height_field(session, height_field_of(session, $1), @1); }
+  | HEIGHT_FIELD '{' USER_FUNCTION number optional_comma number '{' function_body {
+      $$ = height_field(session, height_field_of(session, *$8, $4, $6, @3), @3);
+    }
   | TEXT_OBJECT '{' OBJECT_ID    { $$ = copy_of(*$3); }
   | text_font optional_comma text optional_comma number optional_comma quantity %prec SHORTER {
       $$ = text_object(session, {$1, $3, $5, session.vector($7, @7)}, @1);

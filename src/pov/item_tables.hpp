@@ -54,6 +54,7 @@ void apply(Session& session, Mesh2Definition& mesh, int row, std::vector<ListEnt
 
 std::vector<ItemWord> picture_items();
 void apply(Session& session, WrittenPicture& picture, const Item& item);
+std::vector<ItemWord> height_field_items();
 std::vector<ItemWord> bicubic_patch_items();
 void apply(Session& session, PatchDefinition& patch, const Item& item);
 

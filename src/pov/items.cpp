@@ -39,6 +39,7 @@ const BlockTable kTables[] = {
     {Block::mesh2, Block::object, mesh2_items},
     {Block::bicubic_patch, Block::object, bicubic_patch_items},
     {Block::picture, Block::none, picture_items},
+    {Block::height_field, Block::object, height_field_items},
     {Block::photons, Block::none, photons_items},
     {Block::pattern, Block::none, pattern_items},
     {Block::pigment, Block::pattern, pigment_items},

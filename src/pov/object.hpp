@@ -47,10 +47,12 @@ void transform_limits(std::vector<Limit>& limits, const Transform& next);
 
 /// A mesh whose triangles refer to its own textures; it becomes the scene's when it is first placed.
 struct BicubicPatch;
+struct HeightField;
 struct MeshDefinition {
   Mesh mesh;
   std::shared_ptr<const BicubicPatch>
       patch;                  ///< patch whose triangles depend on where it is placed; null: none
+  std::shared_ptr<const HeightField> height_field; ///< that the mesh is made of; null: none
   bool ignores_clips = false; ///< `clipped_by` has no effect, as for POV-Ray's patches
   std::vector<TexturePtr> textures;
   std::unique_ptr<geometry::TriangleTree> tree; ///< built when the scene first queries the mesh

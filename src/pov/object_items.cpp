@@ -1,5 +1,6 @@
 // Tables of the items of objects, light sources, light groups and meshes.
 #include "pov/item_tables.hpp"
+#include "pov/height_fields.hpp"
 #include "pov/light.hpp"
 
 namespace celltrace::pov {
@@ -114,6 +115,37 @@ const ListRow kMesh2Lists[] = {
     {"uv_indices", set_list<&Mesh2Definition::uv_indices, counted>},
 };
 
+void ignore_picture_word(ObjectDefinition&, const ItemValues&) {
+}
+
+const ItemRow<ObjectDefinition> kHeightFieldItems[] = {
+    {"bmp", Form::word, ignore_picture_word},
+    {"exr", Form::word, ignore_picture_word},
+    {"gif", Form::word, ignore_picture_word},
+    {"hdr", Form::word, ignore_picture_word},
+    {"iff", Form::word, ignore_picture_word},
+    {"jpeg", Form::word, ignore_picture_word},
+    {"pgm", Form::word, ignore_picture_word},
+    {"png", Form::word, ignore_picture_word},
+    {"pot", Form::word, ignore_picture_word},
+    {"ppm", Form::word, ignore_picture_word},
+    {"sys", Form::word, ignore_picture_word},
+    {"tga", Form::word, ignore_picture_word},
+    {"tiff", Form::word, ignore_picture_word},
+    {"premultiplied", Form::option, ignore_picture_word},
+    {"smooth", Form::word,
+     [](ObjectDefinition& object, const ItemValues& values) {
+       change_height_field(
+           values.session(), object, [](HeightField& field) { field.is_smooth = true; }, values.where());
+     }},
+    {"water_level", Form::value,
+     [](ObjectDefinition& object, const ItemValues& values) {
+       const double level = values.number();
+       change_height_field(
+           values.session(), object, [level](HeightField& field) { field.water_level = level; }, values.where());
+     }},
+};
+
 const ItemRow<PatchDefinition> kBicubicPatchItems[] = {
     {"type", Form::value,
      [](PatchDefinition& patch, const ItemValues& values) {
@@ -159,11 +191,16 @@ std::vector<ItemWord> mesh2_items() {
   return words;
 }
 
+std::vector<ItemWord> height_field_items() {
+  return words_of(kHeightFieldItems);
+}
+
 std::vector<ItemWord> bicubic_patch_items() {
   return words_of(kBicubicPatchItems);
 }
 
 void apply(Session& session, ObjectDefinition& object, const Item& item) {
+  if (item.block() == Block::height_field) return apply(kHeightFieldItems, session, object, item);
   if (item.block() == Block::bicubic_patch)
     session.fail(item.where, "options of a bicubic_patch stand before its control points");
   if (item.block() == Block::light_source)

@@ -63,6 +63,7 @@ const Word kWords[] = {
     {"function", tokens::T_USER_FUNCTION},
     {"gamma", tokens::T_GAMMA},
     {"global_settings", tokens::T_GLOBAL_SETTINGS},
+    {"height_field", tokens::T_HEIGHT_FIELD},
     {"inside", tokens::T_INSIDE},
     {"inside_vector", tokens::T_INSIDE_VECTOR},
     {"interior", tokens::T_INTERIOR},
@@ -234,7 +235,7 @@ const DirectiveWord kDirectives[] = {
 // Words that POV-Ray 3.7 reserves for unsupported features: objects, words with a block in braces of their
 // own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "height_field", "isosurface", "julia_fractal", "ovus", "parametric",
+    "isosurface", "julia_fractal", "ovus", "parametric",
     "sphere_sweep", 
 };
 
@@ -273,7 +274,6 @@ const char* const kUnsupportedArguments[] = {
     "max_sample",
     "minimum_reuse",
     "nearest_count",
-    "pot",
     "precompute",
     "pretrace_end",
     "pretrace_start",
@@ -282,10 +282,8 @@ const char* const kUnsupportedArguments[] = {
     "recursion_limit",
     "samples",
     "slice",
-    "smooth",
     "tolerance",
     "utf8",
-    "water_level",
 };
 
 // Words that directives and functions handle themselves.

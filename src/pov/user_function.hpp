@@ -36,6 +36,8 @@ struct UserFunction {
 /// Reads the function that follows the word `function` from the token stream. The functions it may call are
 /// known before its own name is, so that no function calls itself.
 FunctionPtr read_function(Session& session, const Location& where);
+/// Reads the rest of a function of x, y and z, of which the opening brace has been read, up to its last brace.
+FunctionPtr read_function_body(Session& session, const Location& where);
 
 /// Returns the function's value for `count` arguments. Fails if it takes another number of arguments, takes
 /// too long, or is not supported.
