@@ -2,7 +2,8 @@
 //
 // Supported: the language itself (directives, macros, loops, strings, arrays, expressions), all cameras
 // except mesh cameras, all light sources and light groups, spheres, boxes, planes, discs, cylinders, cones,
-// tori, quadrics, superellipsoids, polygons, triangles, meshes, bicubic patches, unions, CSG of triangles and
+// tori, quadrics, superellipsoids, polygons, triangles, meshes, bicubic patches, height fields, prisms, lathes, surfaces of revolution,
+// blobs, polynomials, texts, unions, CSG of triangles and
 // of all shapes that have an inside (including meshes with inside_vector) with inverse and clipped_by, sky
 // spheres, fogs, rainbows, and all textures of texture.hpp: patterns with maps and lists, normals, layers and finishes.
 // Other features of POV-Ray may be declared, but are errors if an object of the scene uses them ("'blob' is

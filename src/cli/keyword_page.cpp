@@ -42,7 +42,7 @@ std::string keyword_page() {
          "supported.\n\n" +
          words_with(Keyword::Support::ignored) +
          "\n## Not supported\n\n"
-         "A scene that uses such a word gets one error for it, `file:line:column: error: 'blob' is not "
+         "A scene that uses such a word gets one error for it, `file:line:column: error: 'isosurface' is not "
          "supported yet`. With\n"
          "`--lenient` celltrace leaves out the object, or the property of the object, and prints a warning "
          "instead.\n\n" +

@@ -32,7 +32,7 @@ TEST_CASE("every finding of a run comes as data, in order, with its place and th
   ParseOptions options;
   options.finding = [&](const Finding& finding) { heard.push_back(finding); };
   const auto findings = findings_of("#warning \"old\"\n"
-                                    "blob { }\n"
+                                    "ovus { }\n"
                                     "#macro M()\n  julia_fractal { <0,0,0,0> }\n#end\n"
                                     "M()\n"
                                     "#macro N()\n  oops\n#end\n"
@@ -46,7 +46,7 @@ TEST_CASE("every finding of a run comes as data, in order, with its place and th
   CHECK(findings[0].text == "old");
   CHECK(findings[1].severity == Severity::error);
   CHECK(findings[1].line == 2);
-  CHECK(findings[1].text == "'blob' is not supported yet");
+  CHECK(findings[1].text == "'ovus' is not supported yet");
   CHECK(findings[2].line == 4);
   CHECK(findings[2].column == 3);
   CHECK(findings[2].reached_by == std::vector<std::string>{"in macro 'M' called from scene.pov:6"});
@@ -77,10 +77,10 @@ TEST_CASE("warnings of a scene that is accepted are heard of") {
   ParseOptions options;
   options.finding = [&](const Finding& finding) { heard.push_back(finding); };
   options.lenient = true;
-  parse("#warning \"a\" blob { } sphere { 0, 1 }", options);
+  parse("#warning \"a\" ovus { } sphere { 0, 1 }", options);
   REQUIRE(heard.size() == 2);
   CHECK(heard[0].severity == Severity::warning);
-  CHECK(heard[1].text == "'blob' is not supported yet and left out");
+  CHECK(heard[1].text == "'ovus' is not supported yet and left out");
 }
 
 TEST_CASE("remarks that a scene repeats without end are not all kept") {

@@ -265,6 +265,6 @@ TEST_CASE("what light sources cannot have") {
         "'area_illumination' of a light with 'orient' is not supported yet");
   CHECK(error_line("light_source { 0 rgb 1 spotlight radius x }") ==
         "scene.pov:1:41: error: expected a float, found a vector");
-  CHECK(error_line("light_source { 0 rgb 1 looks_like { blob { threshold 1 } } }") ==
-        "scene.pov:1:37: error: 'blob' is not supported yet");
+  CHECK(error_line("light_source { 0 rgb 1 looks_like { ovus { threshold 1 } } }") ==
+        "scene.pov:1:37: error: 'ovus' is not supported yet");
 }

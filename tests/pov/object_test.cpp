@@ -106,7 +106,7 @@ TEST_CASE("light sources") {
 
 TEST_CASE("hints and flags that change no picture are accepted") {
   const Scene scene =
-      parse("sphere { 0, 1 hollow inverse sturm hierarchy off bounded_by { blob { threshold 1 } } "
+      parse("sphere { 0, 1 hollow inverse sturm hierarchy off bounded_by { ovus { threshold 1 } } "
             "photons { target reflection on } no_radiosity uv_mapping pigment { rgb 1 } }");
   CHECK(scene.objects.size() == 1);
 }

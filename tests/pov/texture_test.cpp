@@ -386,7 +386,7 @@ TEST_CASE("what is not supported is an error where it is used") {
       "#declare T = texture { pigment { tiling 9 color_map { [0 rgb 1] [1 rgb 0] } turbulence 1 } normal { "
       "bumps 1 } }\n"
       "#declare N = normal { bumps 0.3 } #declare M = color_map { [0 rgb 1][1 rgb 0] }\n"
-      "#declare F = function (x, y) { x + y } #declare B = blob { threshold 1 } #declare D = difference { "
+      "#declare F = function (x, y) { x + y } #declare B = ovus { threshold 1 } #declare D = difference { "
       "sphere "
       "{ 0, 1 } object { B } }\n"
       "#declare S = sphere { 0, 1 pigment { density_file df3 \"d\" } }\n"
@@ -394,9 +394,9 @@ TEST_CASE("what is not supported is an error where it is used") {
   CHECK(error_line(declarations).empty());
   CHECK(error_line(declarations + "sphere { 0, 1 texture { T } }") ==
         "scene.pov:1:34: error: 'tiling' is not supported yet");
-  CHECK(error_line(declarations + "object { D }") == "scene.pov:3:53: error: 'blob' is not supported yet");
+  CHECK(error_line(declarations + "object { D }") == "scene.pov:3:53: error: 'ovus' is not supported yet");
   CHECK(error_line(declarations + "union { sphere { 0, 1 } object { B } }") ==
-        "scene.pov:3:53: error: 'blob' is not supported yet");
+        "scene.pov:3:53: error: 'ovus' is not supported yet");
   CHECK(error_line(declarations + "object { S pigment { rgb 1 } }").empty());
   CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'density_file' is not supported yet");
   CHECK(error_line(declarations + "sphere { 0, 1 interior { I } }") ==
@@ -415,7 +415,7 @@ TEST_CASE("all that is not supported is reported at once, each feature once") {
   const std::string scene = "sphere { 0, 1 pigment { density_file df3 \"d\" scale 2 } autostop }\n"
                             "text { ttf \"x\" \"y\" 1, 0 }\n"
                             "union { sphere { 0, 1 autostop finish { phong 0.5 subsurface { "
-                            "translucency 1 } diffuse 0.2 } } blob { threshold 1 } }\n";
+                            "translucency 1 } diffuse 0.2 } } ovus { threshold 1 } }\n";
   CHECK(test::error(scene) == "scene.pov:1:56: error: 'autostop' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
                               "scene.pov:1:25: error: 'density_file' is not supported yet\n"
@@ -423,10 +423,10 @@ TEST_CASE("all that is not supported is reported at once, each feature once") {
                               "scene.pov:2:1: error: 'text' is not supported yet\n"
                               "scene.pov:3:51: error: 'subsurface' is not supported yet\n"
                               "    used at scene.pov:3:1\n"
-                              "scene.pov:3:97: error: 'blob' is not supported yet\n"
+                              "scene.pov:3:97: error: 'ovus' is not supported yet\n"
                               "    used at scene.pov:3:1");
   CHECK(test::error(scene + "sphere { }")
-            .ends_with("'blob' is not supported yet\n    used at scene.pov:3:1\n"
+            .ends_with("'ovus' is not supported yet\n    used at scene.pov:3:1\n"
                        "scene.pov:4:10: error: unexpected '}', expected a number"));
 
   ParseOptions lenient;
@@ -438,7 +438,7 @@ TEST_CASE("all that is not supported is reported at once, each feature once") {
                 "scene.pov:1:25: warning: 'density_file' is not supported yet and left out\n"
                 "scene.pov:2:1: warning: 'text' is not supported yet and left out\n"
                 "scene.pov:3:51: warning: 'subsurface' is not supported yet and left out\n"
-                "scene.pov:3:97: warning: 'blob' is not supported yet and left out\n");
+                "scene.pov:3:97: warning: 'ovus' is not supported yet and left out\n");
   REQUIRE(read.objects.size() == 2);
   const Material& material = read.materials[read.objects[1].material];
   CHECK(material.finish.phong == 0.5);
@@ -449,8 +449,8 @@ TEST_CASE("what is left out of CSG and patterns") {
   ParseOptions lenient;
   lenient.lenient = true;
   lenient.message = [](std::string_view) {};
-  CHECK(test::parse("difference { blob { threshold 1 } sphere { 0, 1 } }", lenient).objects.empty());
-  CHECK(test::parse("difference { sphere { 0, 1 } blob { threshold 1 } }", lenient).objects.size() == 1);
+  CHECK(test::parse("difference { ovus { threshold 1 } sphere { 0, 1 } }", lenient).objects.empty());
+  CHECK(test::parse("difference { sphere { 0, 1 } ovus { threshold 1 } }", lenient).objects.size() == 1);
   const Scene scene = test::parse(
       "sphere { 0, 1 pigment { density_file df3 \"d\" turbulence 1 color_map { [0 rgb 0.25] [1 rgb 1] } } }",
       lenient);

@@ -52,8 +52,8 @@ def test_what_a_message_function_raises_comes_through():
 
 
 def test_lenient_reading_leaves_out():
-    text = "blob { threshold 1 sphere { 0, 1, 1 } } sphere { 0, 1 }"
+    text = "ovus { threshold 1 sphere { 0, 1, 1 } } sphere { 0, 1 }"
     with pytest.raises(celltrace.SceneError, match="not supported"):
         celltrace.Scene.from_text(text)
-    with pytest.warns(UserWarning, match="blob"):
+    with pytest.warns(UserWarning, match="ovus"):
         assert len(celltrace.Scene.from_text(text, lenient=True).objects) == 1

@@ -49,7 +49,7 @@ def test_srgb_is_what_is_shown():
 
 
 def test_places_in_materials():
-    for text, line, column in (("pigment { blob }", 1, 11), ("pigment { rgb 1 }\n  pigmnt { rgb 1 }", 2, 3)):
+    for text, line, column in (("pigment { ovus }", 1, 11), ("pigment { rgb 1 }\n  pigmnt { rgb 1 }", 2, 3)):
         with pytest.raises(celltrace.SceneError) as caught:
             celltrace.Material.from_pov(text)
         assert (caught.value.file, caught.value.line, caught.value.column) == ("<material>", line, column)

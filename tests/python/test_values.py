@@ -138,7 +138,7 @@ def test_values_do_not_change():
     (lambda: celltrace.Scene().add(celltrace.Sphere(), material="red"), TypeError, "an index or a Material"),
     (lambda: celltrace.Camera.look_at(0, 0), celltrace.InputError, "where it looks to"),
     (lambda: celltrace.Material.from_pov("} sphere { 0, 1 }  sphere { 0, 1"), celltrace.InputError, "one object"),
-    (lambda: celltrace.Material.from_pov("pigment { blob }"), celltrace.SceneError, "<material>:1"),
+    (lambda: celltrace.Material.from_pov("pigment { ovus }"), celltrace.SceneError, "<material>:1"),
     (lambda: celltrace.render("x.pov", widht=3), TypeError, "'widht'"),
     (lambda: celltrace.render(3), TypeError, ""),
     (lambda: celltrace.Session(celltrace.Scene(), backend="gpu"), ValueError, "gpu"),
