@@ -173,7 +173,7 @@ TEST_CASE("parts and CSG can be clipped, by CSG too") {
 
 TEST_CASE("bounded_by does nothing but lend its objects to clipped_by") {
   CHECK_FALSE(only(parse("sphere { 0, 1 bounded_by { box { 0, 1 } } }")).clipped_by);
-  CHECK_FALSE(only(parse("sphere { 0, 1 bounded_by { prism { 0, 1 } scale 2 } }")).clipped_by);
+  CHECK_FALSE(only(parse("sphere { 0, 1 bounded_by { ovus { 0, 1 } scale 2 } }")).clipped_by);
   const Object linked =
       only(parse("sphere { 0, 1 bounded_by { box { 0, 1 } } translate x clipped_by { bounded_by } }"));
   CHECK(linked.clipped_by->at(0).transform.point({0, 0, 0}) == Vec3(1, 0, 0));
@@ -335,8 +335,8 @@ TEST_CASE("parts without a texture look like what they cut") {
 }
 
 TEST_CASE("what CSG lacks is an error") {
-  CHECK(error_line("difference { sphere { 0, 1 } quartic { x, y, z, 1 } }") ==
-        "scene.pov:1:30: error: 'quartic' is not supported yet");
+  CHECK(error_line("difference { sphere { 0, 1 } parametric { x, y, z, 1 } }") ==
+        "scene.pov:1:30: error: 'parametric' is not supported yet");
   CHECK(error_line("merge { sphere { 0, 1 } box { 0, 1 scale 1e-200 } }") ==
         "scene.pov:1:1: error: this object's transformation is singular: it has no inverse");
   CHECK(error_line("sphere { 0, 1 clipped_by { } }") == "scene.pov:1:28: error: unexpected '}'");

@@ -38,7 +38,7 @@ TEST_CASE("things that never end") {
         "scene.pov:1:1: error: #end is missing for what starts here");
   CHECK(error_line("#macro M() sphere { 0, 1 }") ==
         "scene.pov:1:1: error: #end is missing for what starts here");
-  CHECK(error_line("prism { 0, x { ") == "scene.pov:1:7: error: the block that starts here is never closed");
+  CHECK(error_line("sphere_sweep { 0, x { ") == "scene.pov:1:14: error: the block that starts here is never closed");
   CHECK(error_line("#macro M(A) #end M(1") ==
         "scene.pov:1:18: error: the arguments of macro 'M' are never closed");
 }

@@ -214,14 +214,14 @@ TEST_CASE("pigments and patterns are functions of points") {
 
 TEST_CASE("functions of what is not supported are an error where they are called") {
   const std::string declaration =
-      "#declare F = function { pattern { image_map { png \"a.png\" } scale 2 } } ";
+      "#declare F = function { pattern { density_file df3 \"a.png\"  scale 2 } } ";
   CHECK(error_line(declaration).empty());
   CHECK(error_line(declaration + "#declare A = F(1, 2, 3);") ==
-        "scene.pov:1:86: error: 'image_map' is not supported yet");
+        "scene.pov:1:86: error: 'density_file' is not supported yet");
   CHECK(error_line(declaration + "#declare G = function { F(x, y, z) } #declare A = G(1, 2, 3);") ==
-        "scene.pov:1:123: error: 'image_map' is not supported yet");
+        "scene.pov:1:123: error: 'density_file' is not supported yet");
   // A pattern gives one number, a pigment five.
-  for (const std::string pattern : {"image_map { png \"a.png\" }", "slope y"}) {
+  for (const std::string pattern : {"density_file df3 \"a.png\" ", "slope y"}) {
     INFO(pattern);
     const std::string of_pattern = "#declare F = function { pattern { " + pattern + " } } ";
     CHECK(error_line(of_pattern + "#declare G = function { F(x, y, z)*2 }").empty());

@@ -88,7 +88,7 @@ TEST_CASE("nesting has an end") {
   CHECK(contains(error_line("#declare A = " + repeated("<", 100000)), "nested more than 256 deep"));
   CHECK(contains(error_line("#declare A = (" + repeated("1?1:", 100000)), "nested more than 256 deep"));
   CHECK(contains(error_line(repeated("union { ", 100000)), "nested more than 256 deep"));
-  CHECK(contains(error_line("prism " + repeated("{", 100000)), "nested more than 256 deep"));
+  CHECK(contains(error_line("ovus " + repeated("{", 100000)), "nested more than 256 deep"));
   CHECK(error_line("#declare A = " + repeated("-", 100000) + "1;").empty());
   CHECK(error_line("#declare A = 1" + repeated("+1", 100000) + ";").empty());
   CHECK(contains(error_line("#declare U = sphere { 0, 1 } "

@@ -145,6 +145,6 @@ TEST_CASE("what is inside") {
 }
 
 TEST_CASE("asking what is not supported is using it") {
-  CHECK(test::error_line("#declare T = text { ttf \"a\" \"b\" 1, 0 } #declare E = max_extent(T);") ==
-        "scene.pov:1:14: error: 'text' is not supported yet");
+  CHECK(test::error_line("#declare T = julia_fractal { 0 } #declare E = max_extent(T);") ==
+        "scene.pov:1:14: error: 'julia_fractal' is not supported yet");
 }

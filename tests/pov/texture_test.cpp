@@ -405,22 +405,22 @@ TEST_CASE("what is not supported is an error where it is used") {
         "scene.pov:5:66: error: 'media' is not supported yet");
   CHECK(test::error(declarations + "S") ==
         "scene.pov:4:38: error: 'density_file' is not supported yet\n    used at scene.pov:6:1");
-  CHECK(error_line("quartic { 0, x, 1 }") == "scene.pov:1:1: error: 'quartic' is not supported yet");
-  CHECK(error_line("sphere { 0, 1 clipped_by { prism { 0, 1 } } }") ==
-        "scene.pov:1:28: error: 'prism' is not supported yet");
+  CHECK(error_line("parametric { 0, x, 1 }") == "scene.pov:1:1: error: 'parametric' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 clipped_by { ovus { 0, 1 } } }") ==
+        "scene.pov:1:28: error: 'ovus' is not supported yet");
   CHECK(error_line("sphere { 0, 1 autostop }") == "scene.pov:1:15: error: 'autostop' is not supported yet");
 }
 
 TEST_CASE("all that is not supported is reported at once, each feature once") {
   const std::string scene = "sphere { 0, 1 pigment { density_file df3 \"d\" scale 2 } autostop }\n"
-                            "text { ttf \"x\" \"y\" 1, 0 }\n"
+                            "isosurface { function { x } }\n"
                             "union { sphere { 0, 1 autostop finish { phong 0.5 subsurface { "
                             "translucency 1 } diffuse 0.2 } } ovus { threshold 1 } }\n";
   CHECK(test::error(scene) == "scene.pov:1:56: error: 'autostop' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
                               "scene.pov:1:25: error: 'density_file' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
-                              "scene.pov:2:1: error: 'text' is not supported yet\n"
+                              "scene.pov:2:1: error: 'isosurface' is not supported yet\n"
                               "scene.pov:3:51: error: 'subsurface' is not supported yet\n"
                               "    used at scene.pov:3:1\n"
                               "scene.pov:3:97: error: 'ovus' is not supported yet\n"
@@ -436,7 +436,7 @@ TEST_CASE("all that is not supported is reported at once, each feature once") {
   const Scene read = test::parse(scene, lenient);
   CHECK(said == "scene.pov:1:56: warning: 'autostop' is not supported yet and left out\n"
                 "scene.pov:1:25: warning: 'density_file' is not supported yet and left out\n"
-                "scene.pov:2:1: warning: 'text' is not supported yet and left out\n"
+                "scene.pov:2:1: warning: 'isosurface' is not supported yet and left out\n"
                 "scene.pov:3:51: warning: 'subsurface' is not supported yet and left out\n"
                 "scene.pov:3:97: warning: 'ovus' is not supported yet and left out\n");
   REQUIRE(read.objects.size() == 2);
