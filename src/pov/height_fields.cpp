@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
@@ -88,7 +89,8 @@ private:
     if (has_up && has_left) add_corner(at(0, 1), at(-1, 0));
     if (has_left && has_down) add_corner(at(-1, 0), at(0, -1));
     if (has_down && has_right) add_corner(at(0, -1), at(1, 0));
-    sum = glm::normalize(sum);
+    // POV-Ray keeps 16 bits of each component. Of the height's, which is small, this leaves few.
+    sum = glm::trunc(glm::normalize(sum) * 32767.0);
     // From the picture's units to the unit cube: normals are scaled by the inverse.
     return glm::normalize(Vec3(sum.x * (field_.width - 1), sum.y * 65536, sum.z * (field_.height - 1)));
   }

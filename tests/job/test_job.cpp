@@ -67,7 +67,7 @@ TEST_CASE("one progress goes over reading, building and rendering") {
 
 TEST_CASE("a job that fails says so where it is waited for") {
   SECTION("a scene with faults, all of them as data") {
-    RenderJob job(SceneText{"#warning \"dear\"\nblob { }\njulia_fractal { <0,0,0,0> }\noops", "a.pov"},
+    RenderJob job(SceneText{"#warning \"dear\"\novus { }\njulia_fractal { <0,0,0,0> }\noops", "a.pov"},
                   small_options());
     try {
       job.take();

@@ -41,7 +41,8 @@ TEST_CASE("Rays hit shapes of many parts where POV-Ray's do, on every machine") 
     for (const auto& [name, shape] : shapes.items()) {
       const std::string& of = name;
       if (std::any_of(std::begin(kLeftOut), std::end(kLeftOut),
-                      [&](const char* start) { return of.rfind(start, 0) == 0; }))
+                      [&](const char* start) { return of.rfind(start, 0) == 0; }) ||
+          !shape.contains("rays"))
         continue;
       INFO(name);
       Scene scene = parse_string("#version 3.7; object { " + shape["sdl"].get<std::string>() + " }");
