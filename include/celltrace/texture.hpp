@@ -15,6 +15,7 @@ namespace celltrace {
 
 struct Object;
 struct Pigment;
+class FunctionCode;
 
 /// A picture that patterns read, in the scene's working space.
 struct Picture {
@@ -157,10 +158,16 @@ struct ImageGrey {
   bool is_transmittance = false;
 };
 
+/// A function of the scene language; only the parser makes them.
+struct Function {
+  std::shared_ptr<const FunctionCode> code; ///< of x, y and z; never null
+};
+
 using Kind =
     std::variant<Checker, Square, Hexagon, Triangular, Cubic, Brick, Gradient, Boxed, Spherical, Cylindrical,
                  Planar, Leopard, Onion, Radial, Spiral, Quilted, Bozo, Bumps, Dents, Granite, Wrinkles,
-                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Slope, Grey, Inside, Facets, ImageMap, ImageGrey>;
+                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Slope, Grey, Inside, Facets, ImageMap, ImageGrey,
+                 Function>;
 
 } // namespace pattern
 

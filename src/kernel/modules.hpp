@@ -32,6 +32,10 @@ constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14464};
 //   module_rare, CracklePattern, ObjectPattern, *GradientNoise; data: *GradientNoise, CracklePattern.cst16,
 //   module_rare
 
+/// Functions of the scene language.
+constexpr CodeModule kFunctions = {"functions", 41, 0, 12288};
+//   module_functions, FunctionPattern, FunctionMachine<>
+
 /// All warps but turbulence.
 constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 //   module_warps

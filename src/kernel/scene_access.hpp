@@ -10,6 +10,7 @@
 #include "records/atmosphere.hpp"
 #include "records/csg.hpp"
 #include "records/frame.hpp"
+#include "records/function.hpp"
 #include "records/instance.hpp"
 #include "records/light.hpp"
 #include "records/material.hpp"
@@ -62,6 +63,9 @@ public:
   }
   const TexelTileRecord* texel_tile(uint32_t offset) {
     return read_apart<TexelTileRecord>(offset, DataKind::material);
+  }
+  const FunctionStepRecord* function_step(uint32_t offset) {
+    return read_apart<FunctionStepRecord>(offset, DataKind::material);
   }
   const CsgRecord* csg(uint32_t offset) { return read_apart<CsgRecord>(offset, DataKind::object); }
   const CsgStep* csg_step(uint32_t offset) { return read_apart<CsgStep>(offset, DataKind::object); }

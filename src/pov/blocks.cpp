@@ -120,8 +120,9 @@ int terminal_in(Block block, int token) {
   case tokens::T_PATTERN:
     return is_definition(block) ? tokens::T_UNSUPPORTED : token;
   case tokens::T_UNSUPPORTED_OBJECT:
-  case tokens::T_USER_FUNCTION:
     return is_definition(block) || is_of_textures(block) ? tokens::T_UNSUPPORTED : token;
+  case tokens::T_USER_FUNCTION:
+    return is_definition(block) ? tokens::T_UNSUPPORTED : token;
   case tokens::T_WARP:
     return is_of_textures(block) ? token : tokens::T_MISPLACED;
   default:

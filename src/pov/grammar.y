@@ -127,7 +127,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <pattern::Inside> pattern_inside
 %nterm <Limit> pattern_object
 %nterm <pattern::Slope> slope facing
-%nterm <FunctionPtr> function_body
+%nterm <FunctionPtr> function_body pattern_function
 %nterm <WrittenPicture> picture height_field_start height_field_picture
 %nterm <SpaceStep> bend warp_items
 %nterm <std::vector<SlopePoint>> slope_map slope_entries

@@ -86,7 +86,12 @@ pattern
   | SLOPE quantity          %prec SHORTER { $$ = slope(session, {session.vector($2, @2)}, @1); }
   | SLOPE '{' slope '}'     { $$ = slope(session, $3, @1); }
   | PIGMENT_PATTERN '{' from_default pigment_body '}' { $$ = grey(*$4); }
+  | pattern_function        { $$ = function_pattern(session, $1, @1); }
   | picture '}'             { $$ = picture_pattern(session, $1, @1); }
+  ;
+
+pattern_function
+  : USER_FUNCTION { $$ = read_function(session, @1); }
   ;
 
 picture

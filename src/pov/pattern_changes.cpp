@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "celltrace/error.hpp"
 #include "pov/actions.hpp"
+#include "scene_image/function_code.hpp"
 
 namespace celltrace::pov {
 
@@ -78,6 +80,22 @@ PatternChange magnet(Session& session, double kind, int pattern, const Quantity&
   if (std::string(pattern_words()[static_cast<std::size_t>(pattern)].word) != "mandel")
     session.fail(where, "expected 'mandel' or 'julia'");
   return fractal(session, kind, nullptr, session.number(iterations, where), where);
+}
+
+PatternChange function_pattern(Session& session, const FunctionPtr& function, const Location& where) {
+  const auto* const code = std::get_if<std::shared_ptr<const FunctionCode>>(&function->body);
+  if (code == nullptr) {
+    const UnsupportedPtr missing = make_unsupported("a pattern of such a function", where);
+    return [=](Session&, PatternDefinition& pattern) { mark(pattern.unsupported, missing); };
+  }
+  if (function->parameters != 3) session.fail(where, "a pattern's function has the parameters x, y and z");
+  try {
+    function_code(**code);
+  } catch (const InputError& error) {
+    const UnsupportedPtr missing = make_unsupported(error.what(), where);
+    return [=](Session&, PatternDefinition& pattern) { mark(pattern.unsupported, missing); };
+  }
+  return [code = *code](Session&, PatternDefinition& pattern) { choose(pattern, pattern::Function{code}); };
 }
 
 PatternChange slope(Session& session, const pattern::Slope& slope, const Location& where) {

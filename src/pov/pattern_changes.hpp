@@ -31,6 +31,8 @@ void set_iterations(Session& session, pattern::Fractal& fractal, double number, 
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
                      const Location& where);
 /// Sets a slope. Fails if the slope has neither a direction nor an altitude.
+/// Returns the change that makes a pattern a function. Fails if the function has no number of a point.
+PatternChange function_pattern(Session& session, const FunctionPtr& function, const Location& where);
 PatternChange slope(Session& session, const pattern::Slope& slope, const Location& where);
 /// Sets a range of a slope; a range without a width becomes the one from 0 to 1.
 void set_range(double& from, double& to, double least, double most);

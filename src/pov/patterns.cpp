@@ -216,6 +216,7 @@ const PatternEntry kPatterns[] = {
      kPlain,
      Wave::triangle,
      {{0, {0.9, 0.8, 0.8}}, {0.9, {0.9, 0.08, 0.08}}, {0.9, kBlack}, {1, kBlack}}},
+    {"function", make<pattern::Function>, PatternForm::special, Wave::ramp, kGrey},
     {"image_map", make<ImageMap>, PatternForm::special},
     {"image_pattern", make<ImageGrey>, PatternForm::special},
     {"object", make<Inside>, PatternForm::special, Wave::ramp, {{0, kBlue}, {1, kGreen}}},

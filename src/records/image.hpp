@@ -62,7 +62,8 @@ struct alignas(128) ImageHeader {
   uint32_t crossed_mesh_offset, crossed_mesh_count; ///< CrossedMeshRecords
   uint32_t picture_offset, picture_count;       ///< PictureRecords
   uint32_t texel_tile_offset, texel_tile_count; ///< TexelTileRecords
-  uint32_t unused[11];
+  uint32_t function_step_offset, function_step_count; ///< FunctionStepRecords
+  uint32_t unused[9];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 

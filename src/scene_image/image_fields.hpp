@@ -12,6 +12,7 @@
 #include "records/material.hpp"
 #include "records/mesh.hpp"
 #include "records/object.hpp"
+#include "records/function.hpp"
 #include "records/pattern.hpp"
 #include "records/picture.hpp"
 #include "records/random_tables.hpp"
@@ -44,6 +45,7 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::mesh_object_count, &ImageHeader::mesh_node_offset, &ImageHeader::mesh_node_count,
           &ImageHeader::crossed_mesh_offset, &ImageHeader::crossed_mesh_count, &ImageHeader::picture_offset,
           &ImageHeader::picture_count, &ImageHeader::texel_tile_offset, &ImageHeader::texel_tile_count,
+          &ImageHeader::function_step_offset, &ImageHeader::function_step_count,
           &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
@@ -63,6 +65,10 @@ FieldList<&PictureRecord::tiles, &PictureRecord::width, &PictureRecord::height,
 fields_of(const PictureRecord&);
 
 FieldList<&TexelTileRecord::word> fields_of(const TexelTileRecord&);
+
+FieldList<&FunctionStepRecord::operation_and_result, &FunctionStepRecord::a_and_b, &FunctionStepRecord::c,
+          &FunctionStepRecord::constant>
+fields_of(const FunctionStepRecord&);
 
 FieldList<&CsgRecord::next, &CsgRecord::steps, &CsgRecord::count, &CsgRecord::skip_begin,
           &CsgRecord::skip_end, &CsgRecord::unused>

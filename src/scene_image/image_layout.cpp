@@ -74,6 +74,8 @@ void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, std
   layout.place<GradientRecord>(textures.gradients.size(), header.gradient_offset, header.gradient_count);
   layout.place<WaveRecord>(textures.waves.size(), header.wave_offset, header.wave_count);
   layout.place<SlopeRecord>(textures.slopes.size(), header.slope_offset, header.slope_count);
+  layout.place<FunctionStepRecord>(textures.function_steps.size(), header.function_step_offset,
+                                   header.function_step_count);
   layout.place<PictureRecord>(textures.pictures.size(), header.picture_offset, header.picture_count);
   layout.place<TexelTileRecord>(textures.texel_tiles.size(), header.texel_tile_offset, header.texel_tile_count);
   layout.place<BlendRecord>(blended, header.blend_offset, header.blend_count);

@@ -54,6 +54,22 @@ public:
   }
 
 private:
+  /// Returns true if the code of a function is in the table, and its steps have registers that there are.
+  bool has_code(const PatternRecord& r) const {
+    const float count = r.parameter[0];
+    if (!refers_to(r.table, h_.function_step_offset, h_.function_step_count, sizeof(FunctionStepRecord)))
+      return false;
+    const std::uint32_t left =
+        h_.function_step_count - (r.table - h_.function_step_offset) / std::uint32_t{sizeof(FunctionStepRecord)};
+    if (!(count >= 1 && count <= static_cast<float>(left))) return false;
+    const auto* const steps = reinterpret_cast<const FunctionStepRecord*>(base_ + r.table);
+    return std::all_of(steps, steps + static_cast<std::uint32_t>(count), [](const FunctionStepRecord& step) {
+      const auto is_register = [](std::uint32_t number) { return number < kFunctionRegisters; };
+      return (step.operation_and_result & 0xFFFF) < kFunctionOperations &&
+             is_register(step.operation_and_result >> 16) && is_register(step.a_and_b & 0xFFFF) &&
+             is_register(step.a_and_b >> 16) && is_register(step.c);
+    });
+  }
   /// Returns true if a picture has as many tiles as its size says, and a size that arithmetic can hold.
   bool has_texels(const PictureRecord& r) const {
     constexpr std::uint32_t kSide = TexelTileRecord::kSide, kMost = 65535;
@@ -120,6 +136,8 @@ private:
              r.table == h_.wave_offset;
     case PatternTable::slopes:
       return refers_to(r.table, h_.slope_offset, h_.slope_count, sizeof(SlopeRecord));
+    case PatternTable::functions:
+      return has_code(r);
     case PatternTable::pictures:
       return refers_to(r.table, h_.picture_offset, h_.picture_count, sizeof(PictureRecord)) &&
              has_texels(*reinterpret_cast<const PictureRecord*>(base_ + r.table));

@@ -176,6 +176,11 @@ std::uint32_t put(const pattern::ImageGrey& image, Parameters) {
   return kPatternKind<ImagePattern>;
 }
 
+std::uint32_t put(const pattern::Function& function, Parameters) {
+  if (!function.code) throw InputError("a pattern of a function has none");
+  return kPatternKind<FunctionPattern>;
+}
+
 PictureRecord record_of(const pattern::PictureMap& map, bool reads_transmit) {
   const Picture& picture = *map.picture;
   const auto pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
@@ -250,6 +255,8 @@ PatternTable pattern_table(std::uint32_t kind_and_flags) {
   case kPatternKind<ImageMapPattern>:
   case kPatternKind<ImagePattern>:
     return PatternTable::pictures;
+  case kPatternKind<FunctionPattern>:
+    return PatternTable::functions;
   default:
     return PatternTable::none;
   }

@@ -10,7 +10,7 @@
 namespace celltrace {
 
 /// The table that a pattern reads.
-enum class PatternTable : std::uint8_t { none, features, gradients, waves, slopes, pigments, objects, pictures };
+enum class PatternTable : std::uint8_t { none, features, gradients, waves, slopes, pigments, objects, pictures, functions };
 
 /// The words of a PatternRecord that depend on the pattern's kind.
 struct PatternWords {

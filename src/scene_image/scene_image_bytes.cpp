@@ -70,6 +70,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.gradient_offset, h.gradient_count, sizeof(GradientRecord), bytes.size()) ||
       !table_fits(h.wave_offset, h.wave_count, sizeof(WaveRecord), bytes.size()) ||
       !table_fits(h.slope_offset, h.slope_count, sizeof(SlopeRecord), bytes.size()) ||
+      !table_fits(h.function_step_offset, h.function_step_count, sizeof(FunctionStepRecord), bytes.size()) ||
       !table_fits(h.picture_offset, h.picture_count, sizeof(PictureRecord), bytes.size()) ||
       !table_fits(h.texel_tile_offset, h.texel_tile_count, sizeof(TexelTileRecord), bytes.size()) ||
       !table_fits(h.blend_offset, h.blend_count, sizeof(BlendRecord), bytes.size()) ||

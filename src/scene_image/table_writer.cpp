@@ -105,6 +105,7 @@ void TableWriter::write_surfaces(TextureTables& textures) {
   copy(textures.gradients, header_.gradient_offset);
   copy(textures.waves, header_.wave_offset);
   copy(textures.slopes, header_.slope_offset);
+  copy(textures.function_steps, header_.function_step_offset);
   copy(textures.pictures, header_.picture_offset);
   copy(textures.texel_tiles, header_.texel_tile_offset);
   auto* const interiors = table<InteriorRecord>(header_.interior_offset);

@@ -43,6 +43,9 @@ void TextureTables::relocate(const ImageHeader& header) {
     case PatternTable::objects:
       to_offset<CsgRecord>(r.table, header.csg_offset);
       break;
+    case PatternTable::functions:
+      to_offset<FunctionStepRecord>(r.table, header.function_step_offset);
+      break;
     case PatternTable::pictures:
       to_offset<PictureRecord>(r.table, header.picture_offset);
       break;

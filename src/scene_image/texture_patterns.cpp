@@ -1,6 +1,7 @@
 // The records of patterns.
 #include "geometry/pattern_tables.hpp"
 #include "kernel/textures/list.hpp"
+#include "scene_image/function_code.hpp"
 #include "scene_image/pattern_offsets.hpp"
 #include "scene_image/texture_room.hpp"
 #include "scene_image/textures.hpp"
@@ -74,6 +75,13 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
       const auto* const image = std::get_if<pattern::ImageMap>(&placed.kind);
       pictures.back().tiles = tiles_of(
           image != nullptr ? image->map.picture : std::get<pattern::ImageGrey>(placed.kind).map.picture);
+    }
+    if (const auto* function = std::get_if<pattern::Function>(&placed.kind)) {
+      const std::vector<FunctionStepRecord> code = function_code(*function->code);
+      make_room(function_steps, code.size(), "functions");
+      r.table = static_cast<std::uint32_t>(function_steps.size());
+      r.parameter[0] = static_cast<float>(code.size());
+      function_steps.insert(function_steps.end(), code.begin(), code.end());
     }
     if (grey != nullptr) {
       r.table = of_grey.index;

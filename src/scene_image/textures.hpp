@@ -5,6 +5,7 @@
 #include "records/atmosphere.hpp"
 #include "records/image.hpp"
 #include "records/material.hpp"
+#include "records/function.hpp"
 #include "records/pattern.hpp"
 #include "records/picture.hpp"
 #include "records/random_tables.hpp"
@@ -54,6 +55,7 @@ public:
   std::vector<kernel::WaveRecord> waves;
   std::vector<kernel::SlopeRecord> slopes; ///< one record for each slope
   std::vector<kernel::PictureRecord> pictures; ///< one record for each pattern that is a picture
+  std::vector<kernel::FunctionStepRecord> function_steps; ///< the code of all functions
   std::vector<kernel::TexelTileRecord> texel_tiles; ///< of all pictures; `tiles` of a record is an index
   /// The objects whose insides are patterns. Their conditions come first in the scene's CSG, in this order.
   std::vector<std::shared_ptr<const Object>> objects;

@@ -26,6 +26,7 @@
 #include "kernel/textures/cylindrical.hpp"
 #include "kernel/textures/dents.hpp"
 #include "kernel/textures/fractal.hpp"
+#include "kernel/textures/function.hpp"
 #include "kernel/textures/gradient.hpp"
 #include "kernel/textures/granite.hpp"
 #include "kernel/textures/hexagon.hpp"
@@ -71,7 +72,8 @@ using Patterns =
                 Spiral1Pattern, Spiral2Pattern, QuiltedPattern, SquarePattern, TriangularPattern,
                 HexagonPattern, CubicPattern, BrickPattern, DentsPattern, GranitePattern, WrinklesPattern,
                 AgatePattern, MarblePattern, WoodPattern, CellsPattern, CracklePattern, RipplesPattern,
-                WavesPattern, FractalPattern, SlopePattern, PigmentPattern, ObjectPattern, ImageMapPattern, ImagePattern>;
+                WavesPattern, FractalPattern, SlopePattern, PigmentPattern, ObjectPattern, ImageMapPattern, ImagePattern,
+                FunctionPattern>;
 constexpr bool is_colour(uint32_t kind) {
   return Patterns::is_colour(kind);
 }

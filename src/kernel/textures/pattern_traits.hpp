@@ -4,8 +4,9 @@
 namespace celltrace::kernel {
 
 /// Location of a pattern's code in local store: `resident` for short code of frequent patterns, `plain` in
-/// the module of patterns, `noise` in that of noise, or `rare` in that of rare patterns.
-enum class PatternCode : uint32_t { resident, plain, noise, rare };
+/// the module of patterns, `noise` in that of noise, `rare` in that of rare patterns, or `function` in that of
+/// functions.
+enum class PatternCode : uint32_t { resident, plain, noise, rare, function };
 
 /// A pattern with a number at every point, by which a map blends.
 struct BlendPattern {

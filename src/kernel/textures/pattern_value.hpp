@@ -121,6 +121,19 @@ CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> bent(SceneAccess<Spu>& scene, con
 
 } // namespace module_warps
 
+namespace module_functions {
+
+template <class Spu>
+CELLTRACE_ONE_COPY typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, const PatternRecord& r,
+                                                    const V3<typename Spu::rare_simd>& p) {
+  using S = typename Spu::rare_simd;
+  scene.spu().run_in_module(modules::kFunctions);
+  const typename S::F value = FunctionPattern::value<Spu>(scene, p, r);
+  return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
+}
+
+} // namespace module_functions
+
 namespace module_rare {
 
 /// Returns the feature points that are nearest to points.
@@ -257,6 +270,9 @@ typename Spu::rare_simd::F pattern_value(SceneAccess<Spu>& scene, const PatternR
   case PatternCode::rare:
     spu.enter_module(modules::kRarePatterns);
     return module_rare::value(scene, r, points);
+  case PatternCode::function:
+    spu.enter_module(modules::kFunctions);
+    return module_functions::value(scene, r, p);
   }
   return value_of<PatternCode::resident>(r, p);
 }
