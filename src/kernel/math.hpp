@@ -177,9 +177,9 @@ template <class S> typename S::F acos_unit(const typename S::F& x) {
 }
 
 /// Computes the sine and cosine of x, clamped to [-8192, 8192]. The absolute error is below 2e-7 if |x| <=
-/// 100, otherwise that of rounding x. Not inlined: local store has room for one copy.
+/// 100, otherwise that of rounding x.
 template <class S>
-CELLTRACE_ONE_COPY void sin_cos(const typename S::F& x, typename S::F& sine, typename S::F& cosine) {
+[[gnu::always_inline]] inline void sin_cos_inline(const typename S::F& x, typename S::F& sine, typename S::F& cosine) {
   using F = typename S::F;
   using I = typename S::I;
   const F angle = S::min(S::max(x, F(-8192.0f)), F(8192.0f));
@@ -199,6 +199,11 @@ CELLTRACE_ONE_COPY void sin_cos(const typename S::F& x, typename S::F& sine, typ
   const F zero(0.0f);
   sine = S::select((quadrant & two) == two, zero - first, first);
   cosine = S::select(((quadrant + one) & two) == two, zero - second, second);
+}
+/// Does sin_cos_inline(). Not inlined: the module of cameras has room for one copy.
+template <class S>
+CELLTRACE_ONE_COPY void sin_cos(const typename S::F& x, typename S::F& sine, typename S::F& cosine) {
+  sin_cos_inline<S>(x, sine, cosine);
 }
 
 } // namespace celltrace::kernel

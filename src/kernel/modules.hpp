@@ -28,12 +28,12 @@ constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 //   EllipsoidPrimitive::intersect_local, PolygonPrimitive::intersect_local
 
 /// Rare patterns, many of which read tables of the scene image.
-constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14464};
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 15360};
 //   module_rare, CracklePattern, ObjectPattern, *GradientNoise; data: *GradientNoise, CracklePattern.cst16,
 //   module_rare
 
 /// Functions of the scene language.
-constexpr CodeModule kFunctions = {"functions", 41, 0, 12288};
+constexpr CodeModule kFunctions = {"functions", 41, 0, 6144};
 //   module_functions, FunctionPattern, FunctionMachine<>
 
 /// All warps but turbulence.
@@ -145,16 +145,16 @@ constexpr CodeModule kAreas = {"areas", 15, 1, 9472};
 constexpr CodeModule kCameras = {"cameras", 10, 1, 7808};
 //   module_cameras, *Camera::bend, *Camera::turned, *RoundPicture, kernel::along_axes, kernel::sin_cos
 
-constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
+constexpr CodeModule kNormals = {"normals", 11, 1, 9344};
 //   disturb_normals, disturb_normal, detail::disturb_by, height_of, disturb_part, *slope_disturbance,
 //   TextureStage(1)
 
 /// Maps of textures: selection of the entries that count at each point.
-constexpr CodeModule kMaps = {"maps", 27, 1, 7232};
+constexpr CodeModule kMaps = {"maps", 27, 1, 7680};
 //   TextureStage(2)
 
 /// Pigments and normals, without the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 7168};
+constexpr CodeModule kTextures = {"textures", 9, 1, 7680};
 //   TextureStage(0), pigment_at, blend_colours, add_up_leaves, add_pigments, filter_of_texture,
 //   filter_of_layers
 

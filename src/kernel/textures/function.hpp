@@ -78,7 +78,7 @@ private:
     case FunctionOperation::cos:
     case FunctionOperation::tan: {
       F sine, cosine;
-      sin_cos<S>(a, sine, cosine);
+      sin_cos_inline<S>(a, sine, cosine);
       const auto operation = static_cast<FunctionOperation>(step.operation_and_result & 0xFFFF);
       if (operation == FunctionOperation::sin) return sine;
       if (operation == FunctionOperation::cos) return cosine;
