@@ -17,6 +17,7 @@
 #include <string_view>
 #include <type_traits>
 #include <typeindex>
+#include <array>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -28,7 +29,8 @@ namespace celltrace {
 template <class T>
 inline constexpr bool kIsBytes =
     std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Vec3f> ||
-    std::is_same_v<T, Vec2f> || std::is_same_v<T, Mesh::Triangle> || std::is_same_v<T, Mesh::Coordinates>;
+    std::is_same_v<T, Vec2f> || std::is_same_v<T, std::array<double, 4>> ||
+    std::is_same_v<T, std::array<std::uint16_t, 4>> || std::is_same_v<T, Mesh::Triangle> || std::is_same_v<T, Mesh::Coordinates>;
 
 /// Passes all members of a value to an archive, in their order.
 template <class Archive, class T> void visit_members(Archive& archive, T& value) {
@@ -54,6 +56,10 @@ public:
       put(&value, sizeof value);
     else
       visit_members(*this, const_cast<T&>(value)); // the archive only reads it
+  }
+  /// Functions are known to the parser alone.
+  void operator()(const std::shared_ptr<const FunctionCode>&) {
+    throw InputError("a scene whose textures have functions cannot be pickled");
   }
   template <class T, std::size_t N> void operator()(const T (&values)[N]) {
     for (const T& value : values)
@@ -145,6 +151,7 @@ public:
     if (index >= sizeof...(T)) fail();
     read_alternative(value, index, std::index_sequence_for<T...>());
   }
+  void operator()(std::shared_ptr<const FunctionCode>&) { fail(); }
   template <class T> void operator()(std::shared_ptr<const T>& shared) {
     std::uint64_t number = 0;
     (*this)(number);

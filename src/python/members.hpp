@@ -48,6 +48,7 @@ template <> inline constexpr int kMembers<pattern::Slope> = 6;
 template <> inline constexpr int kMembers<pattern::Grey> = 1;
 template <> inline constexpr int kMembers<pattern::Inside> = 1;
 template <> inline constexpr int kMembers<pattern::Facets> = 3;
+template <> inline constexpr int kMembers<Picture> = 4;
 template <> inline constexpr int kMembers<pattern::PictureMap> = 8;
 template <> inline constexpr int kMembers<pattern::ImageMap> = 1;
 template <> inline constexpr int kMembers<pattern::ImageGrey> = 2;

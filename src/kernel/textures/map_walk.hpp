@@ -113,6 +113,8 @@ public:
         weight = level.weight;
         lanes = level.lanes;
         leaf_is_coloured_ = true;
+        leaf = {}; // nothing of it counts
+        leaf.child = kNoOffset;
         if (grey_ == nullptr) return true;
         *grey_ = *grey_ + grey_of<S>(pigment(leaf).rgb) * weight;
         continue;
