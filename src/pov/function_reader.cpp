@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "geometry/function_operations.hpp"
+#include "pov/internal_functions.hpp"
 #include "pov/actions.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
@@ -161,10 +162,10 @@ private:
     const auto* number = std::get_if<Quantity>(&terminal_.value);
     if (!is(tokens::T_QUANTITY) || !number) fail_unexpected("a number");
     const bool is_number = number->v[0] >= 0 && number->v[0] < 1000;
-    const auto internal = is_number ? internal_function(static_cast<int>(number->v[0])) : nullptr;
+    const auto internal = is_number ? internal_function(static_cast<int>(number->v[0])) : std::nullopt;
     if (!internal) session_.fail(where, "there is no internal function of this number");
-    function_->body = internal;
-    function_->parameters = internal->parameters();
+    function_->body = internal->body;
+    function_->parameters = internal->parameters;
     advance();
     expect(')', "after the number");
   }

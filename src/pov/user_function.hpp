@@ -57,8 +57,4 @@ std::shared_ptr<const NativeFunction> pattern_function(const PigmentDefinition& 
 /// Returns a function that fails wherever it is called: "`what` is not supported yet".
 std::shared_ptr<const NativeFunction> unsupported_function(const std::string& what, std::size_t parameters,
                                                            std::size_t results);
-/// Returns POV-Ray's internal function of this number, which takes three coordinates and parameters; null if
-/// there is none.
-std::shared_ptr<const NativeFunction> internal_function(int number);
-
 } // namespace celltrace::pov
