@@ -154,7 +154,7 @@ bool read_source_header(png_structp png, png_infop info, ByteSource* bytes, bool
 
 } // namespace
 
-SourceImage read_png_source(const std::string& bytes) {
+SourceImage read_png_source(const std::string& bytes, const TakesMemory& take) {
   SourceImage image;
   SourceHeader header;
   const auto read = [&](bool raw) {
@@ -165,6 +165,7 @@ SourceImage read_png_source(const std::string& bytes) {
     check_size(header.width, header.height);
     check_plausible(reader.png, reader.info, bytes.size());
     const std::size_t pixels = std::size_t{header.width} * header.height;
+    take(raw ? pixels : pixels * 16); // the file's bytes and the picture's
     std::vector<png_bytep> rows(header.height);
     std::vector<png_byte> wide; // big-endian, as the file
     if (raw) {

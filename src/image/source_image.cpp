@@ -28,10 +28,11 @@ SourceFormat format_of(const std::string& bytes) {
 
 } // namespace
 
-SourceImage read_source_image(const std::string& bytes) {
+SourceImage read_source_image(const std::string& bytes, const TakesMemory& take) {
   const SourceFormat format = format_of(bytes);
-  if (format == SourceFormat::png) return read_png_source(bytes);
+  if (format == SourceFormat::png) return read_png_source(bytes, take);
   const Image decoded = decode_image(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  take(decoded.rgba.size() * sizeof(std::uint16_t));
   SourceImage image;
   image.format = format;
   image.width = decoded.width;

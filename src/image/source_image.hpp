@@ -1,7 +1,9 @@
 // Pictures that scenes read: with all bits of their files, and with what the files say of their colours.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,11 +25,14 @@ struct SourceImage {
   bool is_srgb = false;        ///< the file says that its values are encoded by sRGB
 };
 
+/// Is called with the bytes that a picture is going to take, and may throw.
+using TakesMemory = std::function<void(std::size_t bytes)>;
+
 /// Decodes the bytes of a picture file. Throws InputError, without the file's name, if the picture is damaged,
 /// too large or of no format that is read.
-SourceImage read_source_image(const std::string& bytes);
+SourceImage read_source_image(const std::string& bytes, const TakesMemory& take);
 
 /// Reads a PNG.
-SourceImage read_png_source(const std::string& bytes);
+SourceImage read_png_source(const std::string& bytes, const TakesMemory& take);
 
 } // namespace celltrace::image

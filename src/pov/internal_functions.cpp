@@ -164,6 +164,12 @@ Term torus_of(const Call& c, double xz, double yz, const Term& y_factor, const T
                              y_factor * Y + Z * Z + z_factor * Z + d * d)));
 }
 
+Term cushion(Call& c) {
+  const Term X = c.xx(), Y = c.yy(), Z = c.zz(), d = X - c.z;
+  return limited(c.p(0) * (X * Z - Z * Z - 2 * (c.z * X) + 2 * cube(c.z) + X - Z - d * d - Y * Y -
+                           2 * (X * Y) - Y * Z + 2 * (Y * c.z) + Y));
+}
+
 /// Distances within a pattern of hexagons, across or along their sides.
 Term hexagons(const Call& c, bool is_along) {
   const double height = std::sqrt(3.0) / 2;
@@ -249,11 +255,7 @@ const Internal kInternals[] = {
      }},
     {1, CELLTRACE_TERM { return limited(c.p(0) * (c.xx() * c.zz() - c.y)); }}, // crossed_trough
     {1, CELLTRACE_TERM { return limited(-(c.p(0) * (cube(c.x) - cube(c.y) - c.z))); }}, // cubic_saddle
-    {1, CELLTRACE_TERM { // cushion
-       const Term X = c.xx(), Y = c.yy(), Z = c.zz(), d = X - c.z;
-       return limited(c.p(0) * (X * Z - Z * Z - 2 * (c.z * X) + 2 * cube(c.z) + X - Z - d * d - Y * Y -
-                                2 * (X * Y) - Y * Z + 2 * (Y * c.z) + Y));
-     }},
+    {1, cushion}, // cushion
     {1, CELLTRACE_TERM { // devils_curve
        const Term X = c.xx(), Y = c.yy(), Z = c.zz();
        return limited(-(c.p(0) * (X * X + 2 * (X * Z) - 0.36 * X - Y * Y + 0.25 * Y + Z * Z)));
@@ -373,11 +375,7 @@ const Internal kInternals[] = {
        return limited(-(c.p(0) * (4 * (c.xx() * c.square()) - c.yy() * (1 - c.yy() - c.zz()))));
      }},
     {1, CELLTRACE_TERM { return limited(-(c.p(0) * (cube(c.y) + cube(c.z) - 6 * (c.y * c.z)))); }}, // nodal_cubic
-    {1, CELLTRACE_TERM { // odd
-       const Term X = c.xx(), Y = c.yy(), Z = c.zz(), d = X - c.z;
-       return limited(c.p(0) * (X * Z - Z * Z - 2 * (c.z * X) + 2 * cube(c.z) + X - Z - d * d - Y * Y -
-                                2 * (X * Y) - Y * Z + 2 * (Y * c.z) + Y));
-     }},
+    {1, cushion}, // odd
     {4, CELLTRACE_TERM { // ovals_of_cassini
        const Term b = c.p(1) * c.p(1), s = c.square() + b;
        return limited(-(c.p(0) * (s * s - c.p(3) * b * (c.xx() + c.zz()) - c.p(2) * c.p(2))));

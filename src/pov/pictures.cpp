@@ -61,7 +61,7 @@ Decoding decoding_of(const Session& session, const WrittenPicture& written, cons
 }
 
 /// Returns the colours of a picture in the scene's working space.
-std::shared_ptr<const Picture> colours_of(const Session& session, const WrittenPicture& written,
+std::shared_ptr<const Picture> colours_of(Session& session, const WrittenPicture& written,
                                           const image::SourceImage& image) {
   Decoding decoding;
   if (written.use == PictureUse::image_map || written.has_gamma) decoding = decoding_of(session, written, image);
@@ -80,6 +80,7 @@ std::shared_ptr<const Picture> colours_of(const Session& session, const WrittenP
     return static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 1.0) * 65535));
   };
   const std::size_t pixels = image.rgba.size() / 4;
+  session.picture_memory.take(pixels * sizeof picture->texels[0]);
   picture->texels.resize(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     const std::uint16_t* const from = image.rgba.data() + 4 * i;
@@ -196,7 +197,8 @@ std::shared_ptr<const image::SourceImage> read_picture(Session& session, const W
   if (known) return known;
   const std::string bytes = session.tokens.read_picture(*written.file, written.where);
   try {
-    known = std::make_shared<const image::SourceImage>(image::read_source_image(bytes));
+    known = std::make_shared<const image::SourceImage>(
+        image::read_source_image(bytes, [&](std::size_t count) { session.picture_memory.take(count); }));
   } catch (const InputError& error) {
     session.fail(written.where, "picture '" + *written.file + "' " + error.what());
   }

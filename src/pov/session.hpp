@@ -48,6 +48,7 @@ struct Session {
   std::vector<std::shared_ptr<DataFile>> data_files; ///< files that are open since an #fopen
   /// Pictures that have been read, by the names that the scene gives them.
   std::map<std::string, std::shared_ptr<const image::SourceImage>> pictures;
+  MemoryShare picture_memory; ///< of all pictures together
   std::uint64_t shape_tests = 0;                     ///< tests of shapes by trace() and similar functions
   std::uint64_t bounds_tests = 0; ///< the same of objects that are compared with their bounds
   TexturePtr base_texture;        ///< what the pigment or finish being read starts from
