@@ -100,7 +100,7 @@ Image read_png(std::FILE* file, std::uintmax_t file_bytes) {
 
 namespace {
 
-/// What a PNG's header says.
+/// The contents of a PNG's header.
 struct SourceHeader {
   png_uint_32 width = 0, height = 0;
   int bits = 8, colours = 0;

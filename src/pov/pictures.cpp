@@ -120,7 +120,7 @@ void ignore_word(WrittenPicture&, const ItemValues&) {
 using Form = ItemForm;
 
 const ItemRow<WrittenPicture> kPictureItems[] = {
-    // What a file is decides its bytes, not these words.
+    // A file's bytes decide its format, not these words.
     {"bmp", Form::word, ignore_word},
     {"exr", Form::word, ignore_word},
     {"gif", Form::word, ignore_word},

@@ -1,9 +1,9 @@
 #include "python/extent.hpp"
 
-#include "geometry/data_shapes.hpp"
-
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -67,13 +67,49 @@ public:
       to_.insert(to_.end(), loop.begin(), loop.end());
   }
   void operator()(const std::shared_ptr<const Polynomial>&) {}
-  template <class Shape> void operator()(const std::shared_ptr<const Shape>& shape) {
-    const Extent box = geometry::extent_of(*shape);
-    add_box(box.min, box.max);
+  void operator()(const std::shared_ptr<const Prism>& prism) {
+    for (const double height : {prism->bottom, prism->top})
+      for (const Vec3& p : curve_points(prism->outline)) {
+        const double size = prism->is_conic ? height : 1;
+        to_.emplace_back(p.x * size, height, p.y * size);
+      }
+  }
+  void operator()(const std::shared_ptr<const Lathe>& lathe) {
+    for (const Vec3& p : curve_points(lathe->curve))
+      add_circle(Vec3(0, p.y, 0), Vec3(0, 1, 0), p.x);
+  }
+  void operator()(const std::shared_ptr<const SurfaceOfRevolution>& sor) {
+    for (const SurfaceOfRevolution::Piece& piece : sor->pieces)
+      for (int i = 0; i <= kSteps; ++i) {
+        const double y = piece.low + (piece.high - piece.low) * i / kSteps;
+        const double square =
+            ((piece.square[3] * y + piece.square[2]) * y + piece.square[1]) * y + piece.square[0];
+        add_circle(Vec3(0, y, 0), Vec3(0, 1, 0), std::sqrt(std::max(square, 0.0)));
+      }
+  }
+  /// Adds points at the edge of each field, somewhat outside of the surface.
+  void operator()(const std::shared_ptr<const Blob>& blob) {
+    for (const Blob::Component& component : blob->components)
+      if (component.strength > 0)
+        for (const Vec3& direction : directions_)
+          for (const Vec3& middle : {component.a, component.b})
+            to_.push_back(component.transform.point(middle + direction * component.radius));
   }
   void operator()(const std::shared_ptr<const Csg>& csg);
 
 private:
+  static constexpr int kSteps = 8; ///< points on a piece of a curve, less one
+
+  static Points curve_points(const std::vector<CurveSegment>& curve) {
+    Points points;
+    const auto at = [](const std::array<double, 4>& c, double w) {
+      return ((c[3] * w + c[2]) * w + c[1]) * w + c[0];
+    };
+    for (const CurveSegment& segment : curve)
+      for (int i = 0; i <= kSteps; ++i)
+        points.emplace_back(at(segment.x, i / double{kSteps}), at(segment.y, i / double{kSteps}), 0);
+    return points;
+  }
   void add_box(const Vec3& a, const Vec3& b) {
     for (int i = 0; i < 8; ++i)
       to_.emplace_back(i & 1 ? a.x : b.x, i & 2 ? a.y : b.y, i & 4 ? a.z : b.z);

@@ -50,8 +50,8 @@ TEST_CASE("many scenes are rendered into a folder, with a page of all") {
 TEST_CASE("whoever renders many scenes hears of --lenient once") {
   const TemporaryFolder folder;
   write_scene(folder / "red.pov", "rgb <1, 0, 0>");
-  write_bytes(folder / "a.pov", "text { ttf \"a.ttf\" \"a\" 1, 0 }");
-  write_bytes(folder / "b.pov", "text { ttf \"a.ttf\" \"b\" 1, 0 }");
+  write_bytes(folder / "a.pov", "ovus { 1, 2 }");
+  write_bytes(folder / "b.pov", "ovus { 2, 3 }");
   const Outcome outcome =
       celltrace_run(folder, {"a.pov", "red.pov", "b.pov", "-W", "8", "-H", "6", "-o", "out/"});
   CAPTURE(outcome.err);

@@ -247,6 +247,12 @@ def test_cameras_see_all_kinds():
     shapes = [celltrace.Sphere(1, 2), celltrace.Disc(radius=3), celltrace.Cylinder(), celltrace.Cone(), celltrace.Torus(),
               celltrace.Quadric(1, 0, -2, -5), celltrace.Superellipsoid(0.3, 0.3), celltrace.Mesh(QUAD, HALVES),
               celltrace.Polygon([[(-1, -1, 0), (1, -1, 0), (0, 1, 0)]]),
+              celltrace.Prism([celltrace.CurveSegment((0, 2, 0, 0), (0, 0, 0, 0)),
+                               celltrace.CurveSegment((2, -2, 0, 0), (0, 2, 0, 0)),
+                               celltrace.CurveSegment((0, 0, 0, 0), (2, -2, 0, 0))], 0, 1),
+              celltrace.Lathe([celltrace.CurveSegment((1, 1, 0, 0), (0, 2, 0, 0))]),
+              celltrace.SurfaceOfRevolution([celltrace.SorPiece(0, 1, (1, 1, 0, 0))]),
+              celltrace.Blob(0.1, [celltrace.BlobComponent((1, 0, 0), (1, 0, 0), 2, 3)]),
               celltrace.Csg("intersection", [celltrace.Object(celltrace.Box(-9, 9)), celltrace.Object(celltrace.Sphere())]),
               celltrace.Csg("difference", [celltrace.Object(celltrace.Box()), celltrace.Object(celltrace.Sphere(0, 9))
                                            .replace(transform=celltrace.Transform.translate(9))])]

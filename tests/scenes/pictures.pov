@@ -37,7 +37,7 @@ box {
   rotate <-30, 20, 0> translate <0.9, -0.4, -2.2>
 }
 height_field {
-  function 20, 20 { 0.5 + 0.4*sin(x*12)*cos(y*9) } smooth water_level 0.2
+  function 20, 20 { 0.5 + 0.4*sin(x*12)*cos(y*9) } water_level 0.2
   pigment { rgb <0.5, 0.7, 0.5> }
   translate -0.5 scale <1.6, 0.5, 1.6> rotate -20*x translate <2.6, -0.5, -1.8>
 }
