@@ -287,6 +287,11 @@ TokenStream::read_file(const std::string& what, const std::string& wanted, const
 }
 
 std::string TokenStream::read_picture(const std::string& name, const Location& where) {
+  if (portable_path(name).has_extension() || session_.sources.find_file(name, current_folder()))
+    return read_file("picture", name, where).second;
+  for (const char* extension : {".png", ".jpg", ".jpeg", ".tga", ".bmp", ".ppm"})
+    if (session_.sources.find_file(name + extension, current_folder()))
+      return read_file("picture", name + extension, where).second;
   return read_file("picture", name, where).second;
 }
 

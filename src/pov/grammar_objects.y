@@ -369,4 +369,5 @@ unsupported
   : UNSUPPORTED          { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   | UNSUPPORTED_ARGUMENT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   | UNSUPPORTED_BLOCK    { $$ = unsupported_block(session, $1, @1); session.tokens.skip_arguments(); }
+  | unsupported MISPLACED number { $$ = $1; } // an option that means something elsewhere: `interpolate`
   ;

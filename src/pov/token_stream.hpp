@@ -107,7 +107,8 @@ public:
   /// Returns whether there has been no token at all.
   bool is_empty() const { return tokens_read_ <= 1; }
 
-  /// Returns the bytes of a picture file, which is found as include files are.
+  /// Returns the bytes of a picture file, which is found as include files are; its name may lack the
+  /// extension.
   std::string read_picture(const std::string& name, const Location& where);
   /// Returns the bytes of a font file, which is found as include files are; its name may lack `.ttf`.
   std::string read_font(const std::string& name, const Location& where);
