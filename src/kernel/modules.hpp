@@ -34,7 +34,7 @@ constexpr CodeModule kRarePatterns = {"rare", 22, 0, 15360};
 
 /// Functions of the scene language.
 constexpr CodeModule kFunctions = {"functions", 41, 0, 6144};
-//   module_functions, FunctionPattern, FunctionMachine<>
+//   module_functions, FunctionPattern, FunctionInterpreter<>
 
 /// All warps but turbulence.
 constexpr CodeModule kWarps = {"warps", 23, 0, 3456};

@@ -11,12 +11,12 @@
 namespace celltrace::kernel {
 
 /// Runs the code of functions, for as many points at a time as S has lanes.
-template <class S> class FunctionMachine {
+template <class S> class FunctionInterpreter {
 public:
   using F = typename S::F;
   using M = typename S::M;
 
-  explicit FunctionMachine(const V3<S>& p) {
+  explicit FunctionInterpreter(const V3<S>& p) {
     register_[0] = p.x;
     register_[1] = p.y;
     register_[2] = p.z;
@@ -165,7 +165,7 @@ struct FunctionPattern : BlendPattern {
   template <class Spu>
   [[gnu::always_inline]] static typename Spu::rare_simd::F
   value(SceneAccess<Spu>& scene, const V3<typename Spu::rare_simd>& p, const PatternRecord& r) {
-    return FunctionMachine<typename Spu::rare_simd>(p).run(scene, r.table, static_cast<uint32_t>(r.parameter[0]));
+    return FunctionInterpreter<typename Spu::rare_simd>(p).run(scene, r.table, static_cast<uint32_t>(r.parameter[0]));
   }
 };
 
