@@ -16,6 +16,7 @@ using namespace kernel;
 namespace {
 
 constexpr std::size_t kMostSteps = 4096;
+constexpr std::size_t kMostNodes = 8192;
 constexpr int kDeepestCall = 32;
 
 [[noreturn]] void fail(const std::string& what) {
@@ -43,8 +44,9 @@ FunctionOperation operation_of(FunctionOp op) {
   }
 }
 
-/// Writes the values of a graph in the order in which they are computed: branches one after another, as all
-/// lanes compute all of them, and loops as often as they run.
+/// Writes the values that a graph's result needs, each after those that it is computed from: branches one after
+/// another, as all lanes compute all of them, and loops as often as they run. The order follows from the graph's
+/// structure alone, as nodes may be numbered in any order.
 class Writer {
 public:
   std::vector<ValueStep> steps;
@@ -53,6 +55,7 @@ public:
   std::uint32_t write(const FunctionGraph& graph, const std::vector<std::uint32_t>& arguments, int depth) {
     if (depth > kDeepestCall) fail("nests too deeply");
     if (graph.parameters != arguments.size()) fail("takes other arguments than x, y and z");
+    if (graph.nodes.size() > kMostNodes) fail("is too long"); // the walk recurses
     Frame frame{graph, arguments, std::vector<std::uint32_t>(graph.nodes.size(), kNone), depth};
     return write(frame, graph.blocks[graph.body]);
   }
@@ -78,15 +81,13 @@ private:
   }
 
   std::uint32_t value(Frame& frame, FunctionValue node) {
-    std::uint32_t& known = frame.value_of[node];
-    if (known == kNone) known = compute(frame, node);
-    return known;
+    if (frame.value_of[node] == kNone) frame.value_of[node] = compute(frame, node);
+    return frame.value_of[node];
   }
   std::uint32_t write(Frame& frame, const FunctionBlock& block) {
+    // A loop computes its body's values anew each time.
     for (const FunctionValue node : block.values)
-      if (const auto kind = frame.graph.nodes[node].kind;
-          kind != FunctionNode::Kind::argument && kind != FunctionNode::Kind::counter)
-        frame.value_of[node] = compute(frame, node);
+      if (frame.graph.nodes[node].kind != FunctionNode::Kind::counter) frame.value_of[node] = kNone;
     return value(frame, block.result);
   }
 

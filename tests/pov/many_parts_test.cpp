@@ -14,7 +14,7 @@ using test::parse;
 
 namespace {
 
-template <class Shape> const Shape& only(const Scene& scene) {
+template <class Shape> Shape only(const Scene& scene) {
   REQUIRE(scene.objects.size() == 1);
   return *std::get<std::shared_ptr<const Shape>>(scene.objects[0].shape);
 }
@@ -138,7 +138,7 @@ TEST_CASE("a text is a row of glyphs") {
 
 TEST_CASE("height fields are meshes in the unit cube") {
   const std::string field = "height_field { function 3, 4 { x/2 } ";
-  const Mesh& mesh = only<Mesh>(parse(field + "}"));
+  const Mesh mesh = only<Mesh>(parse(field + "}"));
   CHECK(mesh.vertices.size() == 12);
   CHECK(mesh.triangles.size() == 12);
   CHECK(mesh.has_inside());
