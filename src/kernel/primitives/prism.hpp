@@ -42,8 +42,9 @@ struct PrismPrimitive : DataPrimitive<PrismPrimitive> {
         const M lanes = (S::abs(d.z) > F(1e-10f)) & (t > nearest.after) & (t < nearest.t) & (S::abs(x) <= one) &
                         (S::abs(y) <= one);
         if (lanes.bits() == 0) continue;
-        nearest.offer_apart(rays, t, is_within_curves<PrismPrimitive, S>(x, y, numbers, form.degree, lanes),
-                            {zero, zero, F(end == 0 ? -1.0f : 1.0f)});
+        // In a statement of its own: the order of evaluation would change modelled cycles.
+        const M within = is_within_curves<PrismPrimitive, S>(x, y, numbers, form.degree, lanes);
+        nearest.offer_apart(rays, t, within, {zero, zero, F(end == 0 ? -1.0f : 1.0f)});
       }
     }
     // A ray and the axis, or the apex, span a plane; the ray crosses the side where the plane crosses the
